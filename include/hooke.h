@@ -1,0 +1,23 @@
+/* hooke.h - mass-spring systems: everything.
+ *
+ *   base.h        statuses, messages, facts about the build
+ *   options.h     named options with units, bounds and defaults
+ *   system.h      particles, springs, forces, energies, derivatives
+ *   build.h       generated parts: rope, cloth
+ *   state.h       time, positions, velocities
+ *   integrator.h  methods and the run loop
+ *   measure.h     step bounds and comparisons
+ *   io.h          scene files and trajectories */
+#ifndef HOOKE_H
+#define HOOKE_H
+
+#include "hooke/base.h"
+#include "hooke/options.h"
+#include "hooke/system.h"
+#include "hooke/build.h"
+#include "hooke/state.h"
+#include "hooke/integrator.h"
+#include "hooke/measure.h"
+#include "hooke/io.h"
+
+#endif

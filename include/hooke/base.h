@@ -1,0 +1,61 @@
+/* hooke/base.h - status codes, messages and facts about this build.
+ *
+ * Every function that can fail returns an int32_t status: 0 is success, a negative value a failure (the
+ * object it was called on is unchanged), a positive value an outcome of a run. hooke_last_error() then says
+ * in words what went wrong, where, and what is allowed. The library never prints, never exits and keeps no
+ * state but this message, which is one per thread. */
+#ifndef HOOKE_BASE_H
+#define HOOKE_BASE_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define HOOKE_API
+#else
+#define HOOKE_API __attribute__((visibility("default")))
+#endif
+
+#define HOOKE_VERSION "0.1.0"
+#define HOOKE_ABI     0 /* the number in the soname; it changes when a caller has to be compiled again */
+
+/* Statuses. The numbers are part of the ABI and never change. */
+#define HOOKE_OK            0
+#define HOOKE_STOPPED       1  /* a callback or an observer asked to stop */
+#define HOOKE_DIVERGED      2  /* the run left every physical bound; see hooke_integrator_run() */
+#define HOOKE_STEP_LIMIT    3  /* an error-controlled method used up `max_steps` */
+#define HOOKE_NO_MEMORY     -1 /* an allocation failed */
+#define HOOKE_BAD_VALUE     -2 /* an argument, an option or a scene has a value that is not allowed */
+#define HOOKE_BAD_CALL      -3 /* calls out of order: a system not yet committed, or changed after it was */
+#define HOOKE_IO_FAILED     -4 /* a file could not be read or written */
+#define HOOKE_NOT_BUILT     -5 /* this build of the library was made without the part asked for */
+#define HOOKE_UNSUITED      -6 /* the method does not take this kind of problem */
+#define HOOKE_SOLVER_FAILED -7 /* a nonlinear or error-controlled solver gave up */
+
+/* The message of the last failure or outcome in this thread; "" if there was none. Valid until the next call
+ * into the library from this thread. */
+HOOKE_API const char *hooke_last_error(void);
+
+/* A short name of a status, such as "bad value"; "unknown status" for a number that is none. */
+HOOKE_API const char *hooke_status_name(int32_t status);
+
+/* Version of the library that is running, which may be newer than the header: "0.1.0". */
+HOOKE_API const char *hooke_version(void);
+
+/* The ABI number of the library that is running. */
+HOOKE_API int32_t hooke_abi(void);
+
+/* One fact about this build, as text that lives as long as the process. `what` is one of
+ *   "sundials", "gsl", "hdf5", "jansson"   the version in use, or "" when the build is without it
+ *   "instructions"                          the instruction set that the force loops use on this machine
+ *   "licence"                               the licence that this build falls under
+ * NULL for any other word. */
+HOOKE_API const char *hooke_build_fact(const char *what);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

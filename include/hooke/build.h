@@ -1,0 +1,33 @@
+/* hooke/build.h - parts: pieces of a scene that are generated rather than listed.
+ *
+ *   rope   `segments` springs from `from` to `to`: stretch (neighbours), bend (two apart)
+ *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals
+ * of each cell), bend (two apart along u, then v) A family that is not named has no springs. Stiffness is
+ * that of the strain law, so a finer part of the same material stretches the same. Rest lengths are one per
+ * family and direction, from the edges and not from rounded positions. */
+#ifndef HOOKE_BUILD_H
+#define HOOKE_BUILD_H
+
+#include "system.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The kinds of parts there are: "rope", "cloth"; NULL past the last. */
+HOOKE_API int64_t hooke_part_kind_count(void);
+HOOKE_API const char *hooke_part_kind(int64_t kind);
+
+/* Options of a part of this kind, for the caller to set and destroy. HOOKE_BAD_VALUE for an unknown kind. */
+HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
+
+/* Adds a part's particles and springs. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
+ * called by its kind and its number among the parts. `first` and `count`, if not NULL, receive its particles.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
+                                        const hooke_options *options, int64_t *first, int64_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,106 @@
+/* hooke/integrator.h - methods, and the loop that runs them.
+ *
+ * An integrator is a method with its options and its scratch, made for one system (or one first-order
+ * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
+ *
+ * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], rtol, atol [m],
+ * atol_velocity [m/s], max_order, max_steps, threads.
+ *
+ * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
+ * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
+ * `every` it is the multiple of `step` nearest to duration/100. Error-controlled methods interpolate frames
+ * to their order. */
+#ifndef HOOKE_INTEGRATOR_H
+#define HOOKE_INTEGRATOR_H
+
+#include "state.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_integrator hooke_integrator;
+
+/* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
+typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
+
+/* Sees the state after `step` steps; may not change it. Return 0 to go on, anything else to stop the run. */
+typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
+
+/* ---- methods ---- */
+
+HOOKE_API int64_t hooke_method_count(void);
+/* Name of a method, "forward-euler"; NULL past the last. */
+HOOKE_API const char *hooke_method_name(int64_t method);
+/* One line about a method; NULL if there is no such name. */
+HOOKE_API const char *hooke_method_summary(const char *name);
+/* 1 if the method chooses its steps from tolerances, 0 if it takes `step`, -1 if there is no such name. */
+HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
+/* 1 if this build has the method. */
+HOOKE_API int32_t hooke_method_is_built(const char *name);
+
+/* ---- making ---- */
+
+/* Options of a run, for the caller to set and destroy. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_run_options_create(hooke_options **options);
+
+/* An integrator for a committed system, which must outlive it; `options` is copied.
+ * HOOKE_BAD_VALUE (an option), HOOKE_BAD_CALL (not committed), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
+                                          hooke_integrator **integrator);
+
+/* An integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs positions and
+ * velocities, such as symplectic-euler. */
+HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
+                                                      const hooke_options *options,
+                                                      hooke_integrator **integrator);
+
+HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
+
+/* The options it runs with (its own copy, defaults filled in: `every` and `atol_velocity`), valid as long as
+ * it lives. */
+HOOKE_API const hooke_options *hooke_integrator_options(const hooke_integrator *integrator);
+
+/* ---- watching: at most one observer of each kind, NULL takes it back ---- */
+
+HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer,
+                                            void *ctx);
+/* Called every `stride` >= 1 steps. */
+HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
+                                           hooke_observer *observer, void *ctx);
+
+/* ---- running ---- */
+
+/* Frames that hooke_integrator_run() reports, the initial one included. */
+HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
+
+/* Runs `duration` from the state's time on, reporting frames; `state` is the final state on return.
+ * HOOKE_STOPPED: an observer, force or drive returned non-zero (hooke_integrator_stop_value()); the state is
+ * that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and drives,
+ * the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps; the state
+ * is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.
+ * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`.
+ */
+HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
+
+/* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
+ * For time loops of the caller's own; the same statuses. */
+HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
+
+/* ---- what it did, since it was made ---- */
+
+/* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
+ * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last
+ * force evaluation), "memory_bytes". -1 for any other word. */
+HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
+/* Time spent stepping [s], observers and output left out. */
+HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
+/* What the callback that stopped the run returned; 0 if none did. */
+HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
+/* Time at which divergence was noticed [s], NaN if it was not. */
+HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

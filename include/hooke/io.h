@@ -1,0 +1,80 @@
+/* hooke/io.h - scenes (JSON) and trajectories (H5MD).
+ *
+ * Scenes need a build with jansson, trajectories one with HDF5; without them these functions return
+ * HOOKE_NOT_BUILT. */
+#ifndef HOOKE_IO_H
+#define HOOKE_IO_H
+
+#include "build.h"
+#include "integrator.h"
+#include "measure.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* For a program that is its own master (the command line): keeps HDF5 from running code at exit, which
+ * crashes in some versions after a failed write. Call it before anything else. A library inside a larger
+ * program must not. */
+HOOKE_API int32_t hooke_io_own_process(void);
+
+/* ---- scenes ---- */
+
+typedef struct hooke_scene hooke_scene;
+
+/* Reads a scene file (format: docs/scene.md). The system is built but not committed, so that a callback may
+ * still be added; the caller owns the scene. HOOKE_BAD_VALUE with "file:line:column: path: what is wrong,
+ * what is allowed"; HOOKE_IO_FAILED if the file cannot be read; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT. */
+HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
+
+/* The same from `length` bytes of text; `name` stands for the file in messages, `folder` is where files named
+ * in the scene are looked up (NULL: none are allowed). */
+HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
+                                    hooke_scene **scene);
+
+/* Commits the system of the scene; like hooke_system_commit(), with messages that give the place in the file.
+ */
+HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
+
+/* Releases the scene, its system and its options. NULL is allowed. */
+HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
+
+/* What it holds; owned by the scene. The options are those of `run` and may be changed. */
+HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
+HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
+HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
+HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
+
+/* ---- trajectories ---- */
+
+typedef struct hooke_trajectory hooke_trajectory;
+
+/* Creates an H5MD 1.1 file for all frames that `integrator` is going to report on `system`, sized in advance
+ * so that every frame written survives even if the process is killed. An existing file is replaced only when
+ * the new one is ready to take frames. `scene_text` may be NULL. HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
+                                          const hooke_integrator *integrator, const char *scene_text,
+                                          hooke_trajectory **trajectory);
+
+/* Writes the next frame. After a failed write the file is marked bad and takes no more. HOOKE_IO_FAILED. */
+HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
+                                         const hooke_state *state);
+
+/* Writes the outcome (a status of hooke_integrator_run), shortens the file to the frames it has, and releases
+ * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
+HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
+
+/* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
+ * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
+ * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. */
+typedef struct hooke_comparison_file hooke_comparison_file;
+HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
+                                               hooke_comparison *comparison, const char *scene_text,
+                                               hooke_comparison_file **file);
+HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

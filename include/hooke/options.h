@@ -1,0 +1,66 @@
+/* hooke/options.h - named options, with their types, units, bounds and defaults.
+ *
+ * Whatever can be configured (a spring group, a part, a run) is described by one table. An options object
+ * holds values for one such table; it is made by the object that it configures:
+ * hooke_spring_options_create(), hooke_part_options_create(), hooke_run_options_create(). Scene keys,
+ * command-line flags, Python keywords and the printed reference all read the same tables.
+ *
+ * A nested table (the family of springs of a part) is reached with a dot: "structural.stiffness".
+ * An options object belongs to one thread at a time. */
+#ifndef HOOKE_OPTIONS_H
+#define HOOKE_OPTIONS_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_options hooke_options;
+
+/* A copy of `options` with all values; the caller owns it. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy);
+
+/* Releases `options`; NULL is allowed. */
+HOOKE_API void hooke_options_destroy(hooke_options *options);
+
+/* Sets the option `name` to one number, to `count` numbers (copied), or to what `text` says: "0.5", "1e-3",
+ * "0,-9.81,0", "true", or one of the words that the option takes. A flag is the number 0 or 1. Setting a
+ * family name
+ * ("structural") to "" makes it present with its defaults.
+ * HOOKE_BAD_VALUE for an unknown name, a wrong type or count, a value that is not finite or out of bounds;
+ * the option then keeps its old value. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);
+HOOKE_API int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
+                                            const double *values);
+HOOKE_API int32_t hooke_options_set_text(hooke_options *options, const char *name, const char *text);
+
+/* Takes a value back: the option has its default again. HOOKE_BAD_VALUE for an unknown name. */
+HOOKE_API int32_t hooke_options_unset(hooke_options *options, const char *name);
+
+/* 1 if the option was set, 0 if it has its default or no value, or if there is no such option. */
+HOOKE_API int32_t hooke_options_is_set(const hooke_options *options, const char *name);
+
+/* Number of numbers that the option holds (defaults count); 0 if it holds a word or nothing. */
+HOOKE_API int64_t hooke_options_number_count(const hooke_options *options, const char *name);
+
+/* The numbers, valid until the option is set again or the object destroyed; NULL if there are none. */
+HOOKE_API const double *hooke_options_numbers(const hooke_options *options, const char *name);
+
+/* The first number, or NaN if there is none. */
+HOOKE_API double hooke_options_number(const hooke_options *options, const char *name);
+
+/* The word or text that the option holds, "" if none; valid until the option is set again. */
+HOOKE_API const char *hooke_options_text(const hooke_options *options, const char *name);
+
+/* The table itself. Rows of nested tables follow their family, with dotted names. */
+HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
+
+/* One property of row `row` as text: "name", "type", "unit", "default", "allowed" or "doc"; "" where it has
+ * none, NULL if there is no such row or property. Lives as long as `options`. */
+HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

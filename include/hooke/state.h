@@ -1,0 +1,45 @@
+/* hooke/state.h - what moves: time, positions and velocities.
+ *
+ * A state is one block of doubles, t, then q (3n), then v (3n), rows of x y z in the caller's numbering,
+ * which NumPy and HDF5 wrap without a copy. It is up to date at frames, in observers and callbacks, and when
+ * a run returns; an integrator works on its own copy in between. A state belongs to one thread at a time. */
+#ifndef HOOKE_STATE_H
+#define HOOKE_STATE_H
+
+#include "system.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_state hooke_state;
+
+/* The initial state of a committed system: t = 0, positions and velocities as added, driven particles where
+ * their motion has them. The caller owns it. HOOKE_BAD_CALL, HOOKE_NO_MEMORY, HOOKE_STOPPED. */
+HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **state);
+
+/* A state of `size` >= 1 zeros for a first-order problem x' = phi(t, x): x is hooke_state_position(), there
+ * is no velocity. */
+HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
+
+/* Releases a state; NULL is allowed. */
+HOOKE_API void hooke_state_destroy(hooke_state *state);
+
+/* Copies t, q and v. HOOKE_BAD_VALUE if the two differ in size. */
+HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
+
+HOOKE_API double hooke_state_time(const hooke_state *state);
+HOOKE_API void hooke_state_set_time(hooke_state *state, double t);
+
+/* Numbers in q: 3n, or the size of a first-order problem. */
+HOOKE_API int64_t hooke_state_size(const hooke_state *state);
+
+/* Where q and v are, for reading and, except in an observer, for writing; they stay there as long as the state lives.
+ * The velocity of a first-order problem is NULL. */
+HOOKE_API double *hooke_state_position(const hooke_state *state);
+HOOKE_API double *hooke_state_velocity(const hooke_state *state);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

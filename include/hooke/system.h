@@ -1,0 +1,175 @@
+/* hooke/system.h - what a scene is: particles, springs and forces.
+ *
+ * A system is built by calls that add to it, then committed: checked as a whole, its springs sorted into
+ * loops. From then on it is const; its pointers never move, and any number of threads may share it. Until
+ * then it belongs to one thread. Units are SI throughout. Arrays of positions, velocities and forces are rows
+ * of x y z, 3 doubles a particle.
+ *
+ * Springs (U energy, f force on the first end, x = q_i - q_j, r = |x|, u = x/r, v = v_i - v_j):
+ *   strain law  U = 1/2 ks l0 (r/l0 - 1)^2      ks [N], kd [N s]     kappa = ks/l0, gamma = kd/l0
+ *   length law  U = 1/2 k (r - l0)^2            k [N/m], kd [N s/m]  kappa = k,     gamma = kd
+ *   both        f = -(kappa (r - l0) + gamma (v.u)) u
+ * Two ends at the same place have no direction: the force is zero there by definition, and
+ * hooke_system_coincident_springs() counts such springs. A spring with `compression` false only pulls: its
+ * force is zero where r <= l0, and where damping would make it push.
+ *
+ * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
+ * springs of parts. All sums over springs are taken in that order, so results do not depend on threads or
+ * instruction sets. */
+#ifndef HOOKE_SYSTEM_H
+#define HOOKE_SYSTEM_H
+
+#include "options.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_system hooke_system;
+
+/* Adds a force [N] on `n` particles at time t [s] to `force` (3n); q [m] and v [m/s] are 3n. Return 0 to go
+ * on, anything else to stop. Never called concurrently on one integrator. Called with every q and v that a
+ * method tries. */
+typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
+
+/* Adds (df/dq) dq + (df/dv) dv of that force to `out` (3n). Return 0 to go on. */
+typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                    const double *dv, double *out, void *ctx);
+
+/* Writes the position [m] and velocity [m/s] at time t of `count` driven particles into q and v (3 count
+ * each). Return 0 to go on, anything else to stop. Must be a function of t alone. */
+typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
+
+/* ---- building ---- */
+
+/* An empty system, owned by the caller. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_create(hooke_system **system);
+/* Releases a system; nothing that was made from it may be used afterwards. NULL is allowed. */
+HOOKE_API void hooke_system_destroy(hooke_system *system);
+
+/* Adds `count` particles: `position` (3 count) [m], `velocity` (3 count) [m/s] or NULL for rest, and `mass` >
+ * 0 [kg], `mass_count` being 1 (shared) or `count`. `first`, if not NULL, receives the number of the first
+ * one. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const double *position,
+                                             const double *velocity, int64_t mass_count, const double *mass,
+                                             int64_t *first);
+
+/* Holds particles still: inverse mass 0. Naming one twice is allowed, a moving one is refused at commit. */
+HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
+
+/* Options of a spring group: law, stiffness, damping, rest_length, rest_scale, compression. */
+HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
+
+/* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
+ * pair). `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *ends, const hooke_options *options);
+
+/* Acceleration of every free particle, 3 numbers [m/s^2]. */
+HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
+
+/* Ether drag f = -c v on every free particle, c >= 0 [N s/m]. It also brakes free fall, which spring damping
+ * does not. */
+HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
+
+/* A force of the caller's own, on top of the others; one a system. `product` may be NULL: difference
+ * quotients of `force` then stand in for it. `ctx` is handed to both and must outlive the system. */
+HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
+                                         hooke_force_product *product, void *ctx);
+
+/* Particles moved as prescribed (inverse mass 0), about where they were added:
+ *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase)     amplitude 3 numbers [m], frequency [Hz],
+ * phase [rad] table     q = q0 + d(t), d piecewise cubic with continuous velocity through `samples` >= 2 rows
+ * of `displacement` (3 samples) [m] at ascending `time` [s]; still before the first and after the last.
+ * Slopes are those of the parabola through three neighbouring samples. callback  q and v as `drive` says A
+ * particle is driven once at most, and not pinned as well. */
+HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
+                                              const double *amplitude, double frequency, double phase);
+HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,
+                                           int64_t samples, const double *time, const double *displacement);
+HOOKE_API int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const int64_t *particles,
+                                              hooke_drive *drive, void *ctx);
+
+/* Checks the system as a whole, chooses its loops and makes it const. HOOKE_BAD_VALUE names the culprit and
+ * leaves the system open; HOOKE_BAD_CALL if it was committed before; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_commit(hooke_system *system);
+
+/* ---- asking (any thread once committed) ---- */
+
+HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
+HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
+/* Particles that are neither pinned nor driven. */
+HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
+/* Name of group `group`, "" if it has none, NULL if there is no such group. */
+HOOKE_API const char *hooke_system_group_name(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, int64_t group);
+
+/* Masses [kg] (n) and inverse masses [1/kg] (n; 0 = pinned or driven) of all particles; NULL before commit.
+ */
+HOOKE_API const double *hooke_system_mass(const hooke_system *system);
+HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
+
+/* The two ends of every spring, in spring order, into `ends` (2 spring_count). HOOKE_BAD_CALL before commit.
+ */
+HOOKE_API int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends);
+/* kappa [N/m], gamma [N s/m] and rest length [m] of every spring, each spring_count long or NULL. */
+HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
+                                               double *rest_length);
+
+/* The forces that this system computes ("springs", "drag", "callback", "gravity"); nothing else costs
+ * anything. */
+HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
+
+/* Memory that the committed system holds [bytes]. */
+HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
+
+/* ---- forces and energies at q, v (3n each), committed systems only ----
+ * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
+ * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
+
+/* Force on every particle [N], 3n: springs, drag on free particles, callback, m g on free particles. */
+HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
+                                     double *force);
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
+HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
+                                            const double *v, double *acceleration);
+/* Springs at q whose ends coincide although their rest length is not zero. */
+HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q);
+
+/* out = (df/dq) dq + (df/dv) dv, 3n, of the force above. Where a callback brings no product of its own,
+ * central differences of the callback alone stand in. */
+HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
+                                                  const double *v, const double *dq, const double *dv,
+                                                  double *out);
+
+/* df/dq and df/dv as sparse 3x3 blocks, callbacks left out, in compressed rows: row_start (n + 1), column
+ * (count, ascending within a row, the diagonal always there), and blocks of 9 in row order, `count` being
+ * hooke_system_block_count(). Either block array may be NULL. */
+HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
+                                                  int64_t *column);
+HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
+                                                 double *dfdq, double *dfdv);
+
+/* Energies [J] of the springs and of the free particles; gravity's is the sum of -m g.q. A callback has none.
+ */
+HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
+HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);
+/* Power that damping and drag turn into heat [W], >= 0. */
+HOOKE_API double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v);
+/* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of the free particles, 3 numbers; zeros
+ * before commit. */
+HOOKE_API void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum);
+HOOKE_API void hooke_system_angular_momentum(const hooke_system *system, const double *q, const double *v,
+                                             double *angular_momentum);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
