@@ -1,0 +1,46 @@
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 64 };
+
+static void no_memory(int64_t count, size_t size) {
+  hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %lld elements of %zu bytes", (long long)count, size);
+}
+
+void *hooke_new(int64_t count, size_t size) {
+  if (count < 0 || (uint64_t)count > (PTRDIFF_MAX - ALIGNMENT) / size) {
+    no_memory(count, size);
+    return NULL;
+  }
+  size_t bytes = ((size_t)count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+  void *block = aligned_alloc(ALIGNMENT, bytes);
+  if (block == NULL) {
+    no_memory(count, size);
+    return NULL;
+  }
+  memset(block, 0, bytes);
+  return block;
+}
+
+int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size) {
+  void *larger = hooke_new(capacity, size);
+  if (larger == NULL) return HOOKE_NO_MEMORY;
+  if (used > 0) memcpy(larger, *block, (size_t)used * size);
+  hooke_free(*block);
+  *block = larger;
+  return HOOKE_OK;
+}
+
+char *hooke_copy_text(const char *text) {
+  size_t length = strlen(text ? text : "");
+  char *copy = hooke_new((int64_t)length + 1, 1);
+  if (copy && length) memcpy(copy, text, length);
+  return copy;
+}
+
+void hooke_free(void *block) {
+  free(block);
+}

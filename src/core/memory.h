@@ -1,0 +1,23 @@
+/* Allocation: every block of the library comes from here. */
+#ifndef HOOKE_CORE_MEMORY_H
+#define HOOKE_CORE_MEMORY_H
+
+#include "hooke/base.h"
+
+#include <stddef.h>
+
+/* `count` zeroed elements of `size` bytes, aligned to 64 bytes and padded to a multiple of them; NULL, with
+ * the message recorded, if there is no memory or the product does not fit. A count of 0 gives a valid block.
+ */
+void *hooke_new(int64_t count, size_t size);
+
+/* Like realloc: grows `*block` to `capacity` elements of `size`, keeping the first `used`; HOOKE_NO_MEMORY
+ * leaves it. */
+int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size);
+
+/* A copy of a string; NULL stays NULL only if there is no memory. */
+char *hooke_copy_text(const char *text);
+
+void hooke_free(void *block);
+
+#endif

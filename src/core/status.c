@@ -1,0 +1,97 @@
+#include "core/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PLACE_SIZE = 256, MESSAGE_SIZE = 1024, LINE_SIZE = 2048 };
+
+static _Thread_local struct {
+  char before[PLACE_SIZE];
+  char place[PLACE_SIZE];
+  char message[MESSAGE_SIZE];
+  char line[LINE_SIZE];
+} last;
+
+static void compose(void) {
+  snprintf(last.line, sizeof last.line, "%s%s%s%s", last.before, last.place, last.place[0] ? ": " : "",
+           last.message);
+}
+
+int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
+  /* the arguments may point into the record itself */
+  char message[MESSAGE_SIZE];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(message, sizeof message, format, args);
+  va_end(args);
+  snprintf(last.place, sizeof last.place, "%s", place ? place : "");
+  memcpy(last.message, message, sizeof message);
+  last.before[0] = '\0';
+  compose();
+  return status;
+}
+
+int32_t hooke_fail_within(int32_t status, const char *format, ...) {
+  char outer[PLACE_SIZE];
+  char place[2 * PLACE_SIZE];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(outer, sizeof outer, format, args);
+  va_end(args);
+  const char *joint = last.place[0] && last.place[0] != '[' ? "." : "";
+  snprintf(place, sizeof place, "%s%s%s", outer, joint, last.place);
+  snprintf(last.place, sizeof last.place, "%.*s", PLACE_SIZE - 1, place);
+  compose();
+  return status;
+}
+
+int32_t hooke_fail_before(int32_t status, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  vsnprintf(last.before, sizeof last.before, format, args);
+  va_end(args);
+  compose();
+  return status;
+}
+
+const char *hooke_fail_place(void) {
+  return last.place;
+}
+
+const char *hooke_fail_message(void) {
+  return last.message;
+}
+
+const char *hooke_last_error(void) {
+  return last.line;
+}
+
+const char *hooke_status_name(int32_t status) {
+  switch (status) {
+  case HOOKE_OK:
+    return "ok";
+  case HOOKE_STOPPED:
+    return "stopped";
+  case HOOKE_DIVERGED:
+    return "diverged";
+  case HOOKE_STEP_LIMIT:
+    return "step limit reached";
+  case HOOKE_NO_MEMORY:
+    return "out of memory";
+  case HOOKE_BAD_VALUE:
+    return "bad value";
+  case HOOKE_BAD_CALL:
+    return "call out of order";
+  case HOOKE_IO_FAILED:
+    return "could not read or write";
+  case HOOKE_NOT_BUILT:
+    return "not in this build";
+  case HOOKE_UNSUITED:
+    return "method does not take this problem";
+  case HOOKE_SOLVER_FAILED:
+    return "solver failed";
+  default:
+    return "unknown status";
+  }
+}
