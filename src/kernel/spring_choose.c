@@ -1,0 +1,36 @@
+/* Which instruction sets the loops were compiled for, and which of them this machine runs. */
+#include "kernel/spring_loops.h"
+
+#include <stddef.h>
+
+#ifndef HOOKE_KERNEL_X86
+#define HOOKE_KERNEL_X86 0
+#endif
+
+extern hooke_spring_loop *const hooke_spring_loops_baseline[HOOKE_RUN_SHAPES];
+static const struct hooke_spring_set baseline = {"baseline", hooke_spring_loops_baseline};
+
+#if HOOKE_KERNEL_X86
+extern hooke_spring_loop *const hooke_spring_loops_avx2[HOOKE_RUN_SHAPES];
+extern hooke_spring_loop *const hooke_spring_loops_avx512[HOOKE_RUN_SHAPES];
+static const struct hooke_spring_set avx2 = {"avx2", hooke_spring_loops_avx2};
+static const struct hooke_spring_set avx512 = {"avx512", hooke_spring_loops_avx512};
+#endif
+
+const struct hooke_spring_set *hooke_spring_set(int32_t set) {
+  const struct hooke_spring_set *found[3];
+  int32_t count = 0;
+#if HOOKE_KERNEL_X86
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) {
+    found[count++] = &avx512;
+  }
+  if (__builtin_cpu_supports("avx2")) found[count++] = &avx2;
+#endif
+  found[count++] = &baseline;
+  return set >= 0 && set < count ? found[set] : NULL;
+}
+
+const char *hooke_kernel_instructions(void) {
+  return hooke_spring_set(0)->name;
+}
