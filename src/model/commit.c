@@ -1,0 +1,116 @@
+/* Commit: checks the system as a whole, sorts its springs into runs, chooses the forces that are there, frees
+ * what only building needed. */
+#include "model/force.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static int32_t check_pinned_at_rest(const hooke_system *system) {
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->held[p] != HOOKE_HELD_PINNED) continue;
+    for (int a = 0; a < 3; a++) {
+      const double v = system->velocity[3 * p + a];
+      if (v == 0.0) continue;
+      hooke_fail(HOOKE_BAD_VALUE, NULL,
+                 "particle %lld is pinned and has velocity %g; a pinned particle has velocity 0",
+                 (long long)p, v);
+      return hooke_fail_within(HOOKE_BAD_VALUE, "particles.velocity[%lld][%d]", (long long)p, a);
+    }
+  }
+  return HOOKE_OK;
+}
+
+/* Groups first, parts after, each in the order of adding; names stay, springs go into runs. */
+static int32_t sort_springs(hooke_system *system) {
+  struct hooke_group *sorted = hooke_new(system->group_count, sizeof *sorted);
+  if (sorted == NULL) return HOOKE_NO_MEMORY;
+  int64_t next = 0;
+  for (int32_t from_part = 0; from_part <= 1; from_part++) {
+    for (int64_t k = 0; k < system->group_count; k++) {
+      if (system->group[k].from_part == from_part) sorted[next++] = system->group[k];
+    }
+  }
+  const int32_t status = hooke_springs_create(sorted, system->group_count, &system->springs);
+  if (status == HOOKE_OK) {
+    hooke_free(system->group);
+    system->group = sorted;
+    system->group_capacity = system->group_count;
+  } else {
+    hooke_free(sorted);
+  }
+  return status;
+}
+
+static void drop_building_arrays(hooke_system *system) {
+  for (int64_t k = 0; k < system->group_count; k++) {
+    struct hooke_group *group = &system->group[k];
+    char *name = group->name;
+    const int64_t count = group->count;
+    group->name = NULL;
+    hooke_group_release(group);
+    group->name = name;
+    group->count = count;
+  }
+}
+
+static int32_t fill_particles(hooke_system *system) {
+  const int64_t n = system->particle_count;
+  int64_t held = 0;
+  for (int64_t p = 0; p < n; p++)
+    held += system->held[p] != 0;
+  system->inverse_mass = hooke_new(n, sizeof(double));
+  system->held_particle = hooke_new(held, sizeof(int32_t));
+  if (system->inverse_mass == NULL || system->held_particle == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t p = 0; p < n; p++) {
+    if (system->held[p])
+      system->held_particle[system->held_count++] = (int32_t)p;
+    else
+      system->inverse_mass[p] = 1.0 / system->mass[p];
+  }
+  return HOOKE_OK;
+}
+
+static int32_t choose_forces(hooke_system *system) {
+  int32_t rows = 0;
+  while (hooke_force_table(rows))
+    rows++;
+  system->force_row = hooke_new(rows, sizeof(const struct hooke_force_row *));
+  if (system->force_row == NULL) return HOOKE_NO_MEMORY;
+  for (int32_t k = 0; k < rows; k++) {
+    const struct hooke_force_row *row = hooke_force_table(k);
+    if (row->present(system)) system->force_row[system->force_row_count++] = row;
+  }
+  return HOOKE_OK;
+}
+
+/* Back to an open system after a failure half-way. */
+static void undo(hooke_system *system) {
+  hooke_springs_release(&system->springs);
+  hooke_free(system->inverse_mass);
+  hooke_free(system->held_particle);
+  hooke_free(system->force_row);
+  system->inverse_mass = NULL;
+  system->held_particle = NULL;
+  system->force_row = NULL;
+  system->held_count = 0;
+  system->force_row_count = 0;
+}
+
+int32_t hooke_system_commit(hooke_system *system) {
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  status = check_pinned_at_rest(system);
+  if (status == HOOKE_OK) status = fill_particles(system);
+  if (status == HOOKE_OK) status = sort_springs(system);
+  if (status == HOOKE_OK) status = choose_forces(system);
+  if (status != HOOKE_OK) {
+    undo(system);
+    return status;
+  }
+  drop_building_arrays(system);
+  system->committed = 1;
+  return HOOKE_OK;
+}

@@ -1,0 +1,64 @@
+/* Spring groups while a system is built, and the runs that commit sorts them into. */
+#ifndef HOOKE_MODEL_SPRING_H
+#define HOOKE_MODEL_SPRING_H
+
+#include "core/option.h"
+#include "kernel/spring_loops.h"
+
+struct hooke_group {
+  char *name;
+  int64_t count;
+  int32_t from_part; /* springs of parts are numbered after those of groups */
+  int32_t pull_only;
+  /* count each; taken over by the runs at commit */
+  int32_t *head, *tail;
+  double *kappa, *gamma, *rest_length;
+};
+
+/* All springs of a committed system, in spring order. */
+struct hooke_springs {
+  int64_t count;
+  int64_t run_count;
+  struct hooke_run *run;
+  int64_t indexed_count, mixed_count; /* springs whose ends, or material, are stored one by one */
+  int32_t *head, *tail;
+  double *kappa, *gamma, *rest_length;
+};
+
+/* One spring, whatever run it is in. */
+struct hooke_spring {
+  int64_t head, tail;
+  double kappa, gamma, rest_length;
+  int32_t pull_only;
+};
+
+static inline struct hooke_spring hooke_run_spring(const struct hooke_run *run, int64_t k) {
+  const int32_t indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  struct hooke_spring spring;
+  spring.head = indexed ? run->head[k] : run->start + k;
+  spring.tail = indexed ? run->tail[k] : run->start + k + run->offset;
+  spring.kappa = mixed ? run->kappas[k] : run->kappa;
+  spring.gamma = mixed ? run->gammas[k] : run->gamma;
+  spring.rest_length = mixed ? run->rest_lengths[k] : run->rest_length;
+  spring.pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
+  return spring;
+}
+
+/* A spring at given ends: length, direction (zeros where it has none), tension and rate of stretch; v may be
+ * NULL. */
+struct hooke_stretch {
+  double length, direction[3], tension, elastic, rate;
+  int32_t slack; /* pulls only, and has nothing to pull */
+};
+void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
+                          struct hooke_stretch *stretch);
+
+/* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
+int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_count,
+                             struct hooke_springs *springs);
+void hooke_springs_release(struct hooke_springs *springs);
+int64_t hooke_springs_memory(const struct hooke_springs *springs);
+
+void hooke_group_release(struct hooke_group *group);
+
+#endif

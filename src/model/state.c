@@ -1,0 +1,99 @@
+#include "model/state.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/system.h"
+
+#include <string.h>
+
+static int32_t create(int64_t size, int32_t has_v, hooke_state **out) {
+  hooke_state *state = hooke_new(1, sizeof *state);
+  double *block = hooke_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
+  if (state == NULL || block == NULL) {
+    hooke_free(state);
+    hooke_free(block);
+    return HOOKE_NO_MEMORY;
+  }
+  *state = (hooke_state){.size = size, .has_v = has_v, .t = block, .q = block + 1};
+  state->v = has_v ? block + 1 + size : NULL;
+  *out = state;
+  return HOOKE_OK;
+}
+
+/* Puts driven particles where their motion has them at t = 0. */
+static int32_t place_driven(const hooke_system *system, hooke_state *state) {
+  for (int64_t g = 0; g < system->drive_count; g++) {
+    const struct hooke_drive_group *drive = &system->drive[g];
+    double *q = hooke_new(6 * drive->count, sizeof(double));
+    if (q == NULL) return HOOKE_NO_MEMORY;
+    double *v = q + 3 * drive->count;
+    const int32_t value = hooke_drive_evaluate(drive, 0.0, q, v);
+    for (int64_t k = 0; k < drive->count && value == 0; k++) {
+      memcpy(state->q + 3 * (int64_t)drive->particle[k], q + 3 * k, 3 * sizeof(double));
+      memcpy(state->v + 3 * (int64_t)drive->particle[k], v + 3 * k, 3 * sizeof(double));
+    }
+    hooke_free(q);
+    if (value != 0)
+      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = 0", (int)value);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
+  hooke_state *state = NULL;
+  int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK) status = create(3 * system->particle_count, 1, &state);
+  if (status != HOOKE_OK) return status;
+  if (system->particle_count > 0) {
+    const size_t bytes = (size_t)state->size * sizeof(double);
+    memcpy(state->q, system->position, bytes);
+    memcpy(state->v, system->velocity, bytes);
+  }
+  status = place_driven(system, state);
+  if (status == HOOKE_OK)
+    *out = state;
+  else
+    hooke_state_destroy(state);
+  return status;
+}
+
+int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
+  if (size < 1)
+    return hooke_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
+  return create(size, 0, state);
+}
+
+void hooke_state_destroy(hooke_state *state) {
+  if (state == NULL) return;
+  hooke_free(state->t);
+  hooke_free(state);
+}
+
+int32_t hooke_state_copy(const hooke_state *from, hooke_state *to) {
+  if (from->size != to->size || from->has_v != to->has_v) {
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a state of %lld numbers does not fit one of %lld",
+                      (long long)from->size, (long long)to->size);
+  }
+  memcpy(to->t, from->t, (size_t)(1 + (from->has_v ? 2 : 1) * from->size) * sizeof(double));
+  return HOOKE_OK;
+}
+
+double hooke_state_time(const hooke_state *state) {
+  return *state->t;
+}
+
+void hooke_state_set_time(hooke_state *state, double t) {
+  *state->t = t;
+}
+
+int64_t hooke_state_size(const hooke_state *state) {
+  return state->size;
+}
+
+double *hooke_state_position(const hooke_state *state) {
+  return state->q;
+}
+
+double *hooke_state_velocity(const hooke_state *state) {
+  return state->v;
+}

@@ -1,0 +1,197 @@
+/* Building a system: particles, pins, gravity, drag and the caller's own force. */
+#include "model/system.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/force.h"
+
+#include <math.h>
+#include <string.h>
+
+int32_t hooke_system_create(hooke_system **system) {
+  *system = hooke_new(1, sizeof **system);
+  return *system ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+void hooke_system_destroy(hooke_system *system) {
+  if (system == NULL) return;
+  for (int64_t k = 0; k < system->group_count; k++)
+    hooke_group_release(&system->group[k]);
+  for (int64_t k = 0; k < system->drive_count; k++)
+    hooke_drive_release(&system->drive[k]);
+  hooke_springs_release(&system->springs);
+  hooke_free(system->position);
+  hooke_free(system->velocity);
+  hooke_free(system->mass);
+  hooke_free(system->held);
+  hooke_free(system->inverse_mass);
+  hooke_free(system->held_particle);
+  hooke_free(system->group);
+  hooke_free(system->drive);
+  hooke_free(system->force_row);
+  hooke_free(system);
+}
+
+int32_t hooke_system_require_open(const hooke_system *system) {
+  if (!system->committed) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_CALL, NULL,
+                    "the system is committed and can no longer be changed; build a new one");
+}
+
+int32_t hooke_system_require_committed(const hooke_system *system) {
+  if (system->committed) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_CALL, NULL,
+                    "the system is not committed yet; call hooke_system_commit() first");
+}
+
+/* Capacity for `count` more particles in every particle array. */
+static int32_t reserve_particles(hooke_system *system, int64_t count) {
+  if (count > INT32_MAX - system->particle_count) {
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%lld particles on top of %lld; a system holds up to 2147483647",
+                      (long long)count, (long long)system->particle_count);
+  }
+  int64_t used = system->particle_count, needed = used + count;
+  if (needed <= system->particle_capacity) return HOOKE_OK;
+  int64_t capacity = used == 0 ? needed : needed + needed / 2;
+  int32_t status = hooke_grow((void **)&system->position, 3 * used, 3 * capacity, sizeof(double));
+  if (status == HOOKE_OK)
+    status = hooke_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
+  if (status == HOOKE_OK) status = hooke_grow((void **)&system->mass, used, capacity, sizeof(double));
+  if (status == HOOKE_OK) status = hooke_grow((void **)&system->held, used, capacity, sizeof(uint8_t));
+  if (status == HOOKE_OK) system->particle_capacity = capacity;
+  return status;
+}
+
+static int32_t check_finite(const char *name, int64_t count, const double *value) {
+  for (int64_t k = 0; k < 3 * count; k++) {
+    if (isfinite(value[k])) continue;
+    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", value[k]);
+    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%d]", name, (long long)(k / 3), (int)(k % 3));
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_mass(int64_t count, int64_t mass_count, const double *mass) {
+  if (mass_count != 1 && mass_count != count) {
+    return hooke_fail(HOOKE_BAD_VALUE, "mass",
+                      "%lld masses for %lld particles; allowed: one, or one for each", (long long)mass_count,
+                      (long long)count);
+  }
+  for (int64_t k = 0; k < mass_count; k++) {
+    /* the inverse has to be a finite number too */
+    if (mass[k] > 0.0 && isfinite(mass[k]) && isfinite(1.0 / mass[k])) continue;
+    hooke_fail(HOOKE_BAD_VALUE, NULL,
+               "%g is not allowed; a mass is a number > 0 (pin a particle to hold it still)", mass[k]);
+    return mass_count == 1 ? hooke_fail_within(HOOKE_BAD_VALUE, "mass")
+                           : hooke_fail_within(HOOKE_BAD_VALUE, "mass[%lld]", (long long)k);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const double *position,
+                                   const double *velocity, int64_t mass_count, const double *mass,
+                                   int64_t *first) {
+  int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK && count < 0) {
+    status = hooke_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more particles are",
+                        (long long)count);
+  }
+  if (status == HOOKE_OK) status = check_finite("position", count, position);
+  if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
+  if (status == HOOKE_OK) status = check_mass(count, mass_count, mass);
+  if (status == HOOKE_OK) status = reserve_particles(system, count);
+  if (status != HOOKE_OK) return status;
+
+  const int64_t n = system->particle_count;
+  if (count > 0) {
+    memcpy(system->position + 3 * n, position, (size_t)(3 * count) * sizeof(double));
+    if (velocity) {
+      memcpy(system->velocity + 3 * n, velocity, (size_t)(3 * count) * sizeof(double));
+    } else {
+      memset(system->velocity + 3 * n, 0, (size_t)(3 * count) * sizeof(double));
+    }
+    memset(system->held + n, 0, (size_t)count);
+  }
+  for (int64_t k = 0; k < count; k++)
+    system->mass[n + k] = mass[mass_count == 1 ? 0 : k];
+  system->particle_count = n + count;
+  if (first) *first = n;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles) {
+  int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hooke_system_check_particles(system, "pinned", count, particles, HOOKE_HELD_DRIVEN);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < count; k++)
+    system->held[particles[k]] = HOOKE_HELD_PINNED;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
+                                     const int64_t *particles, int32_t refused) {
+  for (int64_t k = 0; k < count; k++) {
+    const int64_t p = particles[k];
+    if (p < 0 || p >= system->particle_count) {
+      hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
+                 (long long)(system->particle_count - 1));
+    } else if (system->held[p] & refused) {
+      hooke_fail(HOOKE_BAD_VALUE, NULL,
+                 "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,
+                 system->held[p] == HOOKE_HELD_PINNED ? "pinned" : "driven");
+    } else {
+      continue;
+    }
+    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", place, (long long)k);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  for (int k = 0; k < 3; k++) {
+    if (isfinite(gravity[k])) continue;
+    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
+    return hooke_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
+  }
+  memcpy(system->gravity, gravity, sizeof system->gravity);
+  system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  if (!(coefficient >= 0.0) || !isfinite(coefficient)) {
+    return hooke_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
+  }
+  system->drag = coefficient;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_force_product *product,
+                               void *ctx) {
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  system->force = force;
+  system->force_product = product;
+  system->force_ctx = ctx;
+  return HOOKE_OK;
+}
+
+int64_t hooke_system_next_part(hooke_system *system) {
+  return system->part_count++;
+}
+
+struct hooke_system_mark hooke_system_mark(const hooke_system *system) {
+  return (struct hooke_system_mark){system->particle_count, system->group_count, system->part_count};
+}
+
+void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark) {
+  while (system->group_count > mark.group_count)
+    hooke_group_release(&system->group[--system->group_count]);
+  system->particle_count = mark.particle_count;
+  system->part_count = mark.part_count;
+}

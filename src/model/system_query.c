@@ -1,0 +1,111 @@
+/* Questions to a system. */
+#include "model/force.h"
+
+#include "core/status.h"
+
+#include <stddef.h>
+
+int32_t hooke_system_is_committed(const hooke_system *system) {
+  return system->committed;
+}
+
+int64_t hooke_system_particle_count(const hooke_system *system) {
+  return system->particle_count;
+}
+
+int64_t hooke_system_free_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    count += system->held[p] == 0;
+  return count;
+}
+
+int64_t hooke_system_spring_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->group_count; k++)
+    count += system->group[k].count;
+  return count;
+}
+
+int64_t hooke_system_group_count(const hooke_system *system) {
+  return system->group_count;
+}
+
+const char *hooke_system_group_name(const hooke_system *system, int64_t group) {
+  return group >= 0 && group < system->group_count ? system->group[group].name : NULL;
+}
+
+int64_t hooke_system_group_size(const hooke_system *system, int64_t group) {
+  return group >= 0 && group < system->group_count ? system->group[group].count : 0;
+}
+
+const double *hooke_system_mass(const hooke_system *system) {
+  return system->committed ? system->mass : NULL;
+}
+
+const double *hooke_system_inverse_mass(const hooke_system *system) {
+  return system->inverse_mass;
+}
+
+int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      ends[2 * (run->first + k)] = spring.head;
+      ends[2 * (run->first + k) + 1] = spring.tail;
+    }
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
+                                     double *rest_length) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      if (kappa) kappa[run->first + k] = spring.kappa;
+      if (gamma) gamma[run->first + k] = spring.gamma;
+      if (rest_length) rest_length[run->first + k] = spring.rest_length;
+    }
+  }
+  return HOOKE_OK;
+}
+
+int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
+  int64_t count = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
+      struct hooke_stretch stretch;
+      hooke_spring_stretch(&spring, q, NULL, &stretch);
+      count += stretch.length == 0.0 && spring.rest_length != 0.0;
+    }
+  }
+  return count;
+}
+
+int64_t hooke_system_force_count(const hooke_system *system) {
+  return system->force_row_count;
+}
+
+const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
+  return force >= 0 && force < system->force_row_count ? system->force_row[force]->name : NULL;
+}
+
+int64_t hooke_system_memory(const hooke_system *system) {
+  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs);
+  bytes += system->particle_capacity * (int64_t)(7 * sizeof(double) + 1) +
+           system->particle_count * (int64_t)sizeof(double) + system->held_count * (int64_t)sizeof(int32_t);
+  bytes += system->group_count * (int64_t)sizeof *system->group +
+           system->drive_count * (int64_t)sizeof *system->drive;
+  for (int64_t k = 0; k < system->drive_count; k++) {
+    bytes += system->drive[k].count * 28 + system->drive[k].samples * 56;
+  }
+  return bytes;
+}
