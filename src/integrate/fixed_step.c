@@ -1,0 +1,46 @@
+/* What all fixed-step methods share: forces and rates that are counted, loading and storing. */
+#include "integrate/integrator.h"
+
+#include "core/status.h"
+
+#include <string.h>
+
+static int32_t keep_stop_value(hooke_integrator *it, int32_t status) {
+  if (status == HOOKE_STOPPED) it->stop_value = it->motion->stop_value;
+  return status;
+}
+
+int32_t hooke_integrator_forces(hooke_integrator *it, double t) {
+  it->count.force_evaluations++;
+  return keep_stop_value(it, hooke_motion_forces(it->system, it->motion, t));
+}
+
+int32_t hooke_integrator_hold(hooke_integrator *it, double t) {
+  if (it->system->held_count == 0) return HOOKE_OK;
+  return keep_stop_value(it, hooke_motion_hold(it->system, it->motion, t));
+}
+
+int32_t hooke_integrator_rate(hooke_integrator *it, double t, const double *x, double *slope) {
+  it->count.force_evaluations++;
+  const int32_t value = it->rate(it->size, t, x, slope, it->rate_ctx);
+  if (value == 0) return HOOKE_OK;
+  it->stop_value = value;
+  return hooke_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.17g s", (int)value, t);
+}
+
+int32_t hooke_fixed_begin(hooke_integrator *it, const hooke_state *state) {
+  if (it->motion)
+    hooke_motion_load(it->system, it->motion, state->q, state->v);
+  else
+    memcpy(it->x, state->q, (size_t)it->size * sizeof(double));
+  return HOOKE_OK;
+}
+
+int32_t hooke_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
+  if (it->motion)
+    hooke_motion_store(it->motion, state->q, state->v);
+  else
+    memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
+  *state->t = t;
+  return HOOKE_OK;
+}

@@ -1,0 +1,35 @@
+/* Forward Euler: q += h v(old), v += h (w f + g); for first-order problems x += h phi(t, x). Order 1 (Euler
+ * 1768). Unstable for every undamped oscillation at any step. */
+#include "integrate/integrator.h"
+#include "kernel/step_loops.h"
+
+static int32_t step_rate(hooke_integrator *it) {
+  const int32_t status = hooke_integrator_rate(it, it->t, it->x, it->slope);
+  if (status == HOOKE_OK) hooke_advance(it->size, it->schedule.step, it->slope, it->x);
+  return status;
+}
+
+static int32_t step(hooke_integrator *it) {
+  if (it->rate) return step_rate(it);
+  const int32_t status = hooke_integrator_forces(it, it->t);
+  if (status != HOOKE_OK) return status;
+  const hooke_system *system = it->system;
+  struct hooke_motion *m = it->motion;
+  const double h = it->schedule.step, *w = system->inverse_mass;
+  for (int a = 0; a < 3; a++) {
+    if (system->has_gravity)
+      hooke_drift_then_kick(m->n, h, w, m->f[a], system->gravity[a], m->q[a], m->v[a]);
+    else
+      hooke_drift_then_kick_weightless(m->n, h, w, m->f[a], m->q[a], m->v[a]);
+  }
+  return HOOKE_OK;
+}
+
+const struct hooke_method hooke_forward_euler = {.name = "forward-euler",
+                                                 .summary = "fixed step, order 1; unstable without damping",
+                                                 .built = 1,
+                                                 .first_order = 1,
+                                                 .second_order = 1,
+                                                 .begin = hooke_fixed_begin,
+                                                 .step = step,
+                                                 .store = hooke_fixed_store};

@@ -1,0 +1,165 @@
+/* Making an integrator, and asking it what it did. */
+#include "integrate/integrator.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+static int32_t unknown_method(const char *name) {
+  char names[256] = "";
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", hooke_method_name(k));
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
+}
+
+/* An integrator with method, options and schedule, but no problem yet. */
+static int32_t create(const hooke_options *options, hooke_integrator **out) {
+  const char *name = hooke_options_text(options, "method");
+  const struct hooke_method *method = hooke_method_find(name);
+  if (method == NULL) return unknown_method(name);
+  if (!method->built) {
+    return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs SUNDIALS, which this build is without", name);
+  }
+  hooke_integrator *it = hooke_new(1, sizeof *it);
+  if (it == NULL) return HOOKE_NO_MEMORY;
+  it->method = method;
+  it->diverged_at = NAN;
+  int32_t status = hooke_options_copy(options, &it->options);
+  if (status == HOOKE_OK) status = hooke_schedule_read(method, it->options, &it->schedule);
+  if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
+    status =
+        hooke_options_set_number(it->options, "atol_velocity", hooke_options_number(it->options, "atol"));
+  }
+  if (status == HOOKE_OK)
+    *out = it;
+  else
+    hooke_integrator_destroy(it);
+  return status;
+}
+
+static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
+  if (status == HOOKE_OK && it->method->create) status = it->method->create(it);
+  if (status == HOOKE_OK)
+    *out = it;
+  else
+    hooke_integrator_destroy(it);
+  return status;
+}
+
+int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
+                                hooke_integrator **out) {
+  hooke_integrator *it = NULL;
+  int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK) status = create(options, &it);
+  if (status != HOOKE_OK) return status;
+  it->system = system;
+  it->size = 3 * system->particle_count;
+  if (!it->method->second_order) {
+    status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
+  }
+  if (status == HOOKE_OK) status = hooke_motion_create(system, &it->motion);
+  if (status == HOOKE_OK) status = hooke_state_create(system, &it->good);
+  return finish(it, status, out);
+}
+
+int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
+                                            const hooke_options *options, hooke_integrator **out) {
+  hooke_integrator *it = NULL;
+  int32_t status = create(options, &it);
+  if (status != HOOKE_OK) return status;
+  it->rate = rate;
+  it->rate_ctx = ctx;
+  it->size = size;
+  if (!it->method->first_order) {
+    status = hooke_fail(
+        HOOKE_UNSUITED, "method",
+        "%s steps positions and velocities apart, and x' = phi(t, x) has no such parts; take one of "
+        "the methods that do not, such as forward-euler",
+        it->method->name);
+  }
+  if (status == HOOKE_OK) status = hooke_state_create_first_order(size, &it->good);
+  if (status == HOOKE_OK) {
+    it->x = hooke_new(2 * size, sizeof(double));
+    it->slope = it->x ? it->x + size : NULL;
+    if (it->x == NULL) status = HOOKE_NO_MEMORY;
+  }
+  return finish(it, status, out);
+}
+
+void hooke_integrator_destroy(hooke_integrator *it) {
+  if (it == NULL) return;
+  if (it->own && it->method->destroy) it->method->destroy(it);
+  hooke_motion_destroy(it->motion);
+  hooke_state_destroy(it->good);
+  hooke_options_destroy(it->options);
+  hooke_free(it->x);
+  hooke_free(it);
+}
+
+const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {
+  return integrator->options;
+}
+
+int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
+  integrator->on_frame = (struct hooke_watch){observer, ctx, 1};
+  return HOOKE_OK;
+}
+
+int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
+                                 void *ctx) {
+  if (stride < 1) {
+    return hooke_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
+  }
+  integrator->on_step = (struct hooke_watch){observer, ctx, stride};
+  return HOOKE_OK;
+}
+
+int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
+  return integrator->schedule.frames;
+}
+
+static int64_t memory_of(const hooke_integrator *it) {
+  const int64_t per_number = it->system ? 2 : 3; /* the last good state; x and its rate besides */
+  return (int64_t)sizeof *it + it->own_memory + (it->motion ? it->motion->memory : 0) +
+         per_number * it->size * (int64_t)sizeof(double);
+}
+
+int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
+  const struct hooke_counts *c = &it->count;
+  const struct {
+    const char *name;
+    int64_t value;
+  } counts[] = {
+      {"steps", c->steps},
+      {"force_evaluations", c->force_evaluations},
+      {"derivative_products", c->derivative_products},
+      {"nonlinear_iterations", c->nonlinear_iterations},
+      {"nonlinear_failures", c->nonlinear_failures},
+      {"linear_iterations", c->linear_iterations},
+      {"error_test_failures", c->error_test_failures},
+      {"coincident_springs", it->motion ? it->motion->coincident : 0},
+      {"memory_bytes", memory_of(it)},
+  };
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+    if (strcmp(counts[k].name, what) == 0) return counts[k].value;
+  }
+  return -1;
+}
+
+double hooke_integrator_wall_seconds(const hooke_integrator *integrator) {
+  return integrator->wall_seconds;
+}
+
+int32_t hooke_integrator_stop_value(const hooke_integrator *integrator) {
+  return integrator->stop_value;
+}
+
+double hooke_integrator_diverged_at(const hooke_integrator *integrator) {
+  return integrator->diverged_at;
+}

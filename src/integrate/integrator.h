@@ -1,0 +1,78 @@
+/* What an integrator holds, for the run loop and the methods. */
+#ifndef HOOKE_INTEGRATE_INTEGRATOR_H
+#define HOOKE_INTEGRATE_INTEGRATOR_H
+
+#include "core/option.h"
+#include "integrate/method.h"
+#include "model/motion.h"
+#include "model/state.h"
+
+struct hooke_counts {
+  int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
+      linear_iterations, error_test_failures;
+};
+
+/* The schedule of a run: whole numbers of steps for a fixed-step method, times for an adaptive one. */
+struct hooke_schedule {
+  double step, duration, every; /* NaN where not given */
+  int64_t steps, frame_steps;   /* fixed step: in all, and between frames */
+  int64_t frames;               /* the initial one included; 0 without a duration */
+};
+
+struct hooke_watch {
+  hooke_observer *observer;
+  void *ctx;
+  int64_t stride;
+};
+
+struct hooke_integrator {
+  const struct hooke_method *method;
+  hooke_options *options;
+  struct hooke_schedule schedule;
+
+  /* second-order problem */
+  const hooke_system *system;
+  struct hooke_motion *motion;
+  /* first-order problem */
+  hooke_rate *rate;
+  void *rate_ctx;
+  double *x, *slope; /* size each */
+
+  int64_t size; /* numbers in q */
+  void *own;    /* the method's scratch */
+  int64_t own_memory;
+
+  double t0, t;                                    /* where the run began, and where it is */
+  int64_t k;                                       /* steps since t0 */
+  hooke_state *good;                               /* the last state that passed the check */
+  double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
+  double diverged_at;
+
+  struct hooke_watch on_frame, on_step;
+  struct hooke_counts count;
+  double wall_seconds;
+  int32_t stop_value;
+};
+
+/* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
+int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,
+                            struct hooke_schedule *schedule);
+
+/* Forces at the motion's place and time t, counted; HOOKE_STOPPED with the stop value kept. */
+int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
+/* Driven and pinned particles put where they belong at time t. */
+int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);
+/* slope = phi(t, x), counted. */
+int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
+
+/* `begin` and `store` of every fixed-step method. */
+int32_t hooke_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
+int32_t hooke_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
+
+/* Divergence: remembers the energy at the start; then HOOKE_DIVERGED, with the last good state put back into
+ * `state`, if the state has left every physical bound. Without `energy` only numbers that are not finite are
+ * looked for. */
+int32_t hooke_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
+int32_t hooke_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
+
+#endif

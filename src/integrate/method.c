@@ -1,0 +1,41 @@
+#include "integrate/method.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static const struct hooke_method *const table[] = {
+    &hooke_forward_euler,
+    &hooke_symplectic_euler,
+    &hooke_cvode_bdf,
+    &hooke_cvode_adams,
+};
+
+int64_t hooke_method_count(void) {
+  return (int64_t)(sizeof table / sizeof table[0]);
+}
+
+const char *hooke_method_name(int64_t method) {
+  return method >= 0 && method < hooke_method_count() ? table[method]->name : NULL;
+}
+
+const struct hooke_method *hooke_method_find(const char *name) {
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    if (strcmp(table[k]->name, name) == 0) return table[k];
+  }
+  return NULL;
+}
+
+const char *hooke_method_summary(const char *name) {
+  const struct hooke_method *method = hooke_method_find(name);
+  return method ? method->summary : NULL;
+}
+
+int32_t hooke_method_is_adaptive(const char *name) {
+  const struct hooke_method *method = hooke_method_find(name);
+  return method ? method->adaptive : -1;
+}
+
+int32_t hooke_method_is_built(const char *name) {
+  const struct hooke_method *method = hooke_method_find(name);
+  return method ? method->built : 0;
+}

@@ -1,0 +1,29 @@
+/* The table of methods. A new method is one file and one row in method.c. */
+#ifndef HOOKE_INTEGRATE_METHOD_H
+#define HOOKE_INTEGRATE_METHOD_H
+
+#include "hooke/integrator.h"
+
+/* What a row says of itself, and how it is run. `create` and `destroy` may be NULL. All return a status. */
+struct hooke_method {
+  const char *name, *summary;
+  int32_t built;                     /* 0: this build is without what it needs */
+  int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
+  int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
+  int32_t (*create)(hooke_integrator *integrator);
+  void (*destroy)(hooke_integrator *integrator);
+  /* takes up t, q and v */
+  int32_t (*begin)(hooke_integrator *integrator, const hooke_state *state);
+  /* one step; an adaptive method moves integrator->t, a fixed-step one has it moved for it */
+  int32_t (*step)(hooke_integrator *integrator);
+  /* writes the solution at time t, which lies within the last step */
+  int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
+};
+
+extern const struct hooke_method hooke_forward_euler, hooke_symplectic_euler, hooke_cvode_bdf,
+    hooke_cvode_adams;
+
+/* Row of this name, or NULL. */
+const struct hooke_method *hooke_method_find(const char *name);
+
+#endif

@@ -1,0 +1,159 @@
+/* Options of a run, and the schedule that follows from them. */
+#include "integrate/integrator.h"
+
+#include "core/status.h"
+
+#include <math.h>
+
+static const struct hooke_option_row run_rows[] = {
+    {.name = "method",
+     .type = HOOKE_OPTION_TEXT,
+     .fallback = "symplectic-euler",
+     .doc = "method, see docs/methods.md"},
+    {.name = "step",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "time step of a fixed-step method"},
+    {.name = "duration",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "time to run, a whole multiple of step"},
+    {.name = "every",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "time between frames, a whole multiple of step; about duration/100 if not given"},
+    {.name = "rtol",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1e-15,
+     .high = 0.1,
+     .fallback = "1e-6",
+     .doc = "relative tolerance of an error-controlled method"},
+    {.name = "atol",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "m",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .fallback = "1e-9",
+     .doc = "absolute tolerance of positions"},
+    {.name = "atol_velocity",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "m/s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "absolute tolerance of velocities; the number of atol if not given"},
+    {.name = "max_order",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1,
+     .high = 12,
+     .whole = 1,
+     .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use; the highest if not "
+            "given"},
+    {.name = "max_steps",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1,
+     .high = 9e15,
+     .whole = 1,
+     .doc = "steps that an error-controlled method may take in one run; no limit if not given"},
+    {.name = "threads",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1,
+     .high = 1024,
+     .whole = 1,
+     .fallback = "1",
+     .doc = "most threads that may be used; results do not depend on it"},
+};
+
+static const struct hooke_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};
+
+int32_t hooke_run_options_create(hooke_options **options) {
+  return hooke_options_create(&run_table, options);
+}
+
+/* ---- schedule ---- */
+
+/* 1 if `value` is a whole multiple of `step` to 1e-9 relative, with the multiple in `count`. */
+static int is_multiple(double value, double step, int64_t *count) {
+  const double whole = round(value / step);
+  *count = whole < 9e15 ? (int64_t)whole : 0;
+  return whole >= 1.0 && whole < 9e15 && fabs(value - whole * step) <= 1e-9 * value;
+}
+
+/* The step nearest to `step`, from above or below, of which `value` and `other` (NaN: none) are whole
+ * multiples; NaN if none is near. */
+static double fitting_step(double value, double other, double step, int larger) {
+  const double start = larger ? floor(value / step) : ceil(value / step);
+  for (int64_t tries = 0; tries < 100000; tries++) {
+    const double divisor = larger ? start - (double)tries : start + (double)tries;
+    if (divisor < 1.0 || divisor > 9e15) break;
+    int64_t count;
+    if (isnan(other) || is_multiple(other, value / divisor, &count)) return value / divisor;
+  }
+  return NAN;
+}
+
+static int32_t refuse_step(const char *name, double value, double other, double step) {
+  const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
+  if (isnan(above) && isnan(below)) {
+    return hooke_fail(HOOKE_BAD_VALUE, name,
+                      "%.17g s is not a whole multiple of step %.17g s; no step near it fits", value, step);
+  }
+  if (isnan(above) || isnan(below) || above == below) {
+    return hooke_fail(HOOKE_BAD_VALUE, name,
+                      "%.17g s is not a whole multiple of step %.17g s; the nearest step that fits is %.17g",
+                      value, step, isnan(below) ? above : below);
+  }
+  return hooke_fail(
+      HOOKE_BAD_VALUE, name,
+      "%.17g s is not a whole multiple of step %.17g s; the nearest steps that fit are %.17g and %.17g",
+      value, step, below, above);
+}
+
+static int32_t read_fixed(struct hooke_schedule *s, double step) {
+  if (isnan(step)) {
+    return hooke_fail(HOOKE_BAD_VALUE, "step", "is missing; this method needs a step > 0 [s]");
+  }
+  if (!isnan(s->duration) && !is_multiple(s->duration, step, &s->steps)) {
+    return refuse_step("duration", s->duration, s->every, step);
+  }
+  if (!isnan(s->every) && !is_multiple(s->every, step, &s->frame_steps)) {
+    return refuse_step("every", s->every, s->duration, step);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,
+                            struct hooke_schedule *s) {
+  const double step = hooke_options_number(options, "step");
+  *s = (struct hooke_schedule){.step = step,
+                               .duration = hooke_options_number(options, "duration"),
+                               .every = hooke_options_number(options, "every")};
+  if (!method->adaptive) {
+    const int32_t status = read_fixed(s, step);
+    if (status != HOOKE_OK) return status;
+  }
+  if (isnan(s->duration)) return HOOKE_OK;
+  if (isnan(s->every)) {
+    s->frame_steps = isnan(step) ? 0 : (int64_t)fmax(1.0, round(s->duration / 100.0 / step));
+    s->every = isnan(step) ? s->duration / 100.0 : (double)s->frame_steps * step;
+    const int32_t status = hooke_options_set_number(options, "every", s->every);
+    if (status != HOOKE_OK) return status;
+  }
+  const double frames = method->adaptive ? floor(s->duration / s->every * (1.0 + 1e-9)) : 0.0;
+  if (frames > 9e15) {
+    return hooke_fail(HOOKE_BAD_VALUE, "every", "%.17g s gives %g frames; allowed: up to 9e15", s->every,
+                      frames);
+  }
+  s->frames = 1 + (method->adaptive ? (int64_t)frames : s->steps / s->frame_steps);
+  return HOOKE_OK;
+}
