@@ -1,0 +1,126 @@
+#include "measure/node_blocks.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A stretch below this is rounding of positions, not tension. */
+static const double ROUNDING = 1e-9;
+
+/* block += along u u^T + across (I - u u^T) */
+static void add_axial(double block[6], const double u[3], double along, double across) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; k++) {
+    block[k] += (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
+  }
+}
+
+static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spring *spring, const double *q) {
+  const hooke_system *system = blocks->system;
+  /* a cable counts as taut: it may become so at any time */
+  struct hooke_spring taut = *spring;
+  taut.pull_only = 0;
+  struct hooke_stretch s;
+  hooke_spring_stretch(&taut, q, NULL, &s);
+  const int no_direction = s.length == 0.0;
+  const double across = no_direction ? spring->kappa : fmax(0.0, s.tension / s.length);
+  if (spring->kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, spring->gamma / spring->kappa);
+  blocks->across |= across > ROUNDING * spring->kappa;
+  const int64_t end[2] = {spring->head, spring->tail};
+  for (int k = 0; k < 2; k++) {
+    if (system->held[end[k]]) continue;
+    const double weight = system->held[end[1 - k]] ? 1.0 : 2.0;
+    add_axial(blocks->stiffness + 6 * end[k], s.direction, weight * spring->kappa, weight * across);
+    add_axial(blocks->damping + 6 * end[k], s.direction, weight * spring->gamma, 0.0);
+  }
+}
+
+int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
+                                 struct hooke_node_blocks *blocks) {
+  *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
+  const int32_t status = hooke_eigen_create(&blocks->eigen);
+  if (status != HOOKE_OK) return status;
+  blocks->stiffness = hooke_new(6 * system->particle_count, sizeof(double));
+  blocks->damping = hooke_new(6 * system->particle_count, sizeof(double));
+  if (blocks->stiffness == NULL || blocks->damping == NULL) {
+    hooke_node_blocks_release(blocks);
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
+      if (system->held[spring.head] && system->held[spring.tail]) continue;
+      add_spring(blocks, &spring, q);
+    }
+  }
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    for (int a = 0; a < 3 && !system->held[p]; a++)
+      blocks->damping[6 * p + a] += system->drag;
+  }
+  return HOOKE_OK;
+}
+
+void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
+  hooke_eigen_destroy(blocks->eigen);
+  hooke_free(blocks->stiffness);
+  hooke_free(blocks->damping);
+  memset(blocks, 0, sizeof *blocks);
+}
+
+/* The largest eigenvalue over particles of block/m. */
+static double largest_rate(const struct hooke_node_blocks *blocks, const double *block) {
+  double most = 0.0;
+  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
+    if (blocks->system->held[p]) continue;
+    most = fmax(most, hooke_eigen_largest(blocks->eigen, block + 6 * p) * blocks->system->inverse_mass[p]);
+  }
+  return most;
+}
+
+double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks) {
+  return sqrt(largest_rate(blocks, blocks->stiffness));
+}
+
+double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks) {
+  return largest_rate(blocks, blocks->damping);
+}
+
+/* The largest eigenvalue of (h^2 B + 2 h G)/m at particle p. */
+static double growth(const struct hooke_node_blocks *blocks, int64_t p, double h) {
+  double matrix[6];
+  for (int k = 0; k < 6; k++) {
+    matrix[k] = h * (h * blocks->stiffness[6 * p + k] + 2.0 * blocks->damping[6 * p + k]);
+  }
+  return hooke_eigen_largest(blocks->eigen, matrix) * blocks->system->inverse_mass[p];
+}
+
+/* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */
+static double too_large(const struct hooke_node_blocks *blocks, int64_t p) {
+  const double *b = blocks->stiffness + 6 * p, *g = blocks->damping + 6 * p;
+  const double trace_b = b[0] + b[1] + b[2], trace_g = g[0] + g[1] + g[2];
+  const double mass = blocks->system->mass[p];
+  if (!(trace_b > 0.0) && !(trace_g > 0.0)) return INFINITY;
+  /* h^2 b + 2 h g = 12 m, written so that nothing cancels */
+  return 12.0 * mass / (trace_g + sqrt(trace_g * trace_g + 12.0 * mass * trace_b));
+}
+
+double hooke_node_blocks_step(const struct hooke_node_blocks *blocks) {
+  double best = INFINITY;
+  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
+    if (blocks->system->held[p]) continue;
+    const double start = too_large(blocks, p);
+    double high = fmin(best, start), low = 0.0;
+    if (isinf(high) || growth(blocks, p, high) <= 4.0) continue;
+    while (high - low > 1e-12 * high) {
+      const double middle = 0.5 * (low + high);
+      if (growth(blocks, p, middle) <= 4.0)
+        low = middle;
+      else
+        high = middle;
+    }
+    best = low;
+  }
+  return best;
+}

@@ -1,0 +1,32 @@
+/* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
+ *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
+ *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
+ * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I, exactly.
+ */
+#ifndef HOOKE_MEASURE_NODE_BLOCKS_H
+#define HOOKE_MEASURE_NODE_BLOCKS_H
+
+#include "measure/eigen.h"
+#include "model/system.h"
+
+struct hooke_node_blocks {
+  const hooke_system *system;
+  struct hooke_eigen *eigen;
+  double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
+  double least_ratio;          /* smallest gamma/kappa of a stiff spring, infinity without one */
+  int32_t across; /* some stretched spring is stiff across its direction, where it has no damping */
+};
+
+/* At positions q (3n). HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
+                                 struct hooke_node_blocks *blocks);
+void hooke_node_blocks_release(struct hooke_node_blocks *blocks);
+
+/* Bounds of the largest frequency [rad/s] and of the largest damping rate [1/s]. */
+double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks);
+double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks);
+
+/* The largest h at which h^2 K + 2 h C stays below 4 M by these blocks; infinity if none limits it. */
+double hooke_node_blocks_step(const struct hooke_node_blocks *blocks);
+
+#endif
