@@ -169,11 +169,11 @@ static int32_t step(hooke_integrator *it) {
   realtype reached = it->t;
   const int flag = CVode(own->memory, goal, own->y, &reached, CV_ONE_STEP);
   read_counts(it);
+  if (it->stop_value != 0) return HOOKE_STOPPED;
   if (flag >= 0) {
     it->t = reached;
     return HOOKE_OK;
   }
-  if (it->stop_value != 0) return HOOKE_STOPPED;
   return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE gave up at t = %.17g s: %s", it->t, own->message);
 }
 
@@ -194,40 +194,22 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return status;
 }
 
-#define BUILT 1
+#define ROW_OF_CVODE                                                                                         \
+  .built = 1, .adaptive = 1, .first_order = 1, .second_order = 1, .create = create, .destroy = destroy,      \
+  .begin = begin, .step = step, .store = store
+
 #else
-#define BUILT   0
-#define create  NULL
-#define destroy NULL
-#define begin   NULL
-#define step    NULL
-#define store   NULL
+
+#define ROW_OF_CVODE .built = 0, .adaptive = 1, .first_order = 1, .second_order = 1
+
 #endif
 
 const struct hooke_method hooke_cvode_bdf = {
     .name = "cvode-bdf",
-    .summary = "SUNDIALS CVODE, error-controlled, implicit, orders 1 to 5; for "
-               "strong damping",
-    .built = BUILT,
-    .adaptive = 1,
-    .first_order = 1,
-    .second_order = 1,
-    .create = create,
-    .destroy = destroy,
-    .begin = begin,
-    .step = step,
-    .store = store};
+    .summary = "SUNDIALS CVODE, error-controlled, implicit, orders 1 to 5; for strong damping",
+    ROW_OF_CVODE};
 
 const struct hooke_method hooke_cvode_adams = {
     .name = "cvode-adams",
-    .summary = "SUNDIALS CVODE, error-controlled, explicit in effect, orders 1 "
-               "to 12; for weak damping",
-    .built = BUILT,
-    .adaptive = 1,
-    .first_order = 1,
-    .second_order = 1,
-    .create = create,
-    .destroy = destroy,
-    .begin = begin,
-    .step = step,
-    .store = store};
+    .summary = "SUNDIALS CVODE, error-controlled, explicit in effect, orders 1 to 12; for weak damping",
+    ROW_OF_CVODE};

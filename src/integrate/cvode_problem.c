@@ -77,6 +77,8 @@ int hooke_cvode_rhs(realtype t, N_Vector y, N_Vector slope, void *ctx) {
   const struct hooke_cvode *own = it->own;
   const double *from = N_VGetArrayPointer(y);
   double *to = N_VGetArrayPointer(slope);
+  /* CVODE may take a failure for a reason to try a smaller step */
+  if (it->stop_value != 0) return GIVE_UP;
   if (it->rate) return hooke_integrator_rate(it, t, from, to) == HOOKE_OK ? FINE : GIVE_UP;
   if (own->free_count == 0) {
     to[0] = 0.0;

@@ -15,9 +15,15 @@ int32_t hooke_integrator_forces(hooke_integrator *it, double t) {
   return keep_stop_value(it, hooke_motion_forces(it->system, it->motion, t));
 }
 
+int32_t hooke_integrator_drive(hooke_integrator *it, double t) {
+  if (it->system == NULL || it->system->drive_count == 0) return HOOKE_OK;
+  return keep_stop_value(it, hooke_motion_drive(it->system, it->motion, t));
+}
+
 int32_t hooke_integrator_hold(hooke_integrator *it, double t) {
-  if (it->system->held_count == 0) return HOOKE_OK;
-  return keep_stop_value(it, hooke_motion_hold(it->system, it->motion, t));
+  const int32_t status = hooke_integrator_drive(it, t);
+  if (status == HOOKE_OK) hooke_motion_hold(it->system, it->motion);
+  return status;
 }
 
 int32_t hooke_integrator_rate(hooke_integrator *it, double t, const double *x, double *slope) {

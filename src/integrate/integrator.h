@@ -60,7 +60,8 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
 
 /* Forces at the motion's place and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
-/* Driven and pinned particles put where they belong at time t. */
+/* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
+int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);
 /* slope = phi(t, x), counted. */
 int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);

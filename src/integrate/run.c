@@ -49,17 +49,20 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return status;
 }
 
-/* `count` steps of a fixed-step method; time is t0 + k h, not a running sum. */
+/* `count` steps of a fixed-step method; time is t0 + k h, not a running sum. A callback that stops leaves the
+ * last whole step: drives are asked for the end of a step before anything moves. */
 static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
   const double begun = hooke_clock_seconds();
   for (int64_t s = 0; s < count && status == HOOKE_OK; s++) {
-    status = it->method->step(it);
+    const double next = it->t0 + (double)(it->k + 1) * it->schedule.step;
+    status = hooke_integrator_drive(it, next);
+    if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
+    if (it->system && it->system->held_count > 0) hooke_motion_hold(it->system, it->motion);
+    it->t = next;
     it->k++;
     it->count.steps++;
-    it->t = it->t0 + (double)it->k * it->schedule.step;
-    if (it->system) status = hooke_integrator_hold(it, it->t);
   }
   it->wall_seconds += hooke_clock_seconds() - begun;
   return status;
@@ -104,38 +107,46 @@ static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last,
   return status;
 }
 
+/* Checks and observers of an internal step. */
 static int32_t report_step(hooke_integrator *it, hooke_state *state, int64_t limit) {
   int32_t status = HOOKE_OK;
   const int watched = it->on_step.observer && it->k % it->on_step.stride == 0;
   const int checked = it->k % CHECK_STEPS == 0;
-  if (watched || checked) status = store(it, it->t, state);
+  if (watched || checked || it->k >= limit) status = store(it, it->t, state);
   if (status == HOOKE_OK && checked) status = hooke_divergence_check(it, state, 1);
   if (status == HOOKE_OK && watched) status = observe(it, &it->on_step, state);
   if (status == HOOKE_OK && it->k >= limit) {
-    store(it, it->t, state);
     status = hooke_fail(HOOKE_STEP_LIMIT, NULL, "the run used up max_steps = %lld at t = %.17g s",
                         (long long)limit, it->t);
   }
   return status;
 }
 
-/* On to frame f = 1, 2, ... by interpolation within internal steps, then to the end of the run. */
-static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, double duration, double every,
-                            int64_t frames) {
-  const double end = it->t0 + duration, steps = hooke_options_number(it->options, "max_steps");
+static int32_t report_frame(hooke_integrator *it, hooke_state *state, double t) {
+  int32_t status = store(it, t, state);
+  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
+  return status == HOOKE_OK ? observe(it, &it->on_frame, state) : status;
+}
+
+/* Internal steps to the end of the run; frames 1, 2, ... are interpolated within the step that passes them.
+ */
+static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const struct hooke_schedule *schedule) {
+  const double end = it->t0 + schedule->duration, steps = hooke_options_number(it->options, "max_steps");
   const int64_t limit = isnan(steps) ? INT64_MAX : (int64_t)steps;
   int32_t status = HOOKE_OK;
-  for (int64_t f = 1; f <= frames && status == HOOKE_OK; f++) {
-    const double t = f < frames ? fmin(it->t0 + (double)f * every, end) : end;
-    while (it->t < t && status == HOOKE_OK) {
-      status = take_adaptive_step(it, state);
-      if (status == HOOKE_OK && it->t < t) status = report_step(it, state, limit);
+  int64_t frame = 1;
+  while (it->t < end && status == HOOKE_OK) {
+    status = take_adaptive_step(it, state);
+    while (status == HOOKE_OK && frame < schedule->frames) {
+      const double t = fmin(it->t0 + (double)frame * schedule->every, end);
+      if (t > it->t) break;
+      status = report_frame(it, state, t);
+      frame++;
     }
-    if (status == HOOKE_OK) status = store(it, t, state);
-    if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-    if (status == HOOKE_OK && f < frames) status = observe(it, &it->on_frame, state);
+    if (status == HOOKE_OK && it->t < end) status = report_step(it, state, limit);
   }
-  return status;
+  if (status == HOOKE_OK) status = store(it, end, state);
+  return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
 }
 
 int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
@@ -149,7 +160,7 @@ int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   const struct hooke_schedule *s = &it->schedule;
   if (!it->method->adaptive) return run_fixed(it, state, s->steps, s->frame_steps);
-  return run_adaptive(it, state, s->duration, s->every, s->frames);
+  return run_adaptive(it, state, s);
 }
 
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */

@@ -139,7 +139,8 @@ static int32_t run_row(hooke_comparison *c, int64_t k) {
 }
 
 int32_t hooke_comparison_run(hooke_comparison *c) {
-  if (c->runs_done > 0) return hooke_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
+  if (c->runs_done > 0)
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
   int32_t status = hooke_comparison_prepare(c);
   if (status == HOOKE_OK) status = run_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)

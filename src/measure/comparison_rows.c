@@ -46,7 +46,8 @@ static void release_room(hooke_comparison *c) {
 void hooke_comparison_destroy(hooke_comparison *c) {
   if (c == NULL) return;
   release_room(c);
-  for (int64_t k = 0; k < c->row_count; k++) hooke_free(c->row[k].method);
+  for (int64_t k = 0; k < c->row_count; k++)
+    hooke_free(c->row[k].method);
   hooke_options_destroy(c->options);
   hooke_free(c->row);
   hooke_free(c);
@@ -54,7 +55,8 @@ void hooke_comparison_destroy(hooke_comparison *c) {
 
 int32_t hooke_comparison_add(hooke_comparison *c, const char *method) {
   if (c->reference) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the comparison is under way; add methods before it is run or written");
+    return hooke_fail(HOOKE_BAD_CALL, NULL,
+                      "the comparison is under way; add methods before it is run or written");
   }
   if (hooke_method_is_adaptive(method) < 0) {
     return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);

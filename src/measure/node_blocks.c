@@ -112,7 +112,8 @@ double hooke_node_blocks_step(const struct hooke_node_blocks *blocks) {
     if (blocks->system->held[p]) continue;
     const double start = too_large(blocks, p);
     double high = fmin(best, start), low = 0.0;
-    if (isinf(high) || growth(blocks, p, high) <= 4.0) continue;
+    if (isinf(high)) continue;
+    if (growth(blocks, p, high) <= 4.0) low = high;
     while (high - low > 1e-12 * high) {
       const double middle = 0.5 * (low + high);
       if (growth(blocks, p, middle) <= 4.0)

@@ -6,12 +6,11 @@
 
 #include <string.h>
 
-static int64_t largest_drive(const hooke_system *system) {
-  int64_t largest = 0;
-  for (int64_t k = 0; k < system->drive_count; k++) {
-    if (system->drive[k].count > largest) largest = system->drive[k].count;
-  }
-  return largest;
+static int64_t driven_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->drive_count; k++)
+    count += system->drive[k].count;
+  return count;
 }
 
 int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **out) {
@@ -20,7 +19,7 @@ int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **ou
    * sets */
   const int64_t stride = (n + 7) / 8 * 8 + 24;
   const int64_t components = 9 * stride, rows = system->force ? 9 * n : 0;
-  const int64_t still = 3 * system->held_count, driven = 6 * largest_drive(system);
+  const int64_t still = 3 * system->held_count, driven = 6 * driven_count(system);
   struct hooke_motion *motion = hooke_new(1, sizeof *motion);
   double *block = hooke_new(components + rows + still + driven, sizeof(double));
   if (motion == NULL || block == NULL) {
@@ -93,13 +92,22 @@ int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *mot
   return HOOKE_OK;
 }
 
-static int32_t hold_driven(const struct hooke_drive_group *drive, struct hooke_motion *motion, double t) {
-  double *q = motion->driven, *v = motion->driven + 3 * drive->count;
-  const int32_t value = hooke_drive_evaluate(drive, t, q, v);
-  if (value != 0) {
-    motion->stop_value = value;
-    return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.17g s", (int)value, t);
+int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t) {
+  double *q = motion->driven;
+  for (int64_t k = 0; k < system->drive_count; k++) {
+    const struct hooke_drive_group *drive = &system->drive[k];
+    const int32_t value = hooke_drive_evaluate(drive, t, q, q + 3 * drive->count);
+    if (value != 0) {
+      motion->stop_value = value;
+      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.17g s", (int)value, t);
+    }
+    q += 6 * drive->count;
   }
+  return HOOKE_OK;
+}
+
+static void hold_driven(const struct hooke_drive_group *drive, const double *q, struct hooke_motion *motion) {
+  const double *v = q + 3 * drive->count;
   for (int64_t k = 0; k < drive->count; k++) {
     const int32_t p = drive->particle[k];
     for (int a = 0; a < 3; a++) {
@@ -107,10 +115,9 @@ static int32_t hold_driven(const struct hooke_drive_group *drive, struct hooke_m
       motion->v[a][p] = v[3 * k + a];
     }
   }
-  return HOOKE_OK;
 }
 
-int32_t hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion, double t) {
+void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion) {
   for (int64_t k = 0; k < system->held_count; k++) {
     const int32_t p = system->held_particle[k];
     if (system->held[p] != HOOKE_HELD_PINNED) continue;
@@ -119,9 +126,9 @@ int32_t hooke_motion_hold(const hooke_system *system, struct hooke_motion *motio
       motion->v[a][p] = 0.0;
     }
   }
+  const double *driven = motion->driven;
   for (int64_t k = 0; k < system->drive_count; k++) {
-    const int32_t status = hold_driven(&system->drive[k], motion, t);
-    if (status != HOOKE_OK) return status;
+    hold_driven(&system->drive[k], driven, motion);
+    driven += 6 * system->drive[k].count;
   }
-  return HOOKE_OK;
 }

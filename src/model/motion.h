@@ -10,7 +10,7 @@ struct hooke_motion {
   double *q[3], *v[3], *f[3]; /* n each, in one block */
   double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
   double *still;              /* positions of pinned particles, 3 a held particle */
-  double *driven;             /* room for one drive's q and v, 3 a particle each */
+  double *driven;             /* q and v of each drive in turn, 3 a particle each */
   int64_t memory;             /* bytes */
   int64_t coincident;         /* springs without direction in the last force evaluation */
   int32_t stop_value;         /* what a force or drive callback returned, 0 while all go on */
@@ -30,7 +30,10 @@ void hooke_components_from_rows(int64_t n, const double *rows, double *const com
  * it. */
 int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t);
 
-/* Puts pinned particles back where they were loaded, at rest, and driven ones where they are at time t. */
-int32_t hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion, double t);
+/* Asks the drives where their particles are at time t; HOOKE_STOPPED if a callback asked for it. */
+int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t);
+
+/* Puts pinned particles back where they were loaded, at rest, and driven ones where the drives have last said. */
+void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion);
 
 #endif

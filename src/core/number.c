@@ -1,0 +1,98 @@
+#include "core/number.h"
+
+#include "core/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINT_SIZE = 16, SHORT_NUMBER = 96 };
+
+/* The decimal point of this thread's locale, which may be several bytes long. */
+static size_t decimal_point(char *point) {
+  char probe[POINT_SIZE];
+  int length = snprintf(probe, sizeof probe, "%.1f", 0.0);
+  size_t bytes = length >= 3 && length < POINT_SIZE ? (size_t)length - 2 : 0;
+  memcpy(point, probe + 1, bytes);
+  point[bytes] = '\0';
+  return bytes;
+}
+
+static int is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+static int64_t skip_digits(const char *text, int64_t at, int64_t length) {
+  while (at < length && is_digit(text[at]))
+    at++;
+  return at;
+}
+
+/* Checks the grammar; `point` is where the decimal point is (or -1), `nonzero` whether a digit before the
+ * exponent is. */
+static int is_number(const char *text, int64_t length, int64_t *point, int *nonzero) {
+  int64_t at = length > 0 && (text[0] == '-' || text[0] == '+');
+  int64_t start = at;
+  at = skip_digits(text, at, length);
+  int64_t digits = at - start;
+  *point = -1;
+  if (at < length && text[at] == '.') {
+    *point = at;
+    int64_t after = skip_digits(text, at + 1, length);
+    digits += after - at - 1;
+    at = after;
+  }
+  *nonzero = 0;
+  for (int64_t k = start; k < at; k++)
+    if (text[k] >= '1' && text[k] <= '9') *nonzero = 1;
+  if (digits == 0) return 0;
+  if (at < length && (text[at] == 'e' || text[at] == 'E')) {
+    at++;
+    if (at < length && (text[at] == '-' || text[at] == '+')) at++;
+    int64_t after = skip_digits(text, at, length);
+    if (after == at) return 0;
+    at = after;
+  }
+  return at == length;
+}
+
+enum hooke_number_result hooke_number_parse(const char *text, int64_t length, double *value) {
+  int64_t point = -1;
+  int nonzero = 0;
+  if (!is_number(text, length, &point, &nonzero)) return HOOKE_NUMBER_JUNK;
+  char local_point[POINT_SIZE], buffer[SHORT_NUMBER + POINT_SIZE];
+  size_t point_bytes = decimal_point(local_point);
+  char *copy = buffer;
+  if (length >= SHORT_NUMBER) copy = hooke_new(length + POINT_SIZE, 1);
+  if (copy == NULL) return HOOKE_NUMBER_NO_MEMORY;
+  size_t before = point < 0 ? (size_t)length : (size_t)point;
+  memcpy(copy, text, before);
+  copy[before] = '\0';
+  if (point >= 0) {
+    size_t after = (size_t)length - before - 1;
+    memcpy(copy + before, local_point, point_bytes);
+    memcpy(copy + before + point_bytes, text + before + 1, after);
+    copy[before + point_bytes + after] = '\0';
+  }
+  double number = strtod(copy, NULL);
+  if (copy != buffer) hooke_free(copy);
+  if (!isfinite(number)) return HOOKE_NUMBER_TOO_LARGE;
+  if (nonzero && number == 0) return HOOKE_NUMBER_TOO_SMALL;
+  *value = number;
+  return HOOKE_NUMBER_FINE;
+}
+
+void hooke_number_print(double value, char *text) {
+  int precision = 15;
+  do {
+    snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", precision, value);
+  } while (++precision <= 17 && isfinite(value) && strtod(text, NULL) != value);
+  char point[POINT_SIZE];
+  size_t bytes = decimal_point(point);
+  char *found = bytes ? strstr(text, point) : NULL;
+  if (found) {
+    *found = '.';
+    memmove(found + 1, found + bytes, strlen(found + bytes) + 1);
+  }
+}

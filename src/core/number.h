@@ -1,0 +1,24 @@
+/* Decimal numbers as text, read and written alike in every locale. */
+#ifndef HOOKE_CORE_NUMBER_H
+#define HOOKE_CORE_NUMBER_H
+
+#include "hooke/base.h"
+
+enum hooke_number_result {
+  HOOKE_NUMBER_FINE,
+  HOOKE_NUMBER_JUNK, /* not a decimal number from first to last character (nan, inf and hexadecimal neither)
+                      */
+  HOOKE_NUMBER_TOO_LARGE, /* beyond the largest double */
+  HOOKE_NUMBER_TOO_SMALL, /* not zero, but would be read as zero */
+  HOOKE_NUMBER_NO_MEMORY
+};
+
+/* Reads `length` characters: sign, digits with at most one point, exponent; no blanks. `value` is set if
+ * fine. */
+enum hooke_number_result hooke_number_parse(const char *text, int64_t length, double *value);
+
+/* The shortest text that reads back to the same bits; `text` has room for HOOKE_NUMBER_SIZE characters. */
+enum { HOOKE_NUMBER_SIZE = 40 };
+void hooke_number_print(double value, char *text);
+
+#endif

@@ -1,0 +1,319 @@
+#include "core/option.h"
+
+#include "core/memory.h"
+#include "core/option_value.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
+
+/* One row of the table or of a family in it, flattened: a family is followed by its members. */
+struct slot {
+  const struct hooke_option_row *row;
+  int64_t family; /* slot of the family that it belongs to; -1: none */
+  char *name;     /* with dots */
+  char *allowed;
+  int32_t is_set;
+  struct hooke_option_value value, fallback;
+};
+
+struct hooke_options {
+  const struct hooke_option_table *table;
+  int64_t slot_count;
+  struct slot *slot;
+};
+
+static int64_t count_rows(const struct hooke_option_table *table) {
+  int64_t count = table->row_count;
+  for (int32_t k = 0; k < table->row_count; k++)
+    if (table->rows[k].family) count += count_rows(table->rows[k].family);
+  return count;
+}
+
+static int32_t fill_slot(struct slot *slot, const struct hooke_option_row *row, const char *prefix,
+                         int64_t family) {
+  char name[NAME_SIZE], allowed[TEXT_SIZE];
+  snprintf(name, sizeof name, "%s%s", prefix, row->name);
+  hooke_option_describe(row, allowed, sizeof allowed);
+  slot->row = row;
+  slot->family = family;
+  slot->name = hooke_copy_text(name);
+  slot->allowed = hooke_copy_text(allowed);
+  if (slot->name == NULL || slot->allowed == NULL) return HOOKE_NO_MEMORY;
+  if (row->fallback == NULL) return HOOKE_OK;
+  return hooke_option_value_from_text(row, name, row->fallback, &slot->fallback);
+}
+
+static int32_t fill_slots(hooke_options *options, const struct hooke_option_table *table, const char *prefix,
+                          int64_t family) {
+  for (int32_t k = 0; k < table->row_count; k++) {
+    int64_t at = options->slot_count++;
+    int32_t status = fill_slot(&options->slot[at], &table->rows[k], prefix, family);
+    if (status) return status;
+    if (table->rows[k].family == NULL) continue;
+    char inner[NAME_SIZE];
+    snprintf(inner, sizeof inner, "%s%s.", prefix, table->rows[k].name);
+    status = fill_slots(options, table->rows[k].family, inner, at);
+    if (status) return status;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_options_create(const struct hooke_option_table *table, hooke_options **options) {
+  *options = NULL;
+  hooke_options *made = hooke_new(1, sizeof *made);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  made->table = table;
+  made->slot = hooke_new(count_rows(table), sizeof *made->slot);
+  int32_t status = made->slot ? fill_slots(made, table, "", -1) : HOOKE_NO_MEMORY;
+  if (status)
+    hooke_options_destroy(made);
+  else
+    *options = made;
+  return status;
+}
+
+void hooke_options_destroy(hooke_options *options) {
+  if (options == NULL) return;
+  for (int64_t k = 0; k < options->slot_count; k++) {
+    struct slot *slot = &options->slot[k];
+    hooke_option_value_clear(&slot->value);
+    hooke_option_value_clear(&slot->fallback);
+    hooke_free(slot->name);
+    hooke_free(slot->allowed);
+  }
+  hooke_free(options->slot);
+  hooke_free(options);
+}
+
+int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
+  int32_t status = hooke_options_create(options->table, copy);
+  for (int64_t k = 0; status == HOOKE_OK && k < options->slot_count; k++) {
+    (*copy)->slot[k].is_set = options->slot[k].is_set;
+    status = hooke_option_value_copy(&options->slot[k].value, &(*copy)->slot[k].value);
+  }
+  if (status) {
+    hooke_options_destroy(*copy);
+    *copy = NULL;
+  }
+  return status;
+}
+
+const struct hooke_option_table *hooke_options_table(const hooke_options *options) {
+  return options->table;
+}
+
+/* The row that `name` begins with, up to the end or a dot. */
+static const struct hooke_option_row *find_first(const struct hooke_option_table *table, const char *name,
+                                                 const char **rest) {
+  size_t length = strcspn(name, ".");
+  *rest = name[length] ? name + length + 1 : NULL;
+  for (int32_t k = 0; k < table->row_count; k++)
+    if (strncmp(table->rows[k].name, name, length) == 0 && table->rows[k].name[length] == '\0')
+      return &table->rows[k];
+  return NULL;
+}
+
+const struct hooke_option_row *hooke_options_find(const struct hooke_option_table *table, const char *name) {
+  while (table && name) {
+    const struct hooke_option_row *row = find_first(table, name, &name);
+    if (row == NULL || name == NULL) return row;
+    table = row->family;
+  }
+  return NULL;
+}
+
+/* Says which part of a dotted name is unknown, and what there is at that place. */
+static int32_t fail_unknown(const hooke_options *options, const char *name) {
+  const struct hooke_option_table *table = options->table;
+  const char *part = name;
+  for (const char *rest = NULL;; part = rest) {
+    const struct hooke_option_row *row = find_first(table, part, &rest);
+    if (row == NULL) break;
+    if (row->family == NULL || rest == NULL)
+      return hooke_fail(HOOKE_BAD_VALUE, name, "%s has no members", row->name);
+    table = row->family;
+  }
+  char wanted[NAME_SIZE];
+  snprintf(wanted, sizeof wanted, "%.*s", (int)strcspn(part, "."), part);
+  return hooke_option_unknown(table, NULL, table->name, "option", wanted);
+}
+
+static struct slot *find_slot(const hooke_options *options, const char *name) {
+  if (options == NULL || name == NULL) return NULL;
+  for (int64_t k = 0; k < options->slot_count; k++)
+    if (strcmp(options->slot[k].name, name) == 0) return &options->slot[k];
+  return NULL;
+}
+
+static int32_t require_slot(const hooke_options *options, const char *name, struct slot **slot) {
+  *slot = find_slot(options, name);
+  if (*slot) return HOOKE_OK;
+  if (options == NULL || name == NULL)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no options or no name given");
+  return fail_unknown(options, name);
+}
+
+/* Takes over `value`, and makes the families around it present. */
+static void put(hooke_options *options, struct slot *slot, const struct hooke_option_value *value) {
+  hooke_option_value_clear(&slot->value);
+  slot->value = *value;
+  slot->is_set = 1;
+  for (int64_t family = slot->family; family >= 0; family = options->slot[family].family)
+    options->slot[family].is_set = 1;
+}
+
+int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
+                                  const double *values) {
+  struct slot *slot;
+  if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
+  if (count < 0 || (count > 0 && values == NULL))
+    return hooke_fail(HOOKE_BAD_VALUE, name, "no numbers given (count %lld)", (long long)count);
+  struct hooke_option_value value;
+  int32_t status = hooke_option_value_from_numbers(slot->row, slot->name, count, values, &value);
+  if (status == HOOKE_OK) put(options, slot, &value);
+  return status;
+}
+
+int32_t hooke_options_set_number(hooke_options *options, const char *name, double value) {
+  return hooke_options_set_numbers(options, name, 1, &value);
+}
+
+int32_t hooke_options_set_text(hooke_options *options, const char *name, const char *text) {
+  struct slot *slot;
+  if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
+  if (text == NULL) return hooke_fail(HOOKE_BAD_VALUE, name, "no text given");
+  struct hooke_option_value value;
+  int32_t status = hooke_option_value_from_text(slot->row, slot->name, text, &value);
+  if (status == HOOKE_OK) put(options, slot, &value);
+  return status;
+}
+
+int32_t hooke_options_add_word(hooke_options *options, const char *name, const char *word) {
+  struct slot *slot;
+  if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
+  size_t length = strlen(word);
+  if (!slot->row->word_lists || !hooke_option_has_word(slot->row->words, word, (int64_t)length)) {
+    char shown[HOOKE_OPTION_SHOWN];
+    hooke_option_show(word, (int64_t)length, shown);
+    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown,
+                      slot->allowed);
+  }
+  size_t used = slot->value.words ? strlen(slot->value.words) : 0;
+  char *words = hooke_new((int64_t)(used + length + 2), 1);
+  if (words == NULL) return HOOKE_NO_MEMORY;
+  if (used) {
+    memcpy(words, slot->value.words, used);
+    words[used++] = ' ';
+  }
+  memcpy(words + used, word, length);
+  struct hooke_option_value value = slot->value;
+  hooke_free(value.words);
+  value.words = words;
+  memset(&slot->value, 0, sizeof slot->value);
+  put(options, slot, &value);
+  return HOOKE_OK;
+}
+
+int32_t hooke_options_unset(hooke_options *options, const char *name) {
+  struct slot *slot;
+  if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
+  hooke_option_value_clear(&slot->value);
+  slot->is_set = 0;
+  int64_t family = slot - options->slot;
+  for (int64_t k = family + 1; k < options->slot_count && options->slot[k].family >= family; k++) {
+    hooke_option_value_clear(&options->slot[k].value);
+    options->slot[k].is_set = 0;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_options_is_set(const hooke_options *options, const char *name) {
+  const struct slot *slot = find_slot(options, name);
+  return slot ? slot->is_set : 0;
+}
+
+int32_t hooke_options_has_family(const hooke_options *options, const char *name) {
+  const struct slot *slot = find_slot(options, name);
+  return slot && slot->row->type == HOOKE_OPTION_FAMILY && slot->is_set;
+}
+
+static const struct hooke_option_value *value_of(const hooke_options *options, const char *name) {
+  static const struct hooke_option_value nothing;
+  const struct slot *slot = find_slot(options, name);
+  if (slot == NULL) return &nothing;
+  return slot->is_set ? &slot->value : &slot->fallback;
+}
+
+int64_t hooke_options_number_count(const hooke_options *options, const char *name) {
+  return value_of(options, name)->count;
+}
+
+const double *hooke_options_numbers(const hooke_options *options, const char *name) {
+  return hooke_option_value_numbers(value_of(options, name));
+}
+
+double hooke_options_number(const hooke_options *options, const char *name) {
+  const struct hooke_option_value *value = value_of(options, name);
+  return value->count ? value->one : NAN;
+}
+
+const char *hooke_options_text(const hooke_options *options, const char *name) {
+  const char *words = value_of(options, name)->words;
+  return words ? words : "";
+}
+
+int32_t hooke_options_check_required(const hooke_options *options) {
+  for (int64_t k = 0; k < options->slot_count; k++) {
+    const struct slot *slot = &options->slot[k];
+    if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
+    if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
+    const char *unit = slot->row->unit ? slot->row->unit : "";
+    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s",
+                      slot->allowed, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+  }
+  return HOOKE_OK;
+}
+
+int64_t hooke_options_row_count(const hooke_options *options) {
+  return options->slot_count;
+}
+
+static const char *type_name(enum hooke_option_type type) {
+  switch (type) {
+  case HOOKE_OPTION_NUMBER:
+    return "number";
+  case HOOKE_OPTION_NUMBERS:
+    return "numbers";
+  case HOOKE_OPTION_FLAG:
+    return "flag";
+  case HOOKE_OPTION_CHOICE:
+    return "choice";
+  case HOOKE_OPTION_TEXT:
+    return "text";
+  case HOOKE_OPTION_FAMILY:
+    return "family";
+  }
+  return "";
+}
+
+const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
+  if (row < 0 || row >= options->slot_count || property == NULL) return NULL;
+  const struct slot *slot = &options->slot[row];
+  const char *text = NULL;
+  if (strcmp(property, "name") == 0) return slot->name;
+  if (strcmp(property, "type") == 0) return type_name(slot->row->type);
+  if (strcmp(property, "allowed") == 0) return slot->allowed;
+  if (strcmp(property, "unit") == 0)
+    text = slot->row->unit;
+  else if (strcmp(property, "default") == 0)
+    text = slot->row->fallback;
+  else if (strcmp(property, "doc") == 0)
+    text = slot->row->doc;
+  else
+    return NULL;
+  return text ? text : "";
+}

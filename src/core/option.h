@@ -1,0 +1,82 @@
+/* Option tables: one row per thing that can be configured. The rows are the only place where a name, a type,
+ * a unit, a bound, a default or a line of documentation is written down. */
+#ifndef HOOKE_CORE_OPTION_H
+#define HOOKE_CORE_OPTION_H
+
+#include "hooke/options.h"
+
+enum hooke_option_type {
+  HOOKE_OPTION_NUMBER,  /* one number */
+  HOOKE_OPTION_NUMBERS, /* min_count to max_count numbers */
+  HOOKE_OPTION_FLAG,    /* true or false, held as 1 or 0 */
+  HOOKE_OPTION_CHOICE,  /* one of `words` */
+  HOOKE_OPTION_TEXT,    /* any text */
+  HOOKE_OPTION_FAMILY   /* a nested table */
+};
+
+struct hooke_option_table;
+
+struct hooke_option_row {
+  const char *name;
+  enum hooke_option_type type;
+  const char *unit;
+  const char *fallback; /* as text; NULL: none */
+  double low, high;     /* bounds of every number, both included; equal: no bounds */
+  int32_t above_low;    /* 1: `low` itself is not allowed */
+  int32_t whole;        /* 1: whole numbers only */
+  int32_t required;
+  int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any */
+  int32_t columns;              /* numbers come in rows of this many in a scene ([[x,y,z],...]); 0: flat */
+  const char *words; /* separated by blanks: the words that may stand instead of numbers, or the choices */
+  int32_t
+      word_lists; /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
+  const struct hooke_option_table *family;
+  const char *doc;
+};
+
+struct hooke_option_table {
+  const char *name; /* what is configured: "rope", "run" */
+  const struct hooke_option_row *rows;
+  int32_t row_count;
+};
+
+#define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
+
+int32_t hooke_options_create(const struct hooke_option_table *table, hooke_options **options);
+
+const struct hooke_option_table *hooke_options_table(const hooke_options *options);
+
+/* The row of a dotted name, NULL if there is none. */
+const struct hooke_option_row *hooke_options_find(const struct hooke_option_table *table, const char *name);
+
+/* 1 if the family `name` was made present. */
+int32_t hooke_options_has_family(const hooke_options *options, const char *name);
+
+/* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
+int32_t hooke_options_add_word(hooke_options *options, const char *name, const char *word);
+
+/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
+int32_t hooke_options_check_required(const hooke_options *options);
+
+/* Writes "a, b or c" for the words of a row; for a table, its row names. Truncates to `size`. */
+void hooke_option_list_words(const char *words, char *text, int64_t size);
+void hooke_option_list_names(const struct hooke_option_table *table, char *text, int64_t size);
+
+/* 1 if `word` is one of `words`, which are separated by blanks (NULL: none). */
+int32_t hooke_option_has_word(const char *words, const char *word, int64_t length);
+
+/* What a row allows, for messages: "a number > 0", "3 numbers". */
+void hooke_option_describe(const struct hooke_option_row *row, char *text, int64_t size);
+
+/* A caller's text made fit for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
+ * most. */
+enum { HOOKE_OPTION_SHOWN = 64 };
+void hooke_option_show(const char *text, int64_t length, char *shown);
+
+/* Fails with HOOKE_BAD_VALUE: `name` is neither one of `others` (words, may be NULL) nor a row of `table`
+ * (may be NULL). The message lists what there is and which one was probably meant. `what` is "option" or
+ * "key". */
+int32_t hooke_option_unknown(const struct hooke_option_table *table, const char *others, const char *place,
+                             const char *what, const char *name);
+
+#endif

@@ -1,0 +1,201 @@
+/* Words for people: what a row allows, which names there are, which one was probably meant. */
+#include "core/option.h"
+
+#include "core/number.h"
+#include "core/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_SIZE = 48, LIST_SIZE = 640 };
+
+static void add(char *text, int64_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static void add(char *text, int64_t size, const char *format, ...) {
+  size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  if ((int64_t)used < size) vsnprintf(text + used, (size_t)size - used, format, args);
+  va_end(args);
+}
+
+/* The next word of a list separated by blanks; NULL at the end. */
+static const char *next_word(const char **rest, int64_t *length) {
+  const char *at = *rest ? *rest : "";
+  while (*at == ' ')
+    at++;
+  const char *word = at;
+  while (*at && *at != ' ')
+    at++;
+  *rest = at;
+  *length = at - word;
+  return *length ? word : NULL;
+}
+
+int32_t hooke_option_has_word(const char *words, const char *word, int64_t length) {
+  int64_t candidate_length = 0;
+  for (const char *candidate; (candidate = next_word(&words, &candidate_length));)
+    if (candidate_length == length && memcmp(candidate, word, (size_t)length) == 0) return 1;
+  return 0;
+}
+
+static void add_words(const char *words, const char *quote, char *text, int64_t size) {
+  int64_t length = 0, following = 0;
+  const char *rest = words;
+  const char *word = next_word(&rest, &length);
+  for (int first = 1; word; first = 0) {
+    const char *next = next_word(&rest, &following);
+    const char *joint = first ? "" : next ? ", " : " or ";
+    add(text, size, "%s%s%.*s%s", joint, quote, (int)length, word, quote);
+    word = next;
+    length = following;
+  }
+}
+
+void hooke_option_list_words(const char *words, char *text, int64_t size) {
+  text[0] = '\0';
+  add_words(words, "", text, size);
+}
+
+void hooke_option_list_names(const struct hooke_option_table *table, char *text, int64_t size) {
+  text[0] = '\0';
+  for (int32_t k = 0; k < table->row_count; k++) {
+    const char *joint = k == 0 ? "" : k + 1 < table->row_count ? ", " : " or ";
+    add(text, size, "%s%s", joint, table->rows[k].name);
+  }
+}
+
+void hooke_option_show(const char *text, int64_t length, char *shown) {
+  int64_t used = 0, most = HOOKE_OPTION_SHOWN - 4;
+  for (; used < length && used < most; used++) {
+    unsigned char c = (unsigned char)text[used];
+    shown[used] = c < 32 || c == 127 ? '?' : text[used];
+  }
+  if (used < length) {
+    /* not in the middle of a character of several bytes */
+    while (used > 0 && ((unsigned char)text[used] & 0xC0) == 0x80)
+      used--;
+    memcpy(shown + used, "...", 3);
+    used += 3;
+  }
+  shown[used] = '\0';
+}
+
+static void add_bounds(const struct hooke_option_row *row, char *text, int64_t size) {
+  if (!(row->low < row->high)) return;
+  char low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
+  hooke_number_print(row->low, low);
+  hooke_number_print(row->high, high);
+  /* bounds that only keep arithmetic finite are nobody's concern */
+  int has_low = row->low > -1e300, has_high = row->high < 1e300;
+  if (has_low) add(text, size, " %s %s", row->above_low ? ">" : ">=", low);
+  if (has_high) add(text, size, "%s<= %s", has_low ? " and " : " ", high);
+}
+
+static void add_count(const struct hooke_option_row *row, char *text, int64_t size) {
+  long long columns = row->columns > 1 ? row->columns : 1;
+  long long least = row->min_count / columns, most = row->max_count / columns;
+  const char *what = columns > 1 ? "row" : row->whole ? "whole number" : "number";
+  int plural = 1;
+  if (most == 0 && least == 0)
+    add(text, size, "any number of %ss", what);
+  else if (most == 0 && least == 1)
+    add(text, size, "one or more %ss", what);
+  else if (most == 0)
+    add(text, size, "%lld or more %ss", least, what);
+  else if (least == most) {
+    plural = most != 1;
+    add(text, size, plural ? "%lld %ss" : "%lld %s", most, what);
+  } else
+    add(text, size, "%lld to %lld %ss", least, most, what);
+  if (columns > 1)
+    add(text, size, " of %lld %s%s", columns, row->whole ? "whole numbers" : "numbers",
+        plural ? " each" : "");
+}
+
+void hooke_option_describe(const struct hooke_option_row *row, char *text, int64_t size) {
+  text[0] = '\0';
+  switch (row->type) {
+  case HOOKE_OPTION_NUMBER:
+    add(text, size, row->whole ? "a whole number" : "a number");
+    add_bounds(row, text, size);
+    break;
+  case HOOKE_OPTION_NUMBERS:
+    add_count(row, text, size);
+    add_bounds(row, text, size);
+    if (row->words) add(text, size, row->word_lists ? ", or any of " : " or ");
+    add_words(row->words, "\"", text, size);
+    break;
+  case HOOKE_OPTION_FLAG:
+    add(text, size, "true or false");
+    break;
+  case HOOKE_OPTION_CHOICE:
+    add_words(row->words, "\"", text, size);
+    break;
+  case HOOKE_OPTION_TEXT:
+    add(text, size, "a text");
+    break;
+  case HOOKE_OPTION_FAMILY:
+    add(text, size, "an object of ");
+    for (int32_t k = 0; k < row->family->row_count; k++)
+      add(text, size, "%s%s", k ? ", " : "", row->family->rows[k].name);
+    break;
+  }
+}
+
+/* Number of single-character changes that turn one name into the other. */
+static int32_t distance(const char *a, const char *b) {
+  int32_t row[NAME_SIZE + 1];
+  int32_t n = (int32_t)strlen(b);
+  if (n > NAME_SIZE || strlen(a) > NAME_SIZE) return NAME_SIZE;
+  for (int32_t k = 0; k <= n; k++)
+    row[k] = k;
+  for (int32_t i = 1; a[i - 1]; i++) {
+    int32_t diagonal = row[0];
+    row[0] = i;
+    for (int32_t k = 1; k <= n; k++) {
+      int32_t replaced = diagonal + (a[i - 1] != b[k - 1]);
+      int32_t shorter = row[k] < row[k - 1] ? row[k] : row[k - 1];
+      diagonal = row[k];
+      row[k] = replaced < shorter + 1 ? replaced : shorter + 1;
+    }
+  }
+  return row[n];
+}
+
+struct nearest {
+  char name[NAME_SIZE];
+  int32_t distance;
+};
+
+static void consider(struct nearest *nearest, const char *wanted, const char *name, int64_t length) {
+  char candidate[NAME_SIZE];
+  snprintf(candidate, sizeof candidate, "%.*s", (int)length, name);
+  int32_t far = distance(wanted, candidate);
+  if (far < nearest->distance && far < (int32_t)strlen(candidate)) {
+    nearest->distance = far;
+    memcpy(nearest->name, candidate, sizeof candidate);
+  }
+}
+
+int32_t hooke_option_unknown(const struct hooke_option_table *table, const char *others, const char *place,
+                             const char *what, const char *name) {
+  char list[LIST_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
+  struct nearest nearest = {.distance = strlen(name) > 5 ? 4 : 3};
+  int64_t length = 0;
+  const char *joint = "";
+  for (const char *rest = others, *word; (word = next_word(&rest, &length)); joint = ", ") {
+    add(list, sizeof list, "%s%.*s", joint, (int)length, word);
+    consider(&nearest, name, word, length);
+  }
+  for (int32_t k = 0; table && k < table->row_count; k++, joint = ", ") {
+    add(list, sizeof list, "%s%s", joint, table->rows[k].name);
+    consider(&nearest, name, table->rows[k].name, (int64_t)strlen(table->rows[k].name));
+  }
+  hooke_option_show(name, (int64_t)strlen(name), shown);
+  if (nearest.name[0])
+    return hooke_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; did you mean \"%s\"? allowed: %s", what,
+                      shown, nearest.name, list);
+  return hooke_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; allowed: %s", what, shown, list);
+}

@@ -1,0 +1,29 @@
+/* What this build is. CMake passes the versions of the other libraries, "" for those left out. */
+#include "hooke/base.h"
+
+#include "kernel/spring_loops.h"
+
+#include <string.h>
+
+const char *hooke_version(void) {
+  return HOOKE_VERSION;
+}
+
+int32_t hooke_abi(void) {
+  return HOOKE_ABI;
+}
+
+static const char *licence(void) {
+  return HOOKE_HAVE_GSL ? "GPL-3.0-or-later, since it contains GSL; hooke itself is MIT" : "MIT";
+}
+
+const char *hooke_build_fact(const char *what) {
+  if (!what) return NULL;
+  if (!strcmp(what, "sundials")) return HOOKE_SUNDIALS_VERSION;
+  if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
+  if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;
+  if (!strcmp(what, "jansson")) return HOOKE_JANSSON_VERSION;
+  if (!strcmp(what, "instructions")) return hooke_kernel_instructions();
+  if (!strcmp(what, "licence")) return licence();
+  return NULL;
+}
