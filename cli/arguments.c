@@ -1,0 +1,184 @@
+#include "arguments.h"
+#include "report.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_LONG = 1000 }; /* values of getopt_long() that are no letter */
+
+static const struct hooke_verb_row shared_rows[] = {
+    {"json", 0, NULL, "prints one JSON object, with every digit, and nothing else"},
+    {"quiet", 'q', NULL, "prints no progress and no notes; results and failures stay"},
+    {"help", 'h', NULL, "prints this text"},
+};
+enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
+
+static void add_own(struct hooke_arguments *arguments, const struct hooke_verb_row *row) {
+  struct hooke_argument *argument = &arguments->all[arguments->count++];
+  argument->own = row;
+  argument->name = row->name;
+  snprintf(argument->flag, sizeof argument->flag, "%s", row->name);
+}
+
+static void add_option(struct hooke_arguments *arguments, int64_t row) {
+  struct hooke_argument *argument = &arguments->all[arguments->count++];
+  argument->name = hooke_options_row(arguments->run, row, "name");
+  argument->row = row;
+  snprintf(argument->flag, sizeof argument->flag, "%s", argument->name);
+  for (char *at = argument->flag; *at; at++) {
+    if (*at == '_') *at = '-';
+  }
+}
+
+/* Collects every option that the verb takes: its own, those of all verbs, those of a run. */
+static int collect(struct hooke_arguments *arguments) {
+  const struct hooke_verb *verb = arguments->verb;
+  int32_t status = hooke_run_options_create(&arguments->run);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  int64_t rows = hooke_options_row_count(arguments->run);
+  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + rows), sizeof *arguments->all);
+  if (!arguments->all) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  for (int32_t i = 0; i < verb->row_count; i++)
+    add_own(arguments, &verb->rows[i]);
+  for (int32_t i = 0; i < SHARED_COUNT; i++)
+    add_own(arguments, &shared_rows[i]);
+  for (int64_t row = 0; row < rows; row++) {
+    const char *name = hooke_options_row(arguments->run, row, "name");
+    if (!verb->without || strcmp(name, verb->without) != 0) add_option(arguments, row);
+  }
+  return HOOKE_EXIT_DONE;
+}
+
+/* ---- parsing ---- */
+
+static const char *next_flag(int64_t i, const void *ctx) {
+  const struct hooke_arguments *arguments = ctx;
+  return i < arguments->count ? arguments->all[i].flag : NULL;
+}
+
+static int unknown_flag(const struct hooke_arguments *arguments, const char *word) {
+  char flag[HOOKE_FLAG_SIZE];
+  snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
+  flag[strcspn(flag, "=")] = '\0';
+  const char *near = hooke_suggest(flag, next_flag, arguments);
+  return hooke_report(
+      arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them", word,
+      near ? ", did you mean --" : "", near ? near : "", near ? "?" : "", arguments->verb->name);
+}
+
+static int take(struct hooke_arguments *arguments, struct hooke_argument *argument, const char *text) {
+  argument->text = text ? text : "";
+  if (argument->own) return HOOKE_EXIT_DONE;
+  if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
+    return hooke_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
+  }
+  if (hooke_options_set_text(arguments->run, argument->name, argument->text) == HOOKE_OK)
+    return HOOKE_EXIT_DONE;
+  return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: %s", argument->flag, argument->text,
+                      hooke_last_error());
+}
+
+/* The argument that getopt_long() or one of its letters stands for. */
+static struct hooke_argument *argument_of(struct hooke_arguments *arguments, int code) {
+  if (code == 0) return NULL;
+  if (code >= FIRST_LONG) return &arguments->all[code - FIRST_LONG];
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct hooke_verb_row *own = arguments->all[i].own;
+    if (own && own->letter == code) return &arguments->all[i];
+  }
+  return NULL;
+}
+
+static int parse_words(struct hooke_arguments *arguments, int argc, char **argv, const char *letters,
+                       const struct option *longs) {
+  int code;
+  opterr = 0;
+  optind = 1;
+  while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+    struct hooke_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
+    if (!argument) {
+      char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long one */
+      return unknown_flag(arguments, optopt ? letter : argv[optind - 1]);
+    }
+    if (code == ':')
+      return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
+    if (code == '?') return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s takes no value", argument->flag);
+    int answer = take(arguments, argument, optarg);
+    if (answer != HOOKE_EXIT_DONE) return answer;
+  }
+  arguments->help = hooke_arguments_text(arguments, "help") != NULL;
+  if (arguments->help) return HOOKE_EXIT_DONE;
+  if (optind >= argc) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no scene given; usage: hooke %s SCENE [options]",
+                        arguments->verb->name);
+  }
+  if (optind + 1 < argc) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one scene at a time: '%s' and '%s' were given",
+                        argv[optind], argv[optind + 1]);
+  }
+  arguments->scene = argv[optind];
+  return HOOKE_EXIT_DONE;
+}
+
+int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
+                          struct hooke_arguments *arguments) {
+  memset(arguments, 0, sizeof *arguments);
+  arguments->verb = verb;
+  /* looked for first, so that wrong usage is reported in the form that was asked for */
+  for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+    if (strcmp(argv[i], "--json") == 0) arguments->json = 1;
+  }
+  int answer = collect(arguments);
+  if (answer != HOOKE_EXIT_DONE) return answer;
+
+  struct option *longs = calloc((size_t)arguments->count + 1, sizeof *longs);
+  char *letters = calloc((size_t)arguments->count * 2 + 2, 1);
+  if (longs && letters) {
+    char *letter = letters;
+    *letter++ = ':';
+    for (int32_t i = 0; i < arguments->count; i++) {
+      const struct hooke_argument *argument = &arguments->all[i];
+      int32_t wants = argument->own ? argument->own->value != NULL : 1;
+      longs[i] =
+          (struct option){argument->flag, wants ? required_argument : no_argument, NULL, FIRST_LONG + i};
+      if (argument->own && argument->own->letter) {
+        *letter++ = argument->own->letter;
+        if (wants) *letter++ = ':';
+      }
+    }
+    answer = parse_words(arguments, argc, argv, letters, longs);
+    arguments->json = hooke_arguments_text(arguments, "json") != NULL;
+    arguments->quiet = hooke_arguments_text(arguments, "quiet") != NULL;
+  } else {
+    answer = hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  }
+  free(letters);
+  free(longs);
+  return answer;
+}
+
+void hooke_arguments_destroy(struct hooke_arguments *arguments) {
+  hooke_options_destroy(arguments->run);
+  free(arguments->all);
+}
+
+/* ---- asking ---- */
+
+const char *hooke_arguments_text(const struct hooke_arguments *arguments, const char *name) {
+  for (int32_t i = 0; i < arguments->count; i++) {
+    if (strcmp(arguments->all[i].name, name) == 0) return arguments->all[i].text;
+  }
+  return NULL;
+}
+
+int32_t hooke_arguments_apply(const struct hooke_arguments *arguments, hooke_options *options) {
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct hooke_argument *argument = &arguments->all[i];
+    if (argument->own || !argument->text) continue;
+    int32_t status = hooke_options_set_text(options, argument->name, argument->text);
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}

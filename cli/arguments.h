@@ -1,0 +1,40 @@
+/* The words of the command line: parsed by getopt_long, with the long options of a run taken from the
+ * library's own option table. */
+#ifndef HOOKE_CLI_ARGUMENTS_H
+#define HOOKE_CLI_ARGUMENTS_H
+
+#include "verb.h"
+
+enum { HOOKE_FLAG_SIZE = 64 };
+
+/* One option that a verb takes: a row of its own, or one of the option table of a run. */
+struct hooke_argument {
+  char flag[HOOKE_FLAG_SIZE];       /* as typed, without the dashes */
+  const char *name;                 /* "atol_velocity", "output" */
+  const struct hooke_verb_row *own; /* NULL: row `row` of the option table */
+  int64_t row;
+  const char *text; /* what was given, "" for a switch; NULL: not given */
+};
+
+struct hooke_arguments {
+  const struct hooke_verb *verb;
+  const char *scene;
+  int32_t help, json, quiet;
+  hooke_options *run; /* the option table, holding what was given */
+  struct hooke_argument *all;
+  int32_t count;
+};
+
+/* Parses what follows the verb (argv[0] is the verb); wrong usage is reported and gives HOOKE_EXIT_USAGE. The
+ * caller destroys `arguments` in either case. */
+int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
+                          struct hooke_arguments *arguments);
+void hooke_arguments_destroy(struct hooke_arguments *arguments);
+
+/* Text given for an option, NULL if it was not given. */
+const char *hooke_arguments_text(const struct hooke_arguments *arguments, const char *name);
+
+/* Sets every option of a run that was given. */
+int32_t hooke_arguments_apply(const struct hooke_arguments *arguments, hooke_options *options);
+
+#endif

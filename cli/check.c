@@ -1,0 +1,249 @@
+/* hooke check: validates a scene and tells its size, memory and step limits, without running it. */
+#include "print.h"
+#include "report.h"
+#include "setup.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
+
+struct check {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  int64_t memory; /* of a run [bytes] */
+  int64_t warning_count;
+  char warning[MOST_WARNINGS][WARNING_SIZE];
+};
+
+static void warn(struct check *check, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void warn(struct check *check, const char *format, ...) {
+  va_list args;
+  if (check->warning_count == MOST_WARNINGS) return;
+  va_start(args, format);
+  vsnprintf(check->warning[check->warning_count++], WARNING_SIZE, format, args);
+  va_end(args);
+}
+
+/* The bound on the step of a method at the initial state [s]; NaN where none is known. */
+static double bound_of(const struct check *check, const char *method) {
+  double bound;
+  int32_t status =
+      hooke_step_bound(check->setup.system, method, hooke_state_position(check->setup.state), &bound);
+  return status == HOOKE_OK ? bound : (double)NAN;
+}
+
+/* ---- warnings ---- */
+
+static void warn_of_method(struct check *check) {
+  const char *method = hooke_options_text(check->setup.options, "method");
+  char limit[HOOKE_NUMBER_SIZE], taken[HOOKE_NUMBER_SIZE];
+  if (!hooke_method_is_built(method)) {
+    warn(check, "%s, the method of the run, is not in this build of hooke", method);
+    return;
+  }
+  double bound = bound_of(check, method);
+  double step = hooke_options_number(check->setup.options, "step");
+  if (bound == 0.0) {
+    warn(check,
+         "%s, the method of the run, is stable at no step: the scene has motion without damping, which it "
+         "makes "
+         "grow at any step",
+         method);
+  } else if (step > bound) {
+    warn(check, "the step of the run, %s s, is above %s s, up to which %s is certain to be stable",
+         hooke_format_number(step, taken), hooke_format_number(bound, limit), method);
+  }
+}
+
+static void warn_of_coincident_springs(struct check *check) {
+  int64_t count =
+      hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
+  if (count == 0) return;
+  warn(check,
+       "%" PRId64
+       " %s with both ends at the same place although the rest length is not zero: without a direction, "
+       "and so without a force",
+       count, count == 1 ? "spring starts" : "springs start");
+}
+
+/* Particles that no spring holds. */
+static int32_t warn_of_loose_particles(struct check *check) {
+  int64_t particles = hooke_system_particle_count(check->setup.system);
+  int64_t springs = hooke_system_spring_count(check->setup.system);
+  int64_t *ends = malloc((size_t)(2 * springs + 1) * sizeof *ends);
+  char *held = calloc((size_t)particles + 1, 1);
+  int32_t status = ends && held ? hooke_system_spring_ends(check->setup.system, ends) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) {
+    int64_t count = 0, first = 0;
+    for (int64_t i = 0; i < 2 * springs; i++)
+      held[ends[i]] = 1;
+    for (int64_t i = particles - 1; i >= 0; i--) {
+      if (held[i]) continue;
+      count++;
+      first = i;
+    }
+    if (count == 1) warn(check, "particle %" PRId64 " has no spring", first);
+    if (count > 1) {
+      warn(check, "%" PRId64 " particles have no spring, the first of them particle %" PRId64, count, first);
+    }
+  }
+  free(held);
+  free(ends);
+  return status;
+}
+
+/* ---- the numbers ---- */
+
+/* Memory of a run: system, state, and the scratch of its method if the scene says enough to make one. */
+static int measure_memory(struct check *check) {
+  const hooke_options *options = check->setup.options;
+  const char *method = hooke_options_text(options, "method");
+  hooke_integrator *integrator = NULL;
+  check->memory = hooke_system_memory(check->setup.system) +
+                  (2 * hooke_state_size(check->setup.state) + 1) * (int64_t)sizeof(double);
+  if (hooke_method_is_adaptive(method) >= 0 && !hooke_method_is_built(method)) return HOOKE_EXIT_DONE;
+  if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(options, "step") == 0)
+    return HOOKE_EXIT_DONE;
+  int32_t status = hooke_integrator_create(check->setup.system, options, &integrator);
+  if (status != HOOKE_OK) return hooke_report_status(check->arguments, status);
+  check->memory += hooke_integrator_count(integrator, "memory_bytes");
+  hooke_integrator_destroy(integrator);
+  return HOOKE_EXIT_DONE;
+}
+
+static void print_json(const struct check *check) {
+  const hooke_system *system = check->setup.system;
+  struct hooke_json json;
+  hooke_json_begin(&json, stdout);
+  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
+  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
+  hooke_json_open(&json, "groups", '[');
+  for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
+    hooke_json_open(&json, NULL, '{');
+    hooke_json_text(&json, "name", hooke_system_group_name(system, i));
+    hooke_json_count(&json, "springs", hooke_system_group_size(system, i));
+    hooke_json_close(&json);
+  }
+  hooke_json_close(&json);
+  hooke_json_open(&json, "forces", '[');
+  for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
+    hooke_json_text(&json, NULL, hooke_system_force_name(system, i));
+  }
+  hooke_json_close(&json);
+  hooke_json_count(&json, "memory_bytes", check->memory);
+  hooke_json_open(&json, "step_limit", '{');
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    hooke_json_number(&json, hooke_method_name(i), bound_of(check, hooke_method_name(i)));
+  }
+  hooke_json_close(&json);
+  hooke_json_open(&json, "warnings", '[');
+  for (int64_t i = 0; i < check->warning_count; i++)
+    hooke_json_text(&json, NULL, check->warning[i]);
+  hooke_json_end(&json);
+}
+
+static void print_groups(const hooke_system *system) {
+  printf("springs      %" PRId64 "\n", hooke_system_spring_count(system));
+  for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
+    const char *name = hooke_system_group_name(system, i);
+    printf("  %10" PRId64 " ", hooke_system_group_size(system, i));
+    hooke_print_text(stdout, name[0] ? name : "(no name)");
+    printf("\n");
+  }
+}
+
+static void print_limits(const struct check *check) {
+  char text[HOOKE_NUMBER_SIZE];
+  printf("largest step certain to be stable, at the start:\n");
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    const char *name = hooke_method_name(i);
+    double bound = bound_of(check, name);
+    printf("  %-18s ", name);
+    if (!hooke_method_is_built(name)) {
+      printf("(not in this build)\n");
+    } else if (hooke_method_is_adaptive(name) != 0) {
+      printf("chooses its own\n");
+    } else if (isnan(bound)) {
+      printf("not known\n");
+    } else if (isinf(bound)) {
+      printf("any\n");
+    } else if (bound == 0.0) {
+      printf("none: stable at no step\n");
+    } else {
+      printf("%s s\n", hooke_format_number(bound, text));
+    }
+  }
+}
+
+static void print_cost(const struct check *check) {
+  const hooke_options *options = check->setup.options;
+  const char *method = hooke_options_text(options, "method");
+  double steps = round(hooke_options_number(options, "duration") / hooke_options_number(options, "step"));
+  if (hooke_method_is_adaptive(method) != 0 || isnan(steps)) return;
+  printf("cost         %s: %.0f steps, %.3g spring-steps\n", method, steps,
+         steps * (double)hooke_system_spring_count(check->setup.system));
+}
+
+static void print_words(const struct check *check) {
+  const hooke_system *system = check->setup.system;
+  const char *title = hooke_scene_title(check->setup.scene);
+  int64_t particles = hooke_system_particle_count(system);
+  if (title && title[0]) {
+    printf("scene        ");
+    hooke_print_text(stdout, title);
+    printf("\n");
+  }
+  printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
+         particles - hooke_system_free_count(system));
+  print_groups(system);
+  printf("forces       ");
+  for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
+    printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));
+  }
+  printf("%s\n", hooke_system_force_count(system) == 0 ? "none" : "");
+  printf("memory       %" PRId64 " bytes\n", check->memory);
+  print_cost(check);
+  print_limits(check);
+  fflush(stdout);
+  for (int64_t i = 0; i < check->warning_count; i++) {
+    hooke_report_words(check->arguments, "warning: %s", check->warning[i]);
+  }
+}
+
+static int check_and_tell(struct check *check) {
+  int code = measure_memory(check);
+  if (code != HOOKE_EXIT_DONE) return code;
+  warn_of_method(check);
+  warn_of_coincident_springs(check);
+  int32_t status = warn_of_loose_particles(check);
+  if (status != HOOKE_OK) return hooke_report(check->arguments, hooke_exit_code(status), "out of memory");
+  if (check->arguments->json) {
+    print_json(check);
+  } else {
+    print_words(check);
+  }
+  return HOOKE_EXIT_DONE;
+}
+
+static int do_check(const struct hooke_arguments *arguments) {
+  struct check check = {.arguments = arguments};
+  int code = hooke_setup_load(arguments, &check.setup);
+  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check);
+  hooke_setup_destroy(&check.setup);
+  return code;
+}
+
+const struct hooke_verb hooke_verb_check = {
+    .name = "check",
+    .summary = "validates a scene and tells its size and step limits, without running it",
+    .text = "Validates the scene and tells its size, the memory that a run takes, and for each method the "
+            "largest step "
+            "that is certain to be stable at the start. Warns of what is allowed but seldom meant.",
+    .function = do_check,
+};

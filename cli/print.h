@@ -1,0 +1,43 @@
+/* Printing: numbers that read back to the same bits, JSON, and text that is safe on a terminal. */
+#ifndef HOOKE_CLI_PRINT_H
+#define HOOKE_CLI_PRINT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+enum { HOOKE_NUMBER_SIZE = 32, HOOKE_JSON_DEPTH = 8 };
+
+/* Writes the shortest of 15, 16 or 17 digits that read back to the same double into `text` and returns it. */
+const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
+
+/* Text with control characters replaced, so that a title or a file name cannot steer a terminal. */
+void hooke_print_text(FILE *file, const char *text);
+
+/* Text as one word of a shell command, quoted if it has to be. */
+void hooke_print_quoted(FILE *file, const char *text);
+
+/* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
+void hooke_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text);
+
+/* A JSON value being written, on one line. `key` is NULL inside arrays. */
+struct hooke_json {
+  FILE *file;
+  int32_t depth;
+  char bracket[HOOKE_JSON_DEPTH];
+  int32_t filled[HOOKE_JSON_DEPTH];
+};
+
+void hooke_json_begin(struct hooke_json *json, FILE *file);
+/* Closes what is open and ends the line. */
+void hooke_json_end(struct hooke_json *json);
+void hooke_json_open(struct hooke_json *json, const char *key, char bracket); /* '{' or '[' */
+void hooke_json_close(struct hooke_json *json);
+/* null if the number is not finite */
+void hooke_json_number(struct hooke_json *json, const char *key, double value);
+void hooke_json_count(struct hooke_json *json, const char *key, int64_t value);
+/* null if `text` is NULL; bytes that are not UTF-8 become U+FFFD */
+void hooke_json_text(struct hooke_json *json, const char *key, const char *text);
+/* `rows` rows of x y z as an array of arrays */
+void hooke_json_vectors(struct hooke_json *json, const char *key, int64_t rows, const double *xyz);
+
+#endif

@@ -1,0 +1,315 @@
+/* hooke run: integrates a scene and says what came out. */
+#include "advice.h"
+#include "print.h"
+#include "report.h"
+#include "setup.h"
+#include "watch.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MESSAGE_SIZE = 2048, SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
+
+/* A run and what is kept of it. */
+struct run {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  hooke_integrator *integrator;
+  hooke_trajectory *trajectory; /* NULL without -o */
+  const char *output;
+  struct hooke_watch watch;
+  double duration;
+  int64_t frames; /* reported so far */
+  int32_t write_failed;
+  int32_t outcome;
+  char message[MESSAGE_SIZE]; /* about the outcome, or the write that failed */
+  double energy_before, energy_after;
+};
+
+static double state_energy(const struct run *run) {
+  return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
+                             hooke_state_velocity(run->setup.state));
+}
+
+static const char *method_of(const struct run *run) {
+  return hooke_options_text(hooke_integrator_options(run->integrator), "method");
+}
+
+static double option_of(const struct run *run, const char *name) {
+  return hooke_options_number(hooke_integrator_options(run->integrator), name);
+}
+
+/* ---- running ---- */
+
+static void keep_message(struct run *run) {
+  snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
+}
+
+static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
+  struct run *run = ctx;
+  (void)step;
+  return hooke_watch_tell(&run->watch, hooke_state_time(state) / run->duration, NULL);
+}
+
+static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct run *run = ctx;
+  if (run->trajectory && hooke_trajectory_write(run->trajectory, step, state) != HOOKE_OK) {
+    run->write_failed = 1;
+    keep_message(run);
+    return 1;
+  }
+  run->frames++;
+  return see_step(step, state, run);
+}
+
+/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing. */
+static int64_t stride(const struct run *run) {
+  if (hooke_method_is_adaptive(method_of(run)) != 0) return 1;
+  int64_t size =
+      hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
+  int64_t steps = SPRINGS_PER_LOOK / size;
+  return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
+}
+
+static int32_t prepare(struct run *run) {
+  int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
+  if (status != HOOKE_OK) return status;
+  run->duration = option_of(run, "duration");
+  status = hooke_integrator_on_frame(run->integrator, see_frame, run);
+  if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
+  if (status != HOOKE_OK || !run->output) return status;
+  return hooke_trajectory_create(run->output, run->setup.system, run->integrator,
+                                 hooke_scene_text(run->setup.scene), &run->trajectory);
+}
+
+/* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
+static int integrate(struct run *run) {
+  hooke_watch_start(&run->watch, run->arguments);
+  int32_t status = prepare(run);
+  if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+  run->energy_before = state_energy(run);
+  run->outcome = hooke_integrator_run(run->integrator, run->setup.state);
+  if (run->outcome != HOOKE_OK && !run->write_failed) keep_message(run);
+  hooke_watch_end(&run->watch);
+  run->energy_after = state_energy(run);
+  status = hooke_trajectory_close(run->trajectory, run->outcome);
+  run->trajectory = NULL;
+  if (run->write_failed) return hooke_report(run->arguments, HOOKE_EXIT_IO, "%s", run->message);
+  int code = hooke_exit_code(run->outcome);
+  if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
+    return hooke_report(run->arguments, code, "%s", run->message);
+  }
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+}
+
+/* ---- results ---- */
+
+static void print_json(const struct run *run, int32_t with_final) {
+  const hooke_system *system = run->setup.system;
+  hooke_state *state = run->setup.state;
+  struct hooke_json json;
+  double momentum[3];
+  hooke_json_begin(&json, stdout);
+  hooke_json_text(&json, "status",
+                  run->outcome == HOOKE_OK         ? "finished"
+                  : run->outcome == HOOKE_DIVERGED ? "diverged"
+                                                   : "stopped");
+  hooke_json_text(&json, "method", method_of(run));
+  if (hooke_method_is_adaptive(method_of(run)) == 0) {
+    hooke_json_number(&json, "step", option_of(run, "step"));
+  } else {
+    hooke_json_number(&json, "rtol", option_of(run, "rtol"));
+    hooke_json_number(&json, "atol", option_of(run, "atol"));
+  }
+  hooke_json_number(&json, "time", hooke_state_time(state));
+  hooke_json_count(&json, "steps", hooke_integrator_count(run->integrator, "steps"));
+  hooke_json_count(&json, "force_evaluations", hooke_integrator_count(run->integrator, "force_evaluations"));
+  hooke_json_number(&json, "wall_seconds", hooke_integrator_wall_seconds(run->integrator));
+  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
+  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
+  hooke_json_open(&json, "energy", '{');
+  hooke_json_number(&json, "initial", run->energy_before);
+  hooke_json_number(&json, "final", run->energy_after);
+  hooke_json_close(&json);
+  hooke_system_momentum(system, hooke_state_velocity(state), momentum);
+  hooke_json_open(&json, "momentum", '[');
+  for (int i = 0; i < 3; i++)
+    hooke_json_number(&json, NULL, momentum[i]);
+  hooke_json_close(&json);
+  hooke_json_text(&json, "output", run->output);
+  hooke_json_text(&json, "diagnosis",
+                  hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
+  if (with_final) {
+    hooke_json_open(&json, "final", '{');
+    hooke_json_vectors(&json, "position", hooke_state_size(state) / 3, hooke_state_position(state));
+    hooke_json_vectors(&json, "velocity", hooke_state_size(state) / 3, hooke_state_velocity(state));
+  }
+  hooke_json_end(&json);
+}
+
+static void print_row(const char *label) {
+  printf("%-22s", label);
+}
+
+static void print_quantity(double value, const char *unit) {
+  char text[HOOKE_NUMBER_SIZE];
+  printf("%s %s", hooke_format_number(value, text), unit);
+}
+
+static void print_count(const struct run *run, const char *label, const char *what) {
+  int64_t count = hooke_integrator_count(run->integrator, what);
+  if (count <= 0) return;
+  print_row(label);
+  printf("%" PRId64 "\n", count);
+}
+
+static void print_work(const struct run *run) {
+  int64_t springs = hooke_system_spring_count(run->setup.system);
+  int64_t steps = hooke_integrator_count(run->integrator, "steps");
+  double seconds = hooke_integrator_wall_seconds(run->integrator);
+  print_count(run, "steps", "steps");
+  print_count(run, "force evaluations", "force_evaluations");
+  print_count(run, "derivative products", "derivative_products");
+  print_count(run, "nonlinear iterations", "nonlinear_iterations");
+  print_count(run, "nonlinear failures", "nonlinear_failures");
+  print_count(run, "linear iterations", "linear_iterations");
+  print_count(run, "error test failures", "error_test_failures");
+  print_row("wall time");
+  printf("%.4g s", seconds);
+  if (springs > 0 && steps > 0) {
+    printf(", %.3g ns per spring-step", 1e9 * seconds / (double)springs / (double)steps);
+  }
+  printf("\n");
+}
+
+static void print_final(hooke_state *state) {
+  const double *q = hooke_state_position(state);
+  const double *v = hooke_state_velocity(state);
+  char text[HOOKE_NUMBER_SIZE];
+  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
+  for (int64_t i = 0; i < hooke_state_size(state) / 3; i++) {
+    printf("%" PRId64, i);
+    for (int64_t k = 0; k < 3; k++)
+      printf(" %s", hooke_format_number(q[3 * i + k], text));
+    for (int64_t k = 0; k < 3; k++)
+      printf(" %s", hooke_format_number(v[3 * i + k], text));
+    printf("\n");
+  }
+}
+
+static void print_summary(const struct run *run) {
+  const hooke_system *system = run->setup.system;
+  const char *title = hooke_scene_title(run->setup.scene);
+  int64_t particles = hooke_system_particle_count(system);
+  double momentum[3];
+  char text[HOOKE_NUMBER_SIZE];
+  if (title && title[0]) {
+    print_row("scene");
+    hooke_print_text(stdout, title);
+    printf("\n");
+  }
+  print_row("particles");
+  printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
+         particles - hooke_system_free_count(system), hooke_system_spring_count(system));
+  print_row("method");
+  printf("%s, ", method_of(run));
+  if (hooke_method_is_adaptive(method_of(run)) == 0) {
+    printf("step ");
+    print_quantity(option_of(run, "step"), "s\n");
+  } else {
+    printf("rtol %s, atol ", hooke_format_number(option_of(run, "rtol"), text));
+    print_quantity(option_of(run, "atol"), "m\n");
+  }
+  print_row("time reached");
+  print_quantity(hooke_state_time(run->setup.state), "s of ");
+  print_quantity(run->duration, "s\n");
+  print_work(run);
+  print_row("energy");
+  print_quantity(run->energy_before, "J before, ");
+  print_quantity(run->energy_after, "J after");
+  printf(" (change %+.4g J)\n", run->energy_after - run->energy_before);
+  hooke_system_momentum(system, hooke_state_velocity(run->setup.state), momentum);
+  print_row("momentum");
+  for (int i = 0; i < 3; i++)
+    printf("%s ", hooke_format_number(momentum[i], text));
+  printf("kg m/s\n");
+  if (run->output) {
+    print_row("output");
+    hooke_print_text(stdout, run->output);
+    printf(" (%" PRId64 " frame%s)\n", run->frames, run->frames == 1 ? "" : "s");
+  }
+}
+
+/* On standard error: why a run ended early, what is kept, what to do. */
+static void explain(const struct run *run) {
+  const struct hooke_arguments *arguments = run->arguments;
+  char text[HOOKE_NUMBER_SIZE];
+  char kept[MESSAGE_SIZE] = "";
+  if (run->output) {
+    snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
+             run->output);
+  }
+  if (run->outcome == HOOKE_STOPPED) {
+    hooke_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
+                       hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+    return;
+  }
+  hooke_report_words(arguments, "%s", run->message);
+  hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
+                     hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+  hooke_advice_print(stderr, arguments, &run->setup, run->integrator, run->outcome);
+}
+
+static int run_and_tell(struct run *run) {
+  int code = integrate(run);
+  if (code != HOOKE_EXIT_DONE) return code;
+  int32_t with_final = hooke_arguments_text(run->arguments, "final") != NULL;
+  int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
+  if (run->arguments->json) {
+    print_json(run, with_final);
+  } else {
+    print_summary(run);
+    if (with_final) print_final(run->setup.state);
+  }
+  fflush(stdout);
+  if (coincident > 0 && !run->arguments->quiet) {
+    hooke_report_words(run->arguments,
+                       "%" PRId64
+                       " springs ended with both ends at one place; such a spring has no direction and "
+                       "exerts no force",
+                       coincident);
+  }
+  if (run->outcome != HOOKE_OK) explain(run);
+  return hooke_exit_code(run->outcome);
+}
+
+static int do_run(const struct hooke_arguments *arguments) {
+  struct run run = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
+  int code = hooke_setup_check_output(arguments, run.output);
+  if (code != HOOKE_EXIT_DONE) return code;
+  code = hooke_setup_load(arguments, &run.setup);
+  if (code == HOOKE_EXIT_DONE) {
+    code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
+  }
+  if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
+  hooke_integrator_destroy(run.integrator);
+  hooke_setup_destroy(&run.setup);
+  return code;
+}
+
+static const struct hooke_verb_row rows[] = {
+    {"output", 'o', "FILE", "writes the trajectory to FILE (HDF5 in the H5MD layout), replacing it"},
+    {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+};
+
+const struct hooke_verb hooke_verb_run = {
+    .name = "run",
+    .summary = "integrates a scene",
+    .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "
+            "momentum. A run "
+            "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly.",
+    HOOKE_VERB_ROWS(rows),
+    .function = do_run,
+};

@@ -1,0 +1,66 @@
+#include "setup.h"
+#include "report.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
+  memset(setup, 0, sizeof *setup);
+  int32_t status = hooke_scene_load(arguments->scene, &setup->scene);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  setup->options = hooke_scene_run_options(setup->scene);
+  status = hooke_arguments_apply(arguments, setup->options);
+  if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  setup->system = hooke_scene_system(setup->scene);
+  status = hooke_state_create(setup->system, &setup->state);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+}
+
+void hooke_setup_destroy(struct hooke_setup *setup) {
+  hooke_state_destroy(setup->state);
+  hooke_scene_destroy(setup->scene);
+}
+
+int hooke_setup_require(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+                        const char *method) {
+  if (hooke_method_is_adaptive(method) < 0) { /* one given as an option was refused before */
+    return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                        "%s: run.method: there is no method '%s'; 'hooke --help' lists them",
+                        arguments->scene, method);
+  }
+  if (!hooke_method_is_built(method)) {
+    return hooke_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                        "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                        method);
+  }
+  if (hooke_options_number_count(setup->options, "duration") == 0) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                        "no duration: the scene's run names none; give one in seconds, such as --duration 1");
+  }
+  if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(setup->options, "step") == 0) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                        "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
+                        "seconds, such as --step 1e-3",
+                        method);
+  }
+  return HOOKE_EXIT_DONE;
+}
+
+int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {
+  struct stat scene, file;
+  if (!output) return HOOKE_EXIT_DONE;
+  const char *hdf5 = hooke_build_fact("hdf5");
+  if (!hdf5 || !hdf5[0]) {
+    return hooke_report(
+        arguments, HOOKE_EXIT_NOT_BUILT,
+        "-o %s: this build of hooke has no HDF5 and writes no trajectories; run without -o, or build "
+        "hooke with HDF5",
+        output);
+  }
+  if (stat(arguments->scene, &scene) == 0 && stat(output, &file) == 0 && scene.st_dev == file.st_dev &&
+      scene.st_ino == file.st_ino) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "-o %s is the scene itself; name another file", output);
+  }
+  return HOOKE_EXIT_DONE;
+}

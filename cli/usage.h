@@ -1,0 +1,18 @@
+/* The texts of --help and --version. */
+#ifndef HOOKE_CLI_USAGE_H
+#define HOOKE_CLI_USAGE_H
+
+#include "arguments.h"
+
+#include <stdio.h>
+
+/* `hooke --help`: `verbs` ends with NULL. */
+void hooke_usage_print_all(FILE *file, const struct hooke_verb *const *verbs);
+
+/* `hooke VERB --help`. */
+void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments);
+
+/* `hooke --version`. */
+void hooke_usage_print_version(FILE *file);
+
+#endif

@@ -1,0 +1,45 @@
+/* A verb of the command line: what it is called, which options of its own it has, and the function that does
+ * it. */
+#ifndef HOOKE_CLI_VERB_H
+#define HOOKE_CLI_VERB_H
+
+#include "hooke.h"
+
+/* What the program answers to the shell. */
+enum hooke_exit {
+  HOOKE_EXIT_DONE = 0,
+  HOOKE_EXIT_USAGE = 2,
+  HOOKE_EXIT_BAD_INPUT = 3,
+  HOOKE_EXIT_DIVERGED = 4,
+  HOOKE_EXIT_IO = 5,
+  HOOKE_EXIT_NOT_BUILT = 6,
+  HOOKE_EXIT_INTERRUPTED = 130
+};
+
+struct hooke_arguments;
+
+/* One option of a verb's own; `value` names what follows it, NULL for a switch. */
+struct hooke_verb_row {
+  const char *name;
+  char letter; /* 0: none */
+  const char *value;
+  const char *doc;
+};
+
+struct hooke_verb {
+  const char *name;
+  const char *summary; /* one line */
+  const char *text;    /* a paragraph for --help */
+  const struct hooke_verb_row *rows;
+  int32_t row_count;
+  const char *without; /* the option of a run that this verb does not take, NULL: it takes all */
+  int (*function)(const struct hooke_arguments *arguments);
+};
+
+#define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
+
+extern const struct hooke_verb hooke_verb_run;
+extern const struct hooke_verb hooke_verb_check;
+extern const struct hooke_verb hooke_verb_compare;
+
+#endif

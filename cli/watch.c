@@ -1,0 +1,81 @@
+#include "watch.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+enum { BAR = 24, MINUTE = 60, HOUR = 3600 };
+
+static const double first_after = 1.0; /* [s] shorter work shows nothing */
+static const double again_after = 0.2;
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int number) {
+  (void)number;
+  interrupted = 1;
+}
+
+static void catch_signal(int number) {
+  struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+  struct sigaction old;
+  sigemptyset(&action.sa_mask);
+  /* a program started with the signal ignored (nohup, a background job) keeps ignoring it */
+  if (sigaction(number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
+}
+
+static double seconds_since(const struct timespec *from, const struct timespec *now) {
+  return (double)(now->tv_sec - from->tv_sec) + 1e-9 * (double)(now->tv_nsec - from->tv_nsec);
+}
+
+void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *arguments) {
+  watch->show = !arguments->quiet && isatty(STDERR_FILENO);
+  watch->shown = 0;
+  clock_gettime(CLOCK_MONOTONIC, &watch->start);
+  watch->last = watch->start;
+  catch_signal(SIGINT);
+  catch_signal(SIGTERM);
+}
+
+static void print_left(double seconds) {
+  int64_t left = (int64_t)(seconds + 0.5);
+  if (left >= HOUR) {
+    fprintf(stderr, "%d h %02d min left", (int)(left / HOUR), (int)(left % HOUR / MINUTE));
+  } else if (left >= MINUTE) {
+    fprintf(stderr, "%d min %02d s left", (int)(left / MINUTE), (int)(left % MINUTE));
+  } else {
+    fprintf(stderr, "%d s left", (int)left);
+  }
+}
+
+static void show(struct hooke_watch *watch, double done, const char *what, double elapsed) {
+  char bar[BAR + 1];
+  for (int i = 0; i < BAR; i++)
+    bar[i] = (double)i < done * BAR ? '#' : '.';
+  bar[BAR] = '\0';
+  fprintf(stderr, "\r\033[K%s%s%s %3d %%  ", what ? what : "", what ? " " : "", bar, (int)(100.0 * done));
+  if (done > 0.0 && elapsed * (1.0 - done) / done < 1e6 * HOUR) print_left(elapsed * (1.0 - done) / done);
+  fflush(stderr);
+  watch->shown = 1;
+}
+
+int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *what) {
+  if (interrupted) return 1;
+  if (!watch->show) return 0;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  double elapsed = seconds_since(&watch->start, &now);
+  if (elapsed < first_after || (watch->shown && seconds_since(&watch->last, &now) < again_after)) return 0;
+  watch->last = now;
+  show(watch, done < 0.0 ? 0.0 : done > 1.0 ? 1.0 : done, what, elapsed);
+  return 0;
+}
+
+void hooke_watch_end(struct hooke_watch *watch) {
+  if (watch->shown) fputs("\r\033[K", stderr);
+  watch->shown = 0;
+}
+
+int32_t hooke_watch_interrupted(void) {
+  return interrupted != 0;
+}

@@ -1,0 +1,28 @@
+/* Watching work: Ctrl-C, and progress with the time left on a terminal. The only place where signals are
+ * handled. */
+#ifndef HOOKE_CLI_WATCH_H
+#define HOOKE_CLI_WATCH_H
+
+#include "arguments.h"
+
+#include <time.h>
+
+struct hooke_watch {
+  int32_t show; /* standard error is a terminal, and words are wanted */
+  int32_t shown;
+  struct timespec start, last;
+};
+
+/* From here on SIGINT and SIGTERM set a flag; a second one kills as usual. */
+void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *arguments);
+
+/* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */
+int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *what);
+
+/* Takes the line of progress away. Signals stay caught, so that what was computed can be put away. */
+void hooke_watch_end(struct hooke_watch *watch);
+
+/* 1 if a signal came. */
+int32_t hooke_watch_interrupted(void);
+
+#endif

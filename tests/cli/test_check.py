@@ -1,0 +1,123 @@
+"""hooke check: the numbers of a scene, its step limits and its warnings."""
+
+import copy
+import math
+
+import pytest
+
+from conftest import SIX_PARTICLES, STIFF_PAIR
+
+pytestmark = pytest.mark.everything
+
+KEYS = ["particles", "springs", "groups", "forces", "memory_bytes", "step_limit", "warnings"]
+
+
+def test_json_has_exactly_the_keys(hooke, write):
+    answer = hooke("check", write(SIX_PARTICLES), "--json")
+    assert (answer.code, answer.err) == (0, "")
+    value = answer.json
+    assert list(value) == KEYS
+    assert value["particles"] == 6 and value["springs"] == 7
+    assert value["groups"] == [{"name": "edges", "springs": 7}]
+    assert value["forces"] == ["springs", "gravity"]
+    assert list(value["step_limit"]) == ["forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"]
+    # positions and velocities of the state and of its last good copy, at the least; no scene this small needs a megabyte
+    assert 2 * 6 * 6 * 8 < value["memory_bytes"] < 1e6
+
+
+def test_memory_grows_with_the_scene(hooke, write):
+    def cloth(n):
+        part = {"kind": "cloth", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "size": [n, n], "mass": 1}
+        part["structural"] = {"stiffness": 10}
+        return {"hooke": 1, "parts": [part], "run": SIX_PARTICLES["run"]}
+
+    small, large = (hooke("check", write(cloth(n)), "--json").json for n in (20, 40))
+    assert (small["particles"], large["particles"]) == (400, 1600)
+    assert small["springs"] == 2 * 20 * 19
+    assert 2.5 < large["memory_bytes"] / small["memory_bytes"] < 4.5
+
+
+def test_step_limit_of_one_spring(hooke, write):
+    """A bound, not the sharp limit: below 2/omega, and not by more than its derivation allows (a factor sqrt 2)."""
+    limits = hooke("check", write(STIFF_PAIR), "--json").json["step_limit"]
+    sharp = 2 / math.sqrt(1000)
+    assert sharp / 1.5 < limits["symplectic-euler"] <= sharp * (1 + 1e-12)
+    assert limits["forward-euler"] == 0
+    assert limits["cvode-adams"] is None
+
+
+@pytest.mark.parametrize(
+    "run, wanted",
+    [
+        ({"step": 0.1}, "is above"),
+        ({"step": 0.1, "method": "forward-euler"}, "stable at no step"),
+        ({"step": 0.01}, None),
+        ({"method": "cvode-bdf"}, None),
+    ],
+)
+def test_warns_of_a_step_above_the_bound(hooke, write, run, wanted):
+    warnings = hooke("check", write(STIFF_PAIR, **run), "--json").json["warnings"]
+    assert len(warnings) == (0 if wanted is None else 1)
+    if wanted:
+        assert wanted in warnings[0]
+
+
+def test_options_count_like_those_of_the_scene(hooke, write):
+    scene = write(STIFF_PAIR)
+    assert hooke("check", scene, "--json").json["warnings"]
+    assert not hooke("check", scene, "--json", "--step", "0.01").json["warnings"]
+
+
+def test_warns_of_springs_without_direction_and_of_loose_particles(hooke, write):
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["particles"]["position"] += [[9, 9, 9], [9, 9, 8]]
+    scene["particles"]["mass"] = 1
+    scene["particles"]["position"][1] = [0, 0, 0]
+    scene["springs"][0]["rest_length"] = 1
+    answer = hooke("check", write(scene, step=1e-4), "--json")
+    assert answer.code == 0
+    coincident, loose = [text for text in answer.json["warnings"]]
+    assert "1 spring starts with both ends at the same place" in coincident
+    assert "2 particles have no spring" in loose and "particle 6" in loose
+
+
+def test_words_have_the_same_numbers(hooke, write):
+    scene = write(STIFF_PAIR)
+    value = hooke("check", scene, "--json").json
+    answer = hooke("check", scene)
+    assert answer.code == 0
+    assert f"{value['memory_bytes']} bytes" in answer.out
+    assert repr(value["step_limit"]["symplectic-euler"]) in answer.out
+    assert "warning: " + value["warnings"][0] in answer.err
+    assert "warning" not in answer.out
+
+
+@pytest.mark.parametrize("missing", ["step", "duration", "method"])
+def test_a_scene_without_all_of_a_run_is_still_valid(hooke, write, missing):
+    scene = write(SIX_PARTICLES, **{missing: None})
+    assert hooke("check", scene, "--json").code == 0
+
+
+def test_a_run_that_does_not_fit_is_3(hooke, write):
+    answer = hooke("check", write(SIX_PARTICLES, step=3e-3), "--json")
+    assert answer.code == 3
+    assert "multiple" in answer.err
+    assert answer.json["error"]["exit"] == 3
+
+
+def test_an_invalid_scene_is_3_and_names_the_place(hooke, tmp_path):
+    (tmp_path / "bad.json").write_text('{"hooke": 1,\n "gravty": [0, 0, 0]}')
+    answer = hooke("check", "bad.json")
+    assert answer.code == 3
+    assert "bad.json:2:" in answer.err and "gravty" in answer.err
+    assert answer.out == ""
+
+
+def test_strings_are_escaped(hooke, write):
+    scene = copy.deepcopy(SIX_PARTICLES)
+    name = 'a "quoted" \\ name\nwith é, \u4e2d, \U0001f9f5 and \x01\x1f\x7f'
+    scene["springs"][0]["name"] = name
+    file = write(scene)
+    answer = hooke("check", file, "--json")
+    assert answer.json["groups"][0]["name"] == name
+    assert "\x01" not in hooke("check", file).out

@@ -1,0 +1,138 @@
+"""hooke compare: rows, table, file, and rows that diverge."""
+
+import math
+import signal
+import time
+
+import h5py
+import pytest
+
+from conftest import ENDLESS, SIX_PARTICLES, STIFF_PAIR
+
+pytestmark = pytest.mark.everything
+
+METHODS = ["forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"]
+ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
+       "wall_seconds", "status"]
+
+
+def rows_of(value):
+    return {row["method"]: row for row in value["rows"]}
+
+
+def test_json_has_exactly_the_keys(hooke, write):
+    scene = write(SIX_PARTICLES)
+    answer = hooke("compare", scene, "--json")
+    assert (answer.code, answer.err) == (0, "")
+    value = answer.json
+    assert list(value) == ["scene", "duration", "reference", "rows"]
+    assert (value["scene"], value["duration"]) == (scene, 0.5)
+    assert list(value["reference"]) == ["methods", "agreement", "trusted_until"]
+    assert len(value["reference"]["methods"]) == 1
+    assert value["reference"]["methods"][0].startswith("cvode-")
+    assert [row["method"] for row in value["rows"]] == METHODS
+    for row in value["rows"]:
+        assert list(row) == ROW
+        assert row["status"] == "finished"
+        assert isinstance(row["steps"], int) and isinstance(row["force_evaluations"], int)
+        assert 0 < row["wall_seconds"] < 60
+        fixed = row["method"].endswith("euler")
+        assert (row["step"], row["rtol"]) == ((1e-3, None) if fixed else (None, 1e-6))
+
+
+def test_errors_are_in_the_right_order(hooke, write):
+    """The largest of a particle is at least the root mean square; explicit Euler at 1e-3 is off by millimetres, CVODE at
+    1e-6 by far less; halving the step halves the error."""
+    scene = write(SIX_PARTICLES)
+    rows = rows_of(hooke("compare", scene, "--json").json)
+    for row in rows.values():
+        assert 0 < row["error_final"] <= row["error"] < row["error_max"] < math.sqrt(5) * row["error"] * (1 + 1e-12)
+        assert row["energy_drift"] > 0
+    for euler in METHODS[:2]:
+        for cvode in METHODS[2:]:
+            assert rows[cvode]["error"] < 0.1 * rows[euler]["error"]
+    half = rows_of(hooke("compare", scene, "--json", "--step", "5e-4").json)
+    for euler in METHODS[:2]:
+        assert 1.8 < rows[euler]["error"] / half[euler]["error"] < 2.2
+
+
+def test_methods_can_be_chosen(hooke, write):
+    value = hooke("compare", write(SIX_PARTICLES), "--methods", "cvode-bdf,forward-euler", "--json").json
+    assert sorted(rows_of(value)) == ["cvode-bdf", "forward-euler"]
+
+
+def test_no_step_is_needed_without_a_method_that_takes_one(hooke, write):
+    scene = write(SIX_PARTICLES, step=None)
+    assert hooke("compare", scene, "--methods", "cvode-bdf").code == 0
+    answer = hooke("compare", scene)
+    assert answer.code == 2 and "no step" in answer.err
+    assert hooke("compare", write(SIX_PARTICLES, duration=None)).code == 2
+
+
+def test_a_row_that_diverges_stays_as_a_row(hooke, write):
+    scene = write(STIFF_PAIR, duration=50)
+    answer = hooke("compare", scene, "--json")
+    assert (answer.code, answer.err) == (0, "")
+    rows = rows_of(answer.json)
+    for euler in METHODS[:2]:
+        assert rows[euler]["status"] == "diverged"
+        assert rows[euler]["error"] is None
+    for cvode in METHODS[2:]:
+        assert rows[cvode]["status"] == "finished"
+        assert rows[cvode]["error"] > 0
+    words = hooke("compare", scene)
+    assert words.code == 0
+    for line in words.out.splitlines():
+        if line.startswith("forward-euler") and "e+" not in line:
+            assert "diverged" in line or "-" in line.split()
+
+
+def test_table_shows_error_over_time_and_the_cost(hooke, write):
+    scene = write(SIX_PARTICLES)
+    answer = hooke("compare", scene)
+    assert (answer.code, answer.err) == (0, "")
+    rows = rows_of(hooke("compare", scene, "--json").json)
+    assert "reference: cvode-" in answer.out
+    for word in ["[m]", "[J]", "[s]", "force", "wall time"]:
+        assert word in answer.out, word
+    head = next(line for line in answer.out.splitlines() if line.startswith("at t [s]"))
+    assert [float(word) for word in head.split()[-5:]] == [0.1, 0.2, 0.3, 0.4, 0.5]
+    for method, row in rows.items():
+        over_time, cost = [line.split() for line in answer.out.splitlines() if line.startswith(method)]
+        assert float(over_time[-1]) == pytest.approx(row["error_final"], rel=1e-3)
+        assert len(over_time) == 6
+        assert str(row["force_evaluations"]) in cost and cost[-1] == "finished"
+    assert max(map(len, answer.out.splitlines())) <= 140
+
+
+def test_file_holds_everything(hooke, write, tmp_path):
+    answer = hooke("compare", write(SIX_PARTICLES), "--json", "-o", "out.h5")
+    assert answer.code == 0
+    with h5py.File(tmp_path / "out.h5") as file:
+        for name in ["all", *METHODS]:
+            assert file[f"/particles/{name}/position/value"].shape == (11, 6, 3), name
+        assert "comparison" in file
+        reference = file["/particles/all/position/value"][:]
+        for row in answer.json["rows"]:
+            moved = file[f"/particles/{row['method']}/position/value"][:, :5] - reference[:, :5]
+            error = max((frame**2).sum() / 5 for frame in moved) ** 0.5
+            assert row["error"] == pytest.approx(error, rel=1e-12)
+
+
+@pytest.mark.parametrize("output, code", [("no/such/folder/out.h5", 5), ("scene.json", 2)])
+def test_output_that_cannot_be_written(hooke, write, output, code):
+    answer = hooke("compare", write(SIX_PARTICLES), "-o", output)
+    assert answer.code == code
+    assert output in answer.err and answer.out == ""
+
+
+def test_ctrl_c_is_130_and_keeps_the_rows(start, write, tmp_path):
+    process = start("compare", write(ENDLESS, every=1e4), "--json", "-o", "out.h5")
+    time.sleep(2)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert out.startswith(b"{") and b"interrupted" in err
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert "particles" in file

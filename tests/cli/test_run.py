@@ -1,0 +1,321 @@
+"""hooke run: results, files, divergence, Ctrl-C and progress."""
+
+import copy
+import json
+import math
+import os
+import pty
+import shlex
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import pytest
+
+from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR
+
+pytestmark = pytest.mark.everything
+
+KEYS = ["status", "method", "step", "time", "steps", "force_evaluations", "wall_seconds", "particles", "springs",
+        "energy", "momentum", "output", "diagnosis"]
+ADAPTIVE_KEYS = KEYS[:2] + ["rtol", "atol"] + KEYS[3:]
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+@pytest.mark.parametrize("method, keys", [("symplectic-euler", KEYS), ("forward-euler", KEYS),
+                                          ("cvode-bdf", ADAPTIVE_KEYS), ("cvode-adams", ADAPTIVE_KEYS)])
+def test_json_has_exactly_the_keys_and_types(hooke, write, method, keys):
+    answer = hooke("run", write(SIX_PARTICLES), "--method", method, "--json")
+    assert (answer.code, answer.err) == (0, "")
+    value = answer.json
+    assert list(value) == keys
+    assert (value["status"], value["method"]) == ("finished", method)
+    assert value["time"] == 0.5
+    for key in ["steps", "force_evaluations", "particles", "springs"]:
+        assert isinstance(value[key], int), key
+    assert (value["particles"], value["springs"]) == (6, 7)
+    assert 0 < value["wall_seconds"] < 60
+    assert list(value["energy"]) == ["initial", "final"]
+    assert all(map(is_number, value["energy"].values()))
+    assert len(value["momentum"]) == 3 and all(map(is_number, value["momentum"]))
+    assert value["output"] is None and value["diagnosis"] is None
+    if "step" in keys:
+        assert value["step"] == 1e-3 and value["steps"] == 500
+    else:
+        assert (value["rtol"], value["atol"]) == (1e-6, 1e-9)
+        assert value["force_evaluations"] >= value["steps"] > 10
+
+
+def test_options_come_before_the_scene(hooke, write):
+    value = hooke("run", "--step=2.5e-3", write(SIX_PARTICLES), "--duration", "0.25", "--json").json
+    assert (value["step"], value["time"], value["steps"]) == (2.5e-3, 0.25, 100)
+
+
+def test_energy_and_momentum_are_those_of_the_last_state(hooke, write):
+    """Worked out here from --final: m v, 1/2 m v^2, springs and weight."""
+    value = hooke("run", write(SIX_PARTICLES), "--json", "--final").json
+    assert list(value) == KEYS + ["final"] and list(value["final"]) == ["position", "velocity"]
+    q, v = value["final"]["position"], value["final"]["velocity"]
+    assert len(q) == len(v) == 6 and all(len(row) == 3 for row in q + v)
+    assert q[5] == [3, 2, 0.2] and v[5] == [0, 0, 0]
+    mass = SIX_PARTICLES["particles"]["mass"][:5]
+    momentum = [math.fsum(m * v[i][k] for i, m in enumerate(mass)) for k in range(3)]
+    assert value["momentum"] == pytest.approx(momentum, rel=1e-13)
+    energy = sum(m * (sum(c * c for c in v[i]) / 2 + 9.81 * q[i][1]) for i, m in enumerate(mass))
+    start = SIX_PARTICLES["particles"]["position"]
+    for i, j in SIX_PARTICLES["springs"][0]["between"]:
+        rest = 0.9 * math.dist(start[i], start[j])
+        energy += 50 * rest * (math.dist(q[i], q[j]) / rest - 1) ** 2
+    assert value["energy"]["final"] == pytest.approx(energy, rel=1e-12)
+
+
+def test_numbers_read_back_to_the_same_bits(hooke, write, tmp_path):
+    """The same state as JSON, as words, and as the last frame of the file."""
+    scene = write(SIX_PARTICLES)
+    value = hooke("run", scene, "--json", "--final", "-o", "out.h5").json
+    words = hooke("run", scene, "--final").out
+    rows = [line.split() for line in words.split("vz [m/s]\n")[1].splitlines()]
+    with h5py.File(tmp_path / "out.h5") as file:
+        for what, first in [("position", 1), ("velocity", 4)]:
+            printed = [[float(word) for word in row[first : first + 3]] for row in rows]
+            stored = file[f"/particles/all/{what}/value"][-1].tolist()
+            assert value["final"][what] == stored == printed
+    assert repr(value["energy"]["final"]) in words
+    assert any(len(repr(x)) > 17 for row in value["final"]["position"] for x in row), "no number tests the digits"
+
+
+def test_names_that_are_not_utf8_are_still_json(hooke, write, tmp_path):
+    value = hooke("run", write(SIX_PARTICLES), "--json", "-o", b"out \xff\xc3.h5").json
+    assert value["output"] == "out \ufffd\ufffd.h5"
+    assert os.path.exists(os.fsencode(tmp_path) + b"/out \xff\xc3.h5")
+
+
+def test_words_are_a_short_summary_with_units(hooke, write):
+    answer = hooke("run", write(SIX_PARTICLES), "-o", "out.h5")
+    assert (answer.code, answer.err) == (0, "")
+    for word in ["six particles, seven springs", "step 0.001 s", "0.5 s of 0.5 s", "ns per spring-step", " J after",
+                 "kg m/s", "out.h5 (11 frames)"]:
+        assert word in answer.out, word
+    assert len(answer.out.splitlines()) < 16
+
+
+def test_words_of_an_adaptive_method_count_the_solver(hooke, write):
+    out = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf").out
+    for word in ["rtol 1e-06, atol 1e-09 m", "nonlinear iterations", "linear iterations"]:
+        assert word in out, word
+
+
+# ---- what cannot be run ----
+
+
+@pytest.mark.parametrize(
+    "run, words, code, wanted",
+    [
+        ({"duration": None}, [], 2, "no duration"),
+        ({"step": None}, [], 2, "no step"),
+        ({"step": 3e-3}, [], 3, "nearest step"),
+        ({}, ["--step", "3e-3"], 3, "nearest step"),
+        ({}, ["--every", "0.0333"], 3, "multiple"),
+        ({"method": "magic"}, [], 3, "magic"),
+        ({"step": -1}, [], 3, "run.step"),
+        ({}, ["-o", "scene.json"], 2, "the scene itself"),
+        ({}, ["-o", "no/such/folder/out.h5"], 5, "no/such/folder/out.h5"),
+        ({}, ["-o", "."], 5, "."),
+    ],
+)
+def test_what_cannot_be_run_says_why(hooke, write, run, words, code, wanted):
+    scene = write(SIX_PARTICLES, **run)
+    answer = hooke("run", scene, *words)
+    assert answer.code == code
+    assert wanted in answer.err
+    assert answer.out == ""
+    error = hooke("run", scene, "--json", *words).json["error"]
+    assert error["exit"] == code and wanted in error["message"]
+
+
+def test_a_missing_scene_is_bad_input(hooke):
+    answer = hooke("run", "missing.json")
+    assert answer.code == 3 and "missing.json" in answer.err
+
+
+def test_the_steps_it_names_fit(hooke, write):
+    scene = write(SIX_PARTICLES, step=3e-3)
+    answer = hooke("run", scene)
+    named = [word for word in answer.err.replace(",", " ").split() if word.startswith("0.00") and word != "0.003"]
+    steps = [float(word) for word in named if abs(float(word) / 3e-3 - 1) > 1e-9]
+    assert steps
+    for step in steps:
+        assert hooke("run", scene, "--step", repr(step)).code == 0
+
+
+def test_a_step_limit_is_4_and_keeps_what_there_was(hooke, write):
+    answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-adams", "--max-steps", "10", "--json")
+    assert answer.code == 4
+    assert answer.json["status"] == "stopped"
+    assert "max_steps" in answer.json["diagnosis"]
+    assert 0 < answer.json["time"] < 0.5
+    assert "--max-steps" in answer.err
+
+
+# ---- divergence ----
+
+
+def advised_command(err):
+    (line,) = [line for line in err.splitlines() if line.startswith("  hooke run ")]
+    return shlex.split(line)[1:]
+
+
+@pytest.mark.parametrize(
+    "method, stiffness", [("symplectic-euler", 1000), ("symplectic-euler", 18000), ("forward-euler", 1000)]
+)
+def test_a_run_that_diverges_is_4_and_the_advice_works(hooke, write, tmp_path, method, stiffness):
+    """Symplectic Euler at 1.6 and 6.7 times its limit; forward Euler, which has none here."""
+    scene = copy.deepcopy(STIFF_PAIR)
+    scene["springs"][0]["stiffness"] = stiffness
+    answer = hooke("run", write(scene, method=method), "--json", "-o", "it's out.h5")
+    assert answer.code == 4
+    value = answer.json
+    assert list(value) == KEYS
+    assert value["status"] == "diverged" and value["diagnosis"]
+    assert 0 <= value["time"] < 100
+    assert value["output"] == "it's out.h5"
+    assert value["diagnosis"] in answer.err
+    with h5py.File(tmp_path / "it's out.h5") as file:
+        times = file["/particles/all/position/time"][:].tolist()
+        assert times == [float(k) for k in range(len(times))] and times[-1] <= value["time"]
+        assert f"{len(times)} frame" in answer.err
+    words = advised_command(answer.err)
+    assert "it's out.h5" in words and "--step" in words
+    again = hooke(*words)
+    assert again.code == 0, again.err
+    assert again.json["time"] == 100 and 0.1 < again.json["step"] * math.sqrt(stiffness) < 2
+
+
+def test_divergence_is_explained_in_words(hooke, write):
+    answer = hooke("run", write(STIFF_PAIR))
+    assert answer.code == 4
+    assert "diverged" in answer.err and "kept:" in answer.err and "certain to be stable up to" in answer.err
+    assert "time reached" in answer.out and "diverged" not in answer.out
+
+
+# ---- Ctrl-C and progress ----
+
+
+def wait_for_frames(path, process, count):
+    """Until the run has written `count` frames: their bytes are in a file of a size known in advance."""
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        assert process.poll() is None, process.communicate()
+        if path.exists():
+            try:
+                with h5py.File(path, locking=False) as file:
+                    if not math.isnan(file["/particles/all/position/time"][count - 1]):
+                        return
+            except (OSError, KeyError):
+                pass  # caught between two writes
+        time.sleep(0.05)
+    pytest.fail("no frames after a minute")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_is_130_and_keeps_what_was_computed(start, write, tmp_path, number):
+    process = start("run", write(ENDLESS), "--json", "-o", "out.h5")
+    wait_for_frames(tmp_path / "out.h5", process, 3)
+    process.send_signal(number)
+    sent = time.monotonic()
+    out, err = process.communicate(timeout=60)
+    assert time.monotonic() - sent < 20
+    assert process.returncode == 130
+    value = json.loads(out)
+    assert list(value) == KEYS
+    assert value["status"] == "stopped" and value["diagnosis"] is None
+    assert b"interrupted" in err and b"frames in out.h5" in err
+    with h5py.File(tmp_path / "out.h5") as file:
+        times = file["/particles/all/position/time"][:].tolist()
+        assert len(times) >= 3 and times == [100.0 * k for k in range(len(times))]
+        assert len(file["/particles/all/position/value"]) == len(times)
+        assert times[-1] <= value["time"] < times[-1] + 100 + 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.h5", "scene.json"]
+
+
+def test_progress_is_silent_in_a_pipe(start, write):
+    process = start("run", write(ENDLESS))
+    time.sleep(2.5)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert err.decode().startswith("hooke run: interrupted at t = ") and err.count(b"\n") == 1
+    assert b"\r" not in out + err and b"\x1b" not in out + err
+    assert b"time reached" in out
+
+
+def read_terminal(master, wanted, seconds):
+    """What appears on a terminal until `wanted` does, or the time is over."""
+    seen = b""
+    os.set_blocking(master, False)
+    end = time.monotonic() + seconds
+    while wanted not in seen and time.monotonic() < end:
+        try:
+            seen += os.read(master, 4096)
+        except BlockingIOError:
+            time.sleep(0.05)
+    return seen
+
+
+@pytest.mark.parametrize("verb, quiet", [("run", False), ("run", True), ("compare", False)])
+def test_progress_on_a_terminal_after_a_second(start, write, verb, quiet):
+    master, terminal = pty.openpty()
+    begun = time.monotonic()
+    process = start(verb, write(ENDLESS), "--json", *(["--quiet"] if quiet else []), stderr=terminal)
+    seen = read_terminal(master, b" left", 3 if quiet else 30)
+    if quiet:
+        assert seen == b""
+    else:
+        assert time.monotonic() - begun >= 1
+        assert b"%" in seen and b" left" in seen
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    os.close(terminal)
+    os.close(master)
+    assert process.returncode == 130
+    assert json.loads(out)["status" if verb == "run" else "rows"] == ("stopped" if verb == "run" else [])
+
+
+def test_a_signal_that_was_ignored_stays_ignored(start, write):
+    """As under nohup, or in the background of a script."""
+    process = start("run", write(ENDLESS), preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.5)
+    assert process.poll() is None
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+
+
+def test_short_work_shows_no_progress_on_a_terminal(start, write):
+    master, terminal = pty.openpty()
+    process = start("run", write(SIX_PARTICLES, duration=0.1), stderr=terminal)
+    process.communicate(timeout=60)
+    os.set_blocking(master, False)
+    with pytest.raises(BlockingIOError):
+        os.read(master, 1)
+    os.close(terminal)
+    os.close(master)
+    assert process.returncode == 0
+
+
+def test_standard_output_is_json_and_nothing_else(write, tmp_path):
+    """Through a shell, as a user pipes it."""
+    scene = write(STIFF_PAIR)
+    for verb in ["check", "run", "run --step 0.01", "run --step 0.3", "run -o no/such/out.h5"]:
+        word, _, rest = verb.partition(" ")
+        line = f"{shlex.quote(CLI)} {word} {scene} --json {rest} 2>/dev/null | {shlex.quote(sys.executable)} -m json.tool"
+        done = subprocess.run(line, shell=True, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, (verb, done.stderr)
+        assert done.stdout.startswith("{") and "Extra data" not in done.stderr

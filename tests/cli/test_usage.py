@@ -1,0 +1,144 @@
+"""Words: help, version, wrong usage, and what a minimal build answers."""
+
+import re
+import subprocess
+
+import pytest
+
+from conftest import CLI, MINIMAL, SIX_PARTICLES
+
+VERBS = ["run", "compare", "check"]
+METHODS = ["forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"]
+RUN_OPTIONS = {  # what --help has to say about each: unit and default
+    "step": ("[s]", "none"),
+    "duration": ("[s]", "none"),
+    "every": ("[s]", "none"),
+    "rtol": ("", "1e-6"),
+    "atol": ("[m]", "1e-9"),
+    "atol-velocity": ("[m/s]", "none"),
+    "max-order": ("", "none"),
+    "max-steps": ("", "none"),
+    "threads": ("", "1"),
+}
+
+
+def paragraphs(text):
+    """The text of each option in a help text, by flag."""
+    found = {}
+    for match in re.finditer(r"^  (?:-\w, |    )--([\w-]+)(.*(?:\n {10,}.*)*)", text, re.MULTILINE):
+        found[match.group(1)] = " ".join(match.group(2).split())
+    return found
+
+
+def test_help_lists_verbs_and_methods(hooke):
+    answer = hooke("--help")
+    assert (answer.code, answer.err) == (0, "")
+    for word in VERBS + METHODS:
+        assert re.search(rf"^  {word} ", answer.out, re.MULTILINE), word
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_of_a_verb_has_units_and_defaults(hooke, verb):
+    answer = hooke(verb, "--help")
+    assert (answer.code, answer.err) == (0, "")
+    options = paragraphs(answer.out)
+    for flag, (unit, default) in RUN_OPTIONS.items():
+        assert unit in options[flag], flag
+        assert options[flag].endswith(f"default: {default}"), options[flag]
+    assert ("method" in options) == (verb != "compare")
+    assert ("output" in options) == (verb != "check")
+    assert max(map(len, answer.out.splitlines())) <= 110
+
+
+def test_version_says_what_it_was_built_with(hooke):
+    answer = hooke("--version")
+    assert (answer.code, answer.err) == (0, "")
+    facts = dict(line.split(None, 1) for line in answer.out.splitlines())
+    assert re.fullmatch(r"\d+\.\d+\.\d+", facts["hooke"])
+    assert facts["ABI"].isdigit()
+    for library in ["SUNDIALS", "GSL", "HDF5", "jansson"]:
+        if MINIMAL:
+            assert facts[library] == "not in this build"
+        else:
+            assert re.match(r"\d+\.\d+", facts[library])
+    assert int(facts["threads"].split()[0]) >= 1
+    assert facts["instructions"] and facts["licence"]
+
+
+@pytest.mark.parametrize(
+    "words, wanted",
+    [
+        ([], "usage: hooke VERB"),
+        (["rnu", "scene.json"], "did you mean 'run'"),
+        (["chekc"], "did you mean 'check'"),
+        (["--verbose"], "there is no option '--verbose'"),
+        (["run"], "no scene"),
+        (["run", "a.json", "b.json"], "'a.json' and 'b.json'"),
+        (["run", "a.json", "--stpe", "1"], "did you mean --step?"),
+        (["run", "a.json", "--stpe=1"], "did you mean --step?"),
+        (["run", "a.json", "-x"], "there is no option -x"),
+        (["run", "a.json", "-qx"], "there is no option -x"),
+        (["run", "a.json", "--step"], "--step wants a value"),
+        (["run", "a.json", "-o"], "--output wants a value"),
+        (["run", "a.json", "--json=yes"], "--json takes no value"),
+        (["run", "a.json", "--step", "fast"], "--step fast"),
+        (["run", "a.json", "--step", "-1"], "> 0"),
+        (["run", "a.json", "--step", "nan"], "--step nan"),
+        (["run", "a.json", "--step", ""], "--step"),
+        (["run", "a.json", "--threads", "1.5"], "whole"),
+        (["run", "a.json", "--method", "forward-eular"], "did you mean forward-euler?"),
+        (["run", "a.json", "--method", "magic"], "cvode-adams"),
+        (["compare", "a.json", "--methods", "forward-euler,magic"], "'magic'"),
+        (["compare", "a.json", "--methods", ""], "''"),
+        (["compare", "a.json", "--methods", "forward-euler,forward-euler"], "named twice"),
+        (["check", "a.json", "-o", "b.h5"], "there is no option -o"),
+    ],
+)
+def test_wrong_usage_is_2_and_says_why(hooke, words, wanted):
+    answer = hooke(*words)
+    assert answer.code == 2
+    assert wanted in answer.err
+    assert answer.out == ""
+
+
+def test_wrong_usage_with_json_is_an_object(hooke):
+    answer = hooke("run", "a.json", "--json", "--stpe", "1")
+    assert answer.code == 2
+    assert answer.json["error"]["exit"] == 2
+    assert "--stpe" in answer.json["error"]["message"]
+
+
+def test_text_from_outside_cannot_steer_a_terminal(hooke):
+    answer = hooke("run", "a.json", "--step", "\x1b[2Jfast")
+    assert answer.code == 2
+    assert "\x1b" not in answer.err
+    assert "\x1b" not in hooke("\x1b[2J").err
+
+
+def test_output_that_cannot_be_written_is_5():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([CLI, "--help"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 5
+    assert "standard output" in done.stderr
+
+
+@pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")
+@pytest.mark.parametrize(
+    "words, wanted",
+    [
+        (["run"], "jansson"),
+        (["check"], "jansson"),
+        (["compare"], "jansson"),
+        (["run", "-o", "out.h5"], "HDF5"),
+        (["compare", "-o", "out.h5"], "HDF5"),
+        (["compare", "--methods", "cvode-bdf"], "cvode-bdf"),
+    ],
+)
+def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, wanted):
+    scene = write(SIX_PARTICLES)
+    answer = hooke(words[0], scene, *words[1:])
+    assert answer.code == 6
+    assert wanted in answer.err
+    assert answer.out == ""
+    assert not (tmp_path / "out.h5").exists()
+    assert hooke(words[0], scene, "--json", *words[1:]).json["error"]["exit"] == 6
