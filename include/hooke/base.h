@@ -24,16 +24,16 @@ extern "C" {
 
 /* Statuses. The numbers are part of the ABI and never change. */
 #define HOOKE_OK            0
-#define HOOKE_STOPPED       1  /* a callback or an observer asked to stop */
-#define HOOKE_DIVERGED      2  /* the run left every physical bound; see hooke_integrator_run() */
-#define HOOKE_STEP_LIMIT    3  /* an error-controlled method used up `max_steps` */
-#define HOOKE_NO_MEMORY     -1 /* an allocation failed */
-#define HOOKE_BAD_VALUE     -2 /* an argument, an option or a scene has a value that is not allowed */
-#define HOOKE_BAD_CALL      -3 /* calls out of order: a system not yet committed, or changed after it was */
-#define HOOKE_IO_FAILED     -4 /* a file could not be read or written */
-#define HOOKE_NOT_BUILT     -5 /* this build of the library was made without the part asked for */
-#define HOOKE_UNSUITED      -6 /* the method does not take this kind of problem */
-#define HOOKE_SOLVER_FAILED -7 /* a nonlinear or error-controlled solver gave up */
+#define HOOKE_STOPPED       1    /* a callback or an observer asked to stop */
+#define HOOKE_DIVERGED      2    /* the run left every physical bound; see hooke_integrator_run() */
+#define HOOKE_STEP_LIMIT    3    /* an error-controlled method used up `max_steps` */
+#define HOOKE_NO_MEMORY     (-1) /* an allocation failed */
+#define HOOKE_BAD_VALUE     (-2) /* an argument, an option or a scene has a value that is not allowed */
+#define HOOKE_BAD_CALL      (-3) /* calls out of order: a system not yet committed, or changed after it was */
+#define HOOKE_IO_FAILED     (-4) /* a file could not be read or written */
+#define HOOKE_NOT_BUILT     (-5) /* this build of the library was made without the part asked for */
+#define HOOKE_UNSUITED      (-6) /* the method does not take this kind of problem */
+#define HOOKE_SOLVER_FAILED (-7) /* a nonlinear or error-controlled solver gave up */
 
 /* The message of the last failure or outcome in this thread; "" if there was none. Valid until the next call
  * into the library from this thread. */

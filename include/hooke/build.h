@@ -1,10 +1,12 @@
 /* hooke/build.h - parts: pieces of a scene that are generated rather than listed.
  *
  *   rope   `segments` springs from `from` to `to`: stretch (neighbours), bend (two apart)
- *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals
- * of each cell), bend (two apart along u, then v) A family that is not named has no springs. Stiffness is
- * that of the strain law, so a finer part of the same material stretches the same. Rest lengths are one per
- * family and direction, from the edges and not from rounded positions. */
+ *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals of
+ *          each cell), bend (two apart along u, then v)
+ *
+ * A family that is not named has no springs. Stiffness is that of the strain law, so a finer part of the same
+ * material stretches the same. Rest lengths are one per family and direction, from the edges and not from
+ * rounded positions. */
 #ifndef HOOKE_BUILD_H
 #define HOOKE_BUILD_H
 

@@ -24,7 +24,8 @@ typedef struct hooke_scene hooke_scene;
 
 /* Reads a scene file (format: docs/scene.md). The system is built but not committed, so that a callback may
  * still be added; the caller owns the scene. HOOKE_BAD_VALUE with "file:line:column: path: what is wrong,
- * what is allowed"; HOOKE_IO_FAILED if the file cannot be read; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT. */
+ * what is allowed", also for a file that cannot be opened, the scene's or one that it names; HOOKE_IO_FAILED
+ * if reading breaks off; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 
 /* The same from `length` bytes of text; `name` stands for the file in messages, `folder` is where files named

@@ -78,11 +78,14 @@ HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *forc
                                          hooke_force_product *product, void *ctx);
 
 /* Particles moved as prescribed (inverse mass 0), about where they were added:
- *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase)     amplitude 3 numbers [m], frequency [Hz],
- * phase [rad] table     q = q0 + d(t), d piecewise cubic with continuous velocity through `samples` >= 2 rows
- * of `displacement` (3 samples) [m] at ascending `time` [s]; still before the first and after the last.
- * Slopes are those of the parabola through three neighbouring samples. callback  q and v as `drive` says A
- * particle is driven once at most, and not pinned as well. */
+ *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase), amplitude 3 numbers [m], frequency [Hz],
+ *             phase [rad]
+ *   table     q = q0 + d(t), d piecewise cubic through `samples` >= 2 rows of `displacement` (3 samples) [m] at
+ *             ascending `time` [s], its slope at a sample that of the parabola through three neighbouring ones, so
+ *             that velocity is continuous from the first sample to the last; at rest before and after
+ *   callback  q and v as `drive` says
+ * A particle is driven once at most, and not pinned as well.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
                                               const double *amplitude, double frequency, double phase);
 HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,

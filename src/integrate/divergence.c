@@ -1,6 +1,8 @@
-/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene itself
- * (no callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start and what
- * gravity has given since:  E(t) - E(0) > 100 (T(0) + U_springs(0) + max |U_gravity - U_gravity(0)|). */
+/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene itself (no
+ * callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start and what gravity
+ * has given since:
+ *   E(t) - E(0) > 100 (T(0) + U_springs(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2)
+ * The last term is what gravity gives a scene at rest in one step: forward Euler has it in v before q has moved. */
 #include "integrate/integrator.h"
 
 #include "core/status.h"
@@ -22,6 +24,14 @@ static int all_finite(int64_t count, const double *value) {
   return sum == 0.0;
 }
 
+static double first_step_energy(const hooke_integrator *it) {
+  const double *g = it->system->gravity, h = it->method->adaptive ? 0.0 : it->schedule.step;
+  double mass = 0.0;
+  for (int64_t p = 0; p < it->system->particle_count; p++)
+    mass += it->system->held[p] ? 0.0 : it->system->mass[p];
+  return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h;
+}
+
 int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   if (has_energy_bound(it)) {
@@ -29,7 +39,7 @@ int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
     const double springs = hooke_system_spring_energy(it->system, state->q);
     it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
     it->gravity_swing = 0.0;
-    it->scale0 = kinetic + springs;
+    it->scale0 = kinetic + springs + first_step_energy(it);
     it->energy0 = kinetic + springs + it->gravity0;
   }
   return hooke_state_copy(state, it->good);

@@ -23,7 +23,8 @@ HOOKE_INLINE double hooke_spring_tension(double r, double rest_length, double ka
                                          int damped, int pull_only) {
   double tension = kappa * (r - rest_length);
   if (damped) tension = tension + damping_force;
-  if (pull_only) tension = (r <= rest_length) | (tension < 0.0) ? 0.0 : tension;
+  /* no branch: | and not || */
+  if (pull_only) tension = ((r <= rest_length) | (tension < 0.0)) ? 0.0 : tension;
   return tension;
 }
 

@@ -1,8 +1,7 @@
 /* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
  *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
  *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
- * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I, exactly.
- */
+ * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I. */
 #ifndef HOOKE_MEASURE_NODE_BLOCKS_H
 #define HOOKE_MEASURE_NODE_BLOCKS_H
 
