@@ -1,0 +1,216 @@
+/* HDF5 files that take their place only when they are ready, and HDF5 errors in words. */
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/file_h5.h"
+#include "io/object_h5.h"
+
+#include "core/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- errors ---- */
+
+/* The innermost entry of HDF5's error stack is the cause. */
+static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
+  struct hooke_h5_guard *guard = ctx;
+  if (n > 0 || entry->desc == NULL) return 0;
+  const char *text = entry->desc, *mark = "error message = '";
+  const char *system_text = strstr(text, mark);
+  size_t length = strlen(text);
+  if (system_text) {
+    text = system_text + strlen(mark);
+    length = strcspn(text, "'");
+  }
+  snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
+  return 0;
+}
+
+/* Called by HDF5 when one of its functions fails; what fails first is the reason for the rest. */
+static herr_t on_error(hid_t stack, void *ctx) {
+  struct hooke_h5_guard *guard = ctx;
+  if (guard->reason[0] == '\0') H5Ewalk2(stack, H5E_WALK_UPWARD, keep_innermost, guard);
+  return 0;
+}
+
+void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
+  *guard = (struct hooke_h5_guard){.second_version = 1};
+  H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
+  if (guard->second_version) {
+    H5E_auto2_t handler = NULL;
+    H5Eget_auto2(H5E_DEFAULT, &handler, &guard->data);
+    guard->handler = (void (*)(void))handler;
+  } else {
+    H5E_auto1_t handler = NULL;
+    H5Eget_auto1(&handler, &guard->data);
+    guard->handler = (void (*)(void))handler;
+  }
+  H5Eset_auto2(H5E_DEFAULT, on_error, guard);
+}
+
+void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
+  H5Eclear2(H5E_DEFAULT);
+  if (guard->second_version) {
+    H5Eset_auto2(H5E_DEFAULT, (H5E_auto2_t)guard->handler, guard->data);
+  } else {
+    H5Eset_auto1((H5E_auto1_t)guard->handler, guard->data);
+  }
+}
+
+int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
+                    guard->reason);
+}
+
+/* The same for calls to the operating system. */
+static int32_t fail_errno(const char *path, const char *what, int error) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what, strerror(error));
+}
+
+/* ---- a file ---- */
+
+/* `path` with links followed, so that a link stays one when its target is replaced, and from the root, so
+ * that it still holds when the process changes its folder. */
+static int32_t find_place(const char *path, char **place) {
+  struct stat there;
+  if (stat(path, &there) == 0) {
+    if (!S_ISREG(there.st_mode)) {
+      return hooke_fail(HOOKE_IO_FAILED, NULL,
+                        "%s: is not a regular file, and only such are replaced; name another", path);
+    }
+    char *real = realpath(path, NULL);
+    if (real == NULL) return fail_errno(path, "follow the path", errno);
+    *place = hooke_copy_text(real);
+    free(real);
+  } else if (path[0] == '/') {
+    *place = hooke_copy_text(path);
+  } else {
+    char folder[PATH_MAX];
+    if (getcwd(folder, sizeof folder) == NULL) return fail_errno(path, "find the working folder", errno);
+    const size_t room = strlen(folder) + strlen(path) + 2;
+    *place = hooke_new((int64_t)room, 1);
+    if (*place) snprintf(*place, room, "%s/%s", folder, path);
+  }
+  return *place ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static hid_t access_list(void) {
+  hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+  if (list < 0) return list;
+  if (H5Pset_sieve_buf_size(list, 0) < 0 || H5Pset_alignment(list, 1, 8) < 0 ||
+      H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) < 0) {
+    H5Pclose(list);
+    return -1;
+  }
+  return list;
+}
+
+/* Whether `bytes` fit is found out before HDF5 comes into play: it holds back metadata, and a file that it
+ * cannot close for want of room crashes the process at exit in some versions. */
+static int32_t try_room(const char *path, const char *temporary, double bytes) {
+  char what[64];
+  snprintf(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
+  unlink(temporary);
+  int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY, 0666);
+  if (descriptor < 0) return fail_errno(path, "create the file", errno);
+  int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
+  if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
+  close(descriptor);
+  unlink(temporary);
+  return error ? fail_errno(path, what, error) : HOOKE_OK;
+}
+
+int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
+                             struct hooke_h5_file *file) {
+  *file = (struct hooke_h5_file){.id = -1};
+  int32_t status = find_place(path, &file->path);
+  if (status != HOOKE_OK) return status;
+  const int64_t room = (int64_t)strlen(file->path) + 32;
+  file->temporary = hooke_new(room, 1);
+  if (file->temporary == NULL) return HOOKE_NO_MEMORY;
+  snprintf(file->temporary, (size_t)room, "%s.%ld.part", file->path, (long)getpid());
+  status = try_room(path, file->temporary, bytes);
+  if (status != HOOKE_OK) return status;
+  hid_t list = access_list();
+  file->id = H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, list);
+  if (file->id < 0) status = hooke_h5_fail(guard, path, "create the file");
+  hooke_h5_drop(list);
+  return status;
+}
+
+double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
+  hsize_t bytes = 0;
+  return H5Fget_filesize(file->id, &bytes) < 0 ? 0.0 : (double)bytes;
+}
+
+static int sync_path(const char *path, int flags) {
+  int descriptor = open(path, flags);
+  if (descriptor < 0) return -1;
+  int result = fsync(descriptor);
+  int error = errno;
+  close(descriptor);
+  errno = error;
+  return result;
+}
+
+/* The names of a folder's files are data of the folder. */
+static int sync_folder_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  char *folder = hooke_new(slash - path + 2, 1);
+  if (folder == NULL) {
+    errno = ENOMEM;
+    return -1;
+  }
+  memcpy(folder, path, (size_t)(slash - path) + 1);
+  int result = sync_path(folder, O_RDONLY | O_DIRECTORY);
+  hooke_free(folder);
+  /* some file systems cannot do this for a folder; the rename is then as durable as they make it */
+  return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
+}
+
+static int32_t move_into_place(struct hooke_h5_file *file) {
+  if (sync_path(file->temporary, O_RDONLY) != 0)
+    return fail_errno(file->path, "bring the data to the disk", errno);
+  if (rename(file->temporary, file->path) != 0) return fail_errno(file->path, "take this name", errno);
+  hooke_free(file->temporary);
+  file->temporary = NULL;
+  if (sync_folder_of(file->path) != 0) return fail_errno(file->path, "bring the name to the disk", errno);
+  return HOOKE_OK;
+}
+
+int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
+  return move_into_place(file);
+}
+
+int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
+  file->id = -1;
+  if (file->temporary) return move_into_place(file);
+  if (sync_path(file->path, O_RDONLY) != 0)
+    return fail_errno(file->path, "bring the data to the disk", errno);
+  return HOOKE_OK;
+}
+
+void hooke_h5_file_release(struct hooke_h5_file *file) {
+  /* closing has to write what is left, and can on a full disk when the abandoned data give their room back */
+  if (file->id >= 0 && file->temporary) {
+    int ignored = truncate(file->temporary, 0);
+    (void)ignored;
+  }
+  if (file->id >= 0) H5Fclose(file->id);
+  if (file->temporary) unlink(file->temporary);
+  hooke_free(file->temporary);
+  hooke_free(file->path);
+  *file = (struct hooke_h5_file){.id = -1};
+}
+
+#endif

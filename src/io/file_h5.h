@@ -1,0 +1,47 @@
+/* HDF5 files that are written, and the manners of a guest in a larger program: nothing printed, the thread's
+ * error handler restored, every handle closed on every path. */
+#ifndef HOOKE_IO_FILE_H5_H
+#define HOOKE_IO_FILE_H5_H
+
+#include "hooke/base.h"
+
+#include <hdf5.h>
+
+/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. */
+struct hooke_h5_guard {
+  char reason[256];
+  unsigned second_version;
+  void (*handler)(void);
+  void *data;
+};
+void hooke_h5_guard_begin(struct hooke_h5_guard *guard);
+void hooke_h5_guard_end(const struct hooke_h5_guard *guard);
+
+/* Fails with "path: could not <what>: reason". */
+int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what);
+
+struct hooke_h5_file {
+  hid_t id;
+  char *path;      /* where it is going to be; links followed */
+  char *temporary; /* where it is until then; NULL once published */
+};
+
+/* Creates a file that is going to have up to `bytes` under a temporary name beside `path`: default format, no
+ * raw data held back in memory, everything aligned to 8 bytes so that no number lies across two pages.
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hooke_h5_file_release() has to follow in any case. */
+int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
+                             struct hooke_h5_file *file);
+
+/* Bytes that it has now. */
+double hooke_h5_file_bytes(const struct hooke_h5_file *file);
+
+/* Brings everything to the disk and takes the place of an older file; ours stays open. */
+int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
+
+/* Brings everything to the disk and closes. HOOKE_IO_FAILED leaves the file open. */
+int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
+
+/* Closes whatever is still open, removes a file that was not published, and releases the names. */
+void hooke_h5_file_release(struct hooke_h5_file *file);
+
+#endif

@@ -1,0 +1,148 @@
+/* The parts of an H5MD file that do not change with time. */
+#include "core/memory.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/h5md_h5.h"
+#include "io/object_h5.h"
+
+#include <string.h>
+
+enum { STATUS_LENGTH = 16 };
+
+static const char units[] =
+    "SI: position m, velocity m/s, time s, mass kg, energy J, power W, momentum kg m/s, "
+    "angular momentum kg m^2/s";
+
+/* A group with attributes; the caller drops it. */
+static hid_t new_group(hid_t where, const char *name) {
+  return H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+static herr_t write_h5md(hid_t file) {
+  const int32_t version[2] = {1, 1};
+  hid_t h5md = new_group(file, "h5md");
+  hid_t author = h5md < 0 ? -1 : new_group(h5md, "author");
+  hid_t creator = author < 0 ? -1 : new_group(h5md, "creator");
+  herr_t result = creator < 0 ? -1 : hooke_h5_integer_attribute(h5md, "version", 2, version);
+  if (result >= 0) result = hooke_h5_text_attribute(author, "name", "unknown");
+  if (result >= 0) result = hooke_h5_text_attribute(creator, "name", "hooke");
+  if (result >= 0) result = hooke_h5_text_attribute(creator, "version", hooke_version());
+  hooke_h5_drop(creator);
+  hooke_h5_drop(author);
+  hooke_h5_drop(h5md);
+  return result;
+}
+
+static herr_t write_options(hid_t where, const hooke_options *options) {
+  hid_t group = new_group(where, "options");
+  herr_t result = group < 0 ? -1 : 0;
+  for (int64_t k = 0; result >= 0 && k < hooke_options_row_count(options); k++) {
+    const char *name = hooke_options_row(options, k, "name");
+    const char *text = hooke_options_text(options, name);
+    const int64_t count = hooke_options_number_count(options, name);
+    if (count > 0) {
+      result = hooke_h5_number_attribute(group, name, count, hooke_options_numbers(options, name));
+    } else if (text[0]) {
+      result = hooke_h5_text_attribute(group, name, text);
+    }
+  }
+  hooke_h5_drop(group);
+  return result;
+}
+
+/* A single text of any length: a dataset, since attributes are limited to 64 KiB. */
+static herr_t write_text(hid_t where, const char *name, int64_t length, const char *text) {
+  hid_t dataset = hooke_h5_texts(where, name, -1, length);
+  herr_t result = dataset < 0 ? -1 : hooke_h5_write_text(dataset, 0, text);
+  hooke_h5_drop(dataset);
+  return result;
+}
+
+herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
+                           const char *scene_text) {
+  const int32_t abi = hooke_abi();
+  herr_t result = write_h5md(file);
+  hid_t group = result < 0 ? -1 : new_group(file, "hooke");
+  if (group < 0) return -1;
+  result = hooke_h5_text_attribute(group, "version", hooke_version());
+  if (result >= 0) result = hooke_h5_integer_attribute(group, "abi", 1, &abi);
+  if (result >= 0) result = hooke_h5_text_attribute(group, "units", units);
+  if (result >= 0 && method) result = hooke_h5_text_attribute(group, "method", method);
+  if (result >= 0 && options) result = write_options(group, options);
+  if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);
+  if (result >= 0) result = write_text(group, "status", STATUS_LENGTH, "running");
+  hooke_h5_drop(group);
+  return result;
+}
+
+/* Says which particles the numbers of the springs mean. */
+static herr_t refer(hid_t file, const char *group) {
+  hobj_ref_t reference;
+  hid_t particles = H5Gopen2(file, "particles", H5P_DEFAULT);
+  hid_t springs = H5Dopen2(file, "connectivity/springs", H5P_DEFAULT);
+  hid_t space = H5Screate(H5S_SCALAR);
+  hid_t attribute = -1;
+  herr_t result = particles < 0 || springs < 0 || space < 0 ? -1 : 0;
+  if (result >= 0) result = H5Rcreate(&reference, particles, group, H5R_OBJECT, -1);
+  if (result >= 0) {
+    attribute = H5Acreate2(springs, "particles_group", H5T_STD_REF_OBJ, space, H5P_DEFAULT, H5P_DEFAULT);
+    result = attribute < 0 ? -1 : H5Awrite(attribute, H5T_STD_REF_OBJ, &reference);
+  }
+  hooke_h5_drop(attribute);
+  hooke_h5_drop(space);
+  hooke_h5_drop(springs);
+  hooke_h5_drop(particles);
+  return result;
+}
+
+herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group) {
+  const int64_t count = hooke_system_spring_count(system);
+  const hsize_t size[2] = {(hsize_t)count, 2};
+  int64_t *ends = hooke_new(2 * count, sizeof(int64_t));
+  hid_t connectivity = ends ? new_group(file, "connectivity") : -1;
+  herr_t result = connectivity < 0 || hooke_system_spring_ends(system, ends) != HOOKE_OK ? -1 : 0;
+  if (result >= 0)
+    result = hooke_h5_array_of(connectivity, "springs", H5T_STD_I32LE, H5T_NATIVE_INT64, 2, size, ends);
+  if (result >= 0) result = refer(file, group);
+  hooke_h5_drop(connectivity);
+  hooke_free(ends);
+  return result;
+}
+
+herr_t hooke_h5md_copy(hid_t from, hid_t to, const char *group) {
+  const char *const names[] = {"h5md", "hooke", "connectivity"};
+  herr_t result = 0;
+  for (int k = 0; result >= 0 && k < 3; k++) {
+    result = H5Ocopy(from, names[k], to, names[k], H5P_DEFAULT, H5P_DEFAULT);
+  }
+  /* a reference does not survive a copy to another file */
+  if (result >= 0) result = H5Adelete_by_name(to, "connectivity/springs", "particles_group", H5P_DEFAULT);
+  return result < 0 ? result : refer(to, group);
+}
+
+static const char *outcome_word(int32_t outcome) {
+  switch (outcome) {
+  case HOOKE_OK:
+    return "finished";
+  case HOOKE_STOPPED:
+    return "stopped";
+  case HOOKE_DIVERGED:
+    return "diverged";
+  case HOOKE_STEP_LIMIT:
+    return "step-limit";
+  case HOOKE_SOLVER_FAILED:
+    return "solver-failed";
+  default:
+    return "failed";
+  }
+}
+
+herr_t hooke_h5md_write_status(hid_t file, int32_t outcome) {
+  hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
+  herr_t result = dataset < 0 ? -1 : hooke_h5_write_text(dataset, 0, outcome_word(outcome));
+  hooke_h5_drop(dataset);
+  return result;
+}
+
+#endif

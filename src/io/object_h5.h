@@ -1,0 +1,32 @@
+/* The small objects that HDF5 files are made of: attributes, arrays of a size known in advance, texts.
+ * Functions that return herr_t or hid_t give a negative number on failure, like HDF5's own. */
+#ifndef HOOKE_IO_OBJECT_H5_H
+#define HOOKE_IO_OBJECT_H5_H
+
+#include <stdint.h>
+
+#include <hdf5.h>
+
+/* Releases a handle of any kind but a file; negative ones are none. */
+void hooke_h5_drop(hid_t id);
+
+herr_t hooke_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);
+herr_t hooke_h5_text_attribute(hid_t object, const char *name, const char *text);
+herr_t hooke_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number);
+herr_t hooke_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number);
+
+/* `type` on disk; an array of `rank` dimensions whose space is allocated at once and filled with `fill` (of
+ * the type `type`; NULL: zeros). The dataset, or a negative number. */
+hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
+                     const void *fill);
+
+/* The same, filled with `data` of the type `memory`, and closed. */
+herr_t hooke_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank,
+                         const hsize_t *size, const void *data);
+
+/* Fixed-length texts of `length` bytes, padded with zeros: `count` < 0 for a single one. The dataset. */
+hid_t hooke_h5_texts(hid_t where, const char *name, int64_t count, int64_t length);
+/* Writes text number `k` of such a dataset in place; longer ones are cut. */
+herr_t hooke_h5_write_text(hid_t dataset, int64_t k, const char *text);
+
+#endif

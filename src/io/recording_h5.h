@@ -1,0 +1,48 @@
+/* The frames of one run in an H5MD file:
+ *
+ *   /particles/<group>/position/value     [frames][n][3]   velocity likewise
+ *   /particles/<group>/position/time      [frames]         the same array everywhere below, by hard links
+ *   /particles/<group>/position/step      [frames]         likewise
+ *   /particles/<group>/mass, species      [n]              species: 0 free, 1 pinned, 2 driven
+ *   /observables[/<group>]/<name>/value   [frames] or [frames][3]; the group `all` has no folder of its own
+ *
+ * Every array is contiguous, of its final size, and filled (NaN; step -1) before the first frame. A frame is
+ * written in place, its time last: time is the mark that the frame is there. Nothing else of the file
+ * changes, so the file is valid whenever the process is killed. */
+#ifndef HOOKE_IO_RECORDING_H5_H
+#define HOOKE_IO_RECORDING_H5_H
+
+#include "hooke/state.h"
+
+#include <hdf5.h>
+
+enum { HOOKE_OBSERVABLE_COUNT = 6 };
+
+struct hooke_recording {
+  const hooke_system *system;
+  char group[48];
+  int64_t particle_count, frame_count, written;
+  hid_t time, step, position, velocity, observable[HOOKE_OBSERVABLE_COUNT];
+};
+
+/* What a recording takes in a file, with springs and everything about the particles: an upper bound in bytes.
+ * And what the frames take that were planned but not written. */
+double hooke_recording_bytes(const hooke_system *system, int64_t frame_count);
+double hooke_recording_unused_bytes(const struct hooke_recording *recording);
+
+/* No arrays: what hooke_recording_release() leaves, and may be given. */
+void hooke_recording_clear(struct hooke_recording *recording);
+
+/* Makes the arrays. Whatever happens, hooke_recording_release() has to follow. Negative on failure. */
+herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
+                              struct hooke_recording *recording);
+
+/* Writes the next frame; there has to be room for it. */
+herr_t hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state);
+
+/* Makes the same arrays in another file, for the frames written so far, and copies these. */
+herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t file, struct hooke_recording *to);
+
+void hooke_recording_release(struct hooke_recording *recording);
+
+#endif

@@ -1,0 +1,419 @@
+/* Trajectory files: what is written is what is read, nothing else is taken for a frame, failures are told. */
+#include "check.h"
+#include "core/memory.h"
+#include "io/array_h5.h"
+#include "run.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static hooke_system *new_rope(void) {
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
+  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
+  check_ok(hooke_options_set_number(options, "segments", 6));
+  check_ok(hooke_options_set_number(options, "mass", 0.5));
+  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
+  check_ok(hooke_options_set_text(options, "pinned", "start"));
+  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+#if HOOKE_HAVE_HDF5
+
+enum { N = 7, FRAMES = 11, PATH_SIZE = 256 };
+
+/* A rope, an integrator that reports 11 frames, and a folder of its own. */
+struct fixture {
+  hooke_system *system;
+  hooke_integrator *integrator;
+  hooke_state *state;
+  hooke_trajectory *trajectory;
+  char folder[PATH_SIZE / 2], path[PATH_SIZE], copy[PATH_SIZE];
+  double q[FRAMES][3 * N], v[FRAMES][3 * N];
+  int64_t seen, stop_after; /* frames */
+  int32_t status;           /* of the last write */
+};
+
+static int set_up(void **state) {
+  struct fixture *f = new_block(1, sizeof *f);
+  f->system = new_rope();
+  f->integrator = start_run(f->system, (struct run){"symplectic-euler", 1e-3, 0.1, 0.01, 0, 0, 0});
+  f->state = start_state(f->system);
+  f->stop_after = FRAMES + 1;
+  assert_int_equal(hooke_integrator_frame_count(f->integrator), FRAMES);
+  snprintf(f->folder, sizeof f->folder, "%s/hooke-trajectory-XXXXXX", P_tmpdir);
+  assert_non_null(mkdtemp(f->folder));
+  snprintf(f->path, sizeof f->path, "%s/out.h5", f->folder);
+  snprintf(f->copy, sizeof f->copy, "%s/copy.h5", f->folder);
+  *state = f;
+  return 0;
+}
+
+static int tear_down(void **state) {
+  struct fixture *f = *state;
+  hooke_trajectory_close(f->trajectory, HOOKE_OK);
+  hooke_state_destroy(f->state);
+  hooke_integrator_destroy(f->integrator);
+  hooke_system_destroy(f->system);
+  unlink(f->path);
+  unlink(f->copy);
+  /* anything that was left behind, such as a temporary file, keeps the folder */
+  int result = rmdir(f->folder);
+  free(f);
+  return result;
+}
+
+static void create(struct fixture *f) {
+  check_ok(hooke_trajectory_create(f->path, f->system, f->integrator, "{ \"hooke\": 1 }", &f->trajectory));
+}
+
+static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct fixture *f = ctx;
+  memcpy(f->q[f->seen], hooke_state_position(state), sizeof f->q[0]);
+  memcpy(f->v[f->seen], hooke_state_velocity(state), sizeof f->v[0]);
+  f->status = hooke_trajectory_write(f->trajectory, step, state);
+  if (f->status == HOOKE_OK) f->seen++;
+  return f->status != HOOKE_OK || f->seen == f->stop_after;
+}
+
+static void run(struct fixture *f, int32_t outcome) {
+  check_ok(hooke_integrator_on_frame(f->integrator, on_frame, f));
+  check_status(hooke_integrator_run(f->integrator, f->state), outcome);
+}
+
+static int32_t close_file(struct fixture *f, int32_t outcome) {
+  hooke_trajectory *trajectory = f->trajectory;
+  f->trajectory = NULL;
+  return hooke_trajectory_close(trajectory, outcome);
+}
+
+static void check_frame(const char *path, const char *dataset, int64_t frame, const double *expected) {
+  double *values;
+  int64_t rows, columns;
+  check_ok(hooke_array_read(path, dataset, frame, 1, &values, &rows, &columns));
+  assert_int_equal(rows, N);
+  assert_int_equal(columns, 3);
+  check_same_bits(3 * N, values, expected);
+  hooke_free(values);
+}
+
+static void check_no_frame(const char *path, int64_t frame, const char *message) {
+  double *values;
+  int64_t rows, columns;
+  check_status(hooke_array_read(path, "/particles/all/position/value", frame, 1, &values, &rows, &columns),
+               HOOKE_BAD_VALUE);
+  check_message(message);
+  assert_null(values);
+}
+
+/* Frames 0..count-1 are there, bit for bit, and no other. */
+static void check_file(const struct fixture *f, const char *path, int64_t count) {
+  for (int64_t k = 0; k < count; k++) {
+    check_frame(path, "/particles/all/position/value", k, f->q[k]);
+    check_frame(path, "/particles/all/velocity/value", k - count, f->v[k]);
+  }
+  check_no_frame(path, count, "has no frame ");
+  check_no_frame(path, -count - 1, "has no frame ");
+}
+
+/* The number of values in a column of the file, and the values. */
+static double *column(const char *path, const char *dataset, int64_t count) {
+  double *values;
+  int64_t rows, columns;
+  check_ok(hooke_array_read(path, dataset, 0, 0, &values, &rows, &columns));
+  assert_int_equal(rows, count);
+  assert_int_equal(columns, 1);
+  return values;
+}
+
+/* The bytes as they are now, which is what a kill would leave. */
+static void copy_file(const char *from, const char *to) {
+  char block[4096];
+  FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
+  assert_non_null(in);
+  assert_non_null(out);
+  for (size_t n; (n = fread(block, 1, sizeof block, in)) > 0;)
+    assert_int_equal(fwrite(block, 1, n, out), n);
+  fclose(in);
+  assert_int_equal(fclose(out), 0);
+}
+
+static void write_file(const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  assert_int_equal(fclose(file), 0);
+}
+
+static void check_text(const char *path, const char *expected) {
+  char text[64] = "";
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  size_t length = fread(text, 1, sizeof text - 1, file);
+  fclose(file);
+  assert_int_equal(length, strlen(expected));
+  assert_string_equal(text, expected);
+}
+
+static void all_frames_come_back(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  run(f, HOOKE_OK);
+  check_status(hooke_trajectory_write(f->trajectory, 101, f->state), HOOKE_BAD_CALL);
+  check_message("all 11 frames");
+  check_ok(close_file(f, HOOKE_OK));
+  check_file(f, f->path, FRAMES);
+
+  double *time = column(f->path, "/particles/all/position/time", FRAMES);
+  double *step = column(f->path, "/observables/momentum/step", FRAMES);
+  double *kinetic = column(f->path, "/observables/kinetic_energy/value", FRAMES);
+  double *mass = column(f->path, "/particles/all/mass", N);
+  double *species = column(f->path, "/particles/all/species", N);
+  for (int k = 0; k < FRAMES; k++) {
+    check_close(time[k], 0.01 * k, 1e-16);
+    check_close(step[k], 10.0 * k, 0.0);
+    const double energy = hooke_system_kinetic_energy(f->system, f->v[k]);
+    check_same_bits(1, &kinetic[k], &energy);
+  }
+  check_same_bits(N, mass, hooke_system_mass(f->system));
+  for (int k = 0; k < N; k++)
+    check_close(species[k], k == 0 ? 1 : 0, 0.0);
+  hooke_free(time);
+  hooke_free(step);
+  hooke_free(kinetic);
+  hooke_free(mass);
+  hooke_free(species);
+
+  double *ends;
+  int64_t rows, columns;
+  check_ok(hooke_array_read(f->path, "/connectivity/springs", 0, 0, &ends, &rows, &columns));
+  assert_int_equal(rows, 6);
+  assert_int_equal(columns, 2);
+  for (int k = 0; k < 12; k++)
+    check_close(ends[k], (k + 1) / 2, 0.0);
+  hooke_free(ends);
+}
+
+/* After each frame the bytes on the disk hold exactly the frames so far: nothing waits in memory. */
+static void every_frame_is_in_the_file_at_once(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  for (int64_t k = 0; k < FRAMES; k++) {
+    copy_file(f->path, f->copy);
+    if (k == 0) check_no_frame(f->copy, 0, "has no frames yet");
+    if (k > 0) check_file(f, f->copy, k);
+    for (int i = 0; i < 3 * N; i++) {
+      f->q[k][i] = hooke_state_position(f->state)[i] = sin(1.0 + (double)k + 0.1 * i);
+      f->v[k][i] = hooke_state_velocity(f->state)[i] = cos(1.0 + (double)k + 0.1 * i);
+    }
+    hooke_state_set_time(f->state, 0.5 * (double)k);
+    check_ok(hooke_trajectory_write(f->trajectory, 3 * k, f->state));
+  }
+  copy_file(f->path, f->copy);
+  check_file(f, f->copy, FRAMES);
+}
+
+static void an_early_end_leaves_no_empty_frames(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  f->stop_after = 4;
+  run(f, HOOKE_STOPPED);
+  copy_file(f->path, f->copy);
+  check_ok(close_file(f, HOOKE_STOPPED));
+  check_file(f, f->path, 4);
+  hooke_free(column(f->path, "/observables/total_energy/value", 4));
+  /* before, the planned length was there, and read as the frames that were written */
+  check_file(f, f->copy, 4);
+  hooke_free(column(f->copy, "/observables/total_energy/value", FRAMES));
+}
+
+static void a_run_without_a_frame_closes(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  check_ok(close_file(f, HOOKE_SOLVER_FAILED));
+  check_no_frame(f->path, -1, "has no frames yet");
+}
+
+static void wrong_states_are_refused_and_do_no_harm(void **state) {
+  struct fixture *f = *state;
+  hooke_state *other;
+  check_ok(hooke_state_create_first_order(4, &other));
+  create(f);
+  check_status(hooke_trajectory_write(f->trajectory, 0, other), HOOKE_BAD_VALUE);
+  hooke_state_destroy(other);
+  run(f, HOOKE_OK);
+  check_ok(close_file(f, HOOKE_OK));
+  check_file(f, f->path, FRAMES);
+  check_ok(hooke_trajectory_close(NULL, HOOKE_OK));
+}
+
+static void check_not_created(struct fixture *f, const char *path, const char *message) {
+  check_status(hooke_trajectory_create(path, f->system, f->integrator, NULL, &f->trajectory),
+               HOOKE_IO_FAILED);
+  check_message(path);
+  check_message(message);
+  assert_null(f->trajectory);
+}
+
+static void only_regular_files_are_replaced(void **state) {
+  struct fixture *f = *state;
+  struct stat device;
+  check_not_created(f, "/dev/null", "is not a regular file");
+  assert_int_equal(stat("/dev/null", &device), 0);
+  assert_true(S_ISCHR(device.st_mode));
+  check_not_created(f, f->folder, "is not a regular file");
+  check_not_created(f, "/no/such/folder/out.h5", "No such file or directory");
+}
+
+static void a_link_stays_a_link(void **state) {
+  struct fixture *f = *state;
+  struct stat there;
+  write_file(f->copy, "old");
+  assert_int_equal(symlink(f->copy, f->path), 0);
+  create(f);
+  run(f, HOOKE_OK);
+  check_ok(close_file(f, HOOKE_OK));
+  assert_int_equal(lstat(f->path, &there), 0);
+  assert_true(S_ISLNK(there.st_mode));
+  check_file(f, f->copy, FRAMES);
+}
+
+/* Files may not grow beyond `size` bytes from here on; a write that tries fails. */
+static void limit_files(rlim_t size) {
+  struct rlimit limit;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  limit.rlim_cur = size;
+  signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+}
+
+static void an_old_file_stays_until_there_is_room(void **state) {
+  struct fixture *f = *state;
+  write_file(f->path, "precious");
+  for (rlim_t size = 0; size < 60000; size += 1500) {
+    limit_files(size);
+    int32_t status = hooke_trajectory_create(f->path, f->system, f->integrator, NULL, &f->trajectory);
+    limit_files(RLIM_INFINITY);
+    if (status == HOOKE_OK) {
+      assert_true(size > 5000);
+      return;
+    }
+    assert_int_equal(status, HOOKE_IO_FAILED);
+    check_message(f->path);
+    check_text(f->path, "precious");
+  }
+  check_failed("a file of 60000 bytes is room enough");
+}
+
+static void a_failed_write_is_never_success(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  f->stop_after = 3;
+  run(f, HOOKE_STOPPED);
+  limit_files(1000);
+  check_status(hooke_trajectory_write(f->trajectory, 30, f->state), HOOKE_IO_FAILED);
+  check_message(f->path);
+  check_message("write frame 3: File too large");
+  limit_files(RLIM_INFINITY);
+  check_status(hooke_trajectory_write(f->trajectory, 30, f->state), HOOKE_IO_FAILED);
+  check_message("write frame 3: File too large");
+  check_status(close_file(f, HOOKE_OK), HOOKE_IO_FAILED);
+  check_message("write frame 3: File too large");
+  check_file(f, f->path, 3);
+}
+
+static void a_failed_shortening_keeps_the_long_file(void **state) {
+  struct fixture *f = *state;
+  create(f);
+  f->stop_after = 5;
+  run(f, HOOKE_STOPPED);
+  limit_files(3000);
+  const int32_t status = close_file(f, HOOKE_STOPPED);
+  limit_files(RLIM_INFINITY);
+  assert_int_equal(status, HOOKE_IO_FAILED);
+  check_message("File too large");
+  check_file(f, f->path, 5);
+}
+
+static void arrays_are_refused_in_words(void **state) {
+  struct fixture *f = *state;
+  double *values;
+  int64_t rows, columns;
+  create(f);
+  run(f, HOOKE_OK);
+  check_ok(close_file(f, HOOKE_OK));
+  check_status(hooke_array_read(f->path, "/particles/all/mass", 0, 1, &values, &rows, &columns),
+               HOOKE_BAD_VALUE);
+  check_message("has no frames");
+  check_status(hooke_array_read(f->path, "/hooke/status", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
+  check_message("/hooke/status");
+  check_status(hooke_array_read(f->path, "/nothing/here", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_message("find the dataset /nothing/here");
+  check_status(hooke_array_read(f->path, "/particles", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hooke_array_read(f->folder, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hooke_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_message("No such file or directory");
+  write_file(f->copy, "this is not HDF5");
+  check_status(hooke_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_message(f->copy);
+  assert_null(values);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      TEST(all_frames_come_back),
+      TEST(every_frame_is_in_the_file_at_once),
+      TEST(an_early_end_leaves_no_empty_frames),
+      TEST(a_run_without_a_frame_closes),
+      TEST(wrong_states_are_refused_and_do_no_harm),
+      TEST(only_regular_files_are_replaced),
+      TEST(a_link_stays_a_link),
+      TEST(an_old_file_stays_until_there_is_room),
+      TEST(a_failed_write_is_never_success),
+      TEST(a_failed_shortening_keeps_the_long_file),
+      TEST(arrays_are_refused_in_words),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+/* Without HDF5 every call says so. */
+static void trajectories_are_not_in_this_build(void **unused) {
+  (void)unused;
+  hooke_system *system = new_rope();
+  hooke_integrator *integrator =
+      start_run(system, (struct run){"symplectic-euler", 1e-3, 0.1, 0.01, 0, 0, 0});
+  hooke_trajectory *trajectory;
+  double *values;
+  int64_t rows, columns;
+  check_status(hooke_trajectory_create("out.h5", system, integrator, NULL, &trajectory), HOOKE_NOT_BUILT);
+  assert_null(trajectory);
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  check_status(hooke_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
+  check_message("HDF5");
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(trajectories_are_not_in_this_build)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
