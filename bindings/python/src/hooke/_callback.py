@@ -1,0 +1,143 @@
+"""Python functions as callbacks of the library.
+
+An exception must not cross C: it is kept, the callback asks the library to stop, and the function that
+started it all raises the same exception again (see `_status.checker`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import operator
+import signal
+import threading
+from collections.abc import Iterator
+from typing import Any, Callable
+
+import numpy as np
+
+from ._memory import view
+from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, RATE
+from ._status import pending
+
+_STOP = 1
+
+
+def stop_value(answer: Any) -> int:
+    """What the answer of a callback means to the library: 0 to go on."""
+    if answer is None or answer is False:
+        return 0
+    try:
+        number = operator.index(bool(answer) if isinstance(answer, np.bool_) else answer)
+    except TypeError:
+        raise TypeError(
+            "a callback returns None or 0 to go on, a whole number to stop; "
+            f"this one returned {type(answer).__name__}"
+        ) from None
+    if not -(2**31) <= number < 2**31:
+        raise OverflowError(f"a callback returned {number}, which is not a 32-bit number")
+    return number
+
+
+def guarded(function: Callable[..., Any], *arguments: Any) -> int:
+    """Calls `function` from a callback; the answer for the library."""
+    try:
+        answer = stop_value(function(*arguments))
+    except BaseException as exception:
+        pending.exception = exception
+        return _STOP
+    return _STOP if pending.exception is not None else answer
+
+
+class _Views:
+    """Arrays over the addresses that callbacks are given. An integrator uses few, so they are kept."""
+
+    LIMIT = 64
+
+    def __init__(self, dtype: Any = float):
+        self._dtype = dtype
+        self._views: dict = {}
+
+    def __call__(self, address: int, shape: tuple, writeable: bool) -> np.ndarray:
+        key = (address, shape, writeable)
+        array = self._views.get(key)
+        if array is None:
+            if len(self._views) >= self.LIMIT:
+                self._views.clear()
+            array = self._views[key] = view(address, shape, None, writeable, self._dtype)
+        return array
+
+
+def force_callback(function: Callable[..., Any]) -> Any:
+    views = _Views()
+
+    def force(n, t, q, v, out, _):
+        return guarded(call, n, t, q, v, out)
+
+    def call(n, t, q, v, out):
+        shape = (n, 3)
+        return function(t, views(q, shape, False), views(v, shape, False), views(out, shape, True))
+
+    return FORCE(force)
+
+
+def product_callback(function: Callable[..., Any]) -> Any:
+    views = _Views()
+
+    def product(n, t, q, v, dq, dv, out, _):
+        return guarded(call, n, t, (q, v, dq, dv), out)
+
+    def call(n, t, inputs, out):
+        shape = (n, 3)
+        return function(t, *(views(address, shape, False) for address in inputs), views(out, shape, True))
+
+    return FORCE_PRODUCT(product)
+
+
+def drive_callback(function: Callable[..., Any]) -> Any:
+    views = _Views()
+
+    def drive(count, t, q, v, _):
+        return guarded(call, count, t, q, v)
+
+    def call(count, t, q, v):
+        return function(t, views(q, (count, 3), True), views(v, (count, 3), True))
+
+    return DRIVE(drive)
+
+
+def rate_callback(function: Callable[..., Any], shape: tuple, dtype: Any) -> Any:
+    views = _Views(dtype)
+
+    def rate(_n, t, x, out, _):
+        return guarded(call, t, x, out)
+
+    def call(t, x, out):
+        return function(t, views(x, shape, False), views(out, shape, True))
+
+    return RATE(rate)
+
+
+@contextlib.contextmanager
+def interruptible() -> Iterator[None]:
+    """Lets Ctrl-C end a run at its next callback.
+
+    Python would raise KeyboardInterrupt on entry to the callback, before any `try`, where ctypes can only
+    drop it. So it is noted like an exception of the callback instead. Other handlers than Python's own are
+    left alone.
+    """
+    mine = threading.current_thread() is threading.main_thread()
+    if not mine or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+
+    def note(_number, _frame):
+        pending.exception = KeyboardInterrupt()
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        late, pending.exception = pending.exception, None
+    if late is not None:
+        raise late

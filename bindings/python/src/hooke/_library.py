@@ -1,0 +1,107 @@
+"""Finds and loads the shared library, once; `lib` then holds every public function with its prototype."""
+
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _prototypes
+from ._status import checker
+
+#: The ABI that this package was written for, HOOKE_ABI of the headers.
+ABI = 0
+
+_FILE_NAMES = {"darwin": "libhooke.dylib", "win32": "hooke.dll"}
+
+
+class Library:
+    """The public functions of the library. A name that is not one of them is an AttributeError, also in
+    assignment."""
+
+    __slots__ = (*_prototypes.PROTOTYPES, "path")
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any: ...
+
+    def __init__(self, path: str, library: ctypes.CDLL):
+        self.path = path
+        _require_abi(path, library)
+        words = [_install(path, library, name, {}) for name in ("hooke_last_error", "hooke_status_name")]
+        checks = {
+            _prototypes.STATUS: checker(words, outcomes=False),
+            _prototypes.OUTCOME: checker(words, outcomes=True),
+        }
+        for name in _prototypes.PROTOTYPES:
+            setattr(self, name, _install(path, library, name, checks))
+
+
+def _install(path, library, name, checks):
+    result, *arguments = _prototypes.PROTOTYPES[name]
+    try:
+        function = getattr(library, name)
+    except AttributeError:
+        raise ImportError(
+            f"{path} has no function {name}; it and this package are of different versions"
+        ) from None
+    function.argtypes = arguments
+    if result in checks:
+        function.restype, function.errcheck = ctypes.c_int32, checks[result]
+    else:
+        function.restype = result
+    return function
+
+
+def _require_abi(path, library):
+    try:
+        abi = _install(path, library, "hooke_abi", {})()
+    except ImportError:
+        raise ImportError(f"{path} is not the hooke library (it has no function hooke_abi)") from None
+    if abi != ABI:
+        raise ImportError(
+            f"{path} has ABI {abi}, this package needs ABI {ABI}; install both from the same version of hooke"
+        )
+
+
+def _candidates() -> Iterator[str]:
+    name = _FILE_NAMES.get(sys.platform, "libhooke.so")
+    bundled = Path(__file__).parent / name
+    if bundled.exists():
+        yield str(bundled)
+    found = ctypes.util.find_library("hooke")
+    if found:
+        yield found
+    for prefix in (sys.prefix, "/usr/local", "/usr"):
+        for folder in ("lib", "lib64"):
+            path = Path(prefix) / folder / name
+            if path.exists():
+                yield str(path)
+
+
+def load() -> Library:
+    """Loads the library from $HOOKE_LIBRARY or, where that is not set, from the first place that has it."""
+    given = os.environ.get("HOOKE_LIBRARY")
+    if given:
+        try:
+            return Library(given, ctypes.CDLL(given))
+        except OSError as error:
+            raise ImportError(f"HOOKE_LIBRARY names {given!r}, which does not load: {error}") from None
+    failures = []
+    for path in _candidates():
+        try:
+            return Library(path, ctypes.CDLL(path))
+        except (OSError, ImportError) as error:
+            failures.append(f"{path}: {error}")
+    raise ImportError(
+        "the hooke library was not found. Either install this package with `pip install ./bindings/python`, "
+        "which builds the library into it, or set the environment variable HOOKE_LIBRARY to the path of "
+        "libhooke.so" + "".join(f"\n  tried {failure}" for failure in failures)
+    )
+
+
+lib = load()

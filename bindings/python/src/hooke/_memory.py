@@ -1,0 +1,107 @@
+"""Handles, and NumPy arrays that cross the border: views of the library's memory, and arguments for it."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ._prototypes import DOUBLES, INTEGERS
+from ._status import BadValue
+
+
+class Handle:
+    """Owns one object of the library and gives it back when the last user is gone, parents after their
+    children.
+
+    It can be passed wherever a function expects the pointer. The count makes the order of release right also
+    when Python finds parent and child in one cycle of garbage.
+    """
+
+    __slots__ = ("_as_parameter_", "_destroy", "_parent", "_users", "__weakref__")
+
+    def __init__(self, pointer: Any, destroy: Any = None, parent: Handle | None = None):
+        self._as_parameter_ = pointer
+        self._destroy = destroy
+        self._parent = parent
+        self._users = 1
+        if parent is not None:
+            parent._users += 1
+
+    @property
+    def pointer(self) -> Any:
+        return self._as_parameter_
+
+    @property
+    def parent(self) -> Any:
+        return self._parent
+
+    def _release(self) -> None:
+        self._users -= 1
+        if self._users == 0:
+            if self._destroy is not None:
+                self._destroy(self._as_parameter_)
+            if self._parent is not None:
+                self._parent._release()
+
+    def __del__(self) -> None:
+        if hasattr(self, "_users"):
+            self._release()
+
+
+def view(
+    address: int, shape: Sequence[int], owner: Any = None, writeable: bool = True, dtype: Any = float
+) -> np.ndarray:
+    """An array of doubles over the library's memory, no copy; it keeps `owner` alive as long as it lives."""
+    bytes_ = int(np.prod(shape, dtype=np.int64)) * np.dtype(dtype).itemsize
+    if not bytes_:
+        return np.empty(shape, dtype)
+    memory = (ctypes.c_char * bytes_).from_address(address)
+    memory.owner = owner
+    array = np.ndarray(shape, dtype, buffer=memory)
+    array.flags.writeable = writeable
+    return array
+
+
+def address_of(pointer: Any) -> int:
+    return ctypes.cast(pointer, ctypes.c_void_p).value or 0
+
+
+def doubles(values: Any, name: str, *shapes: Sequence[int]) -> np.ndarray:
+    """`values` as contiguous doubles of the first of `shapes` that their shape fits, or of the size of
+    one."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "iuf" and array.size:
+        raise BadValue(f"{name}: numbers are needed, these are {array.dtype}")
+    array = np.ascontiguousarray(array, dtype=np.float64)
+    if shapes and not any(array.shape == tuple(shape) for shape in shapes):
+        allowed = " or ".join(str(tuple(shape)) for shape in shapes)
+        raise BadValue(f"{name}: its shape is {array.shape}, allowed is {allowed}")
+    return array
+
+
+def rows(values: Any, name: str, count: int) -> np.ndarray:
+    """`values` as `count` rows of x y z, given so or flat."""
+    return doubles(values, name, (count, 3), (3 * count,))
+
+
+def indices(values: Any, name: str) -> np.ndarray:
+    """`values` as contiguous 64-bit indices; numbers that are not whole are refused rather than cut."""
+    array = np.asarray(values)
+    if array.size and array.dtype.kind not in "iu":
+        raise BadValue(f"{name}: whole numbers are needed, these are {array.dtype}")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def double_pointer(array: np.ndarray) -> Any:
+    return array.ctypes.data_as(DOUBLES)
+
+
+def index_pointer(array: np.ndarray) -> Any:
+    return array.ctypes.data_as(INTEGERS)
+
+
+def text(value: bytes | None) -> str:
+    return "" if value is None else value.decode("utf-8", "replace")

@@ -1,0 +1,174 @@
+"""Every function of the library with the types of its result and arguments: the only place where they are
+written.
+
+Handles are pointers to types without members, so that a state cannot be passed where a system is expected.
+Arguments of callbacks that are arrays or states arrive as plain addresses, which is quicker than typed
+pointers.
+"""
+
+from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
+
+
+class STATUS(c_int32):
+    """Marks a result that is a status: anything but 0 is raised."""
+
+
+class OUTCOME(c_int32):
+    """Marks the status of a run: a failure is raised, an outcome (0 or more) returned."""
+
+
+def _handle(name):
+    return POINTER(type(name, (Structure,), {}))
+
+
+OPTIONS = _handle("hooke_options")
+SYSTEM = _handle("hooke_system")
+STATE = _handle("hooke_state")
+INTEGRATOR = _handle("hooke_integrator")
+SCENE = _handle("hooke_scene")
+TRAJECTORY = _handle("hooke_trajectory")
+COMPARISON = _handle("hooke_comparison")
+COMPARISON_FILE = _handle("hooke_comparison_file")
+
+INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
+DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
+
+FORCE = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS, ADDRESS)
+FORCE_PRODUCT = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS, ADDRESS)
+DRIVE = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS)
+RATE = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS)
+OBSERVER = CFUNCTYPE(INT32, INT64, ADDRESS, ADDRESS)
+PROGRESS = CFUNCTYPE(INT32, DOUBLE, TEXT, ADDRESS)
+COMPARISON_FRAME = CFUNCTYPE(INT32, TEXT, INT64, INT64, ADDRESS, ADDRESS)
+
+# name: (result, argument, argument, ...)
+PROTOTYPES = {
+    # base.h
+    "hooke_last_error": (TEXT,),
+    "hooke_status_name": (TEXT, INT32),
+    "hooke_version": (TEXT,),
+    "hooke_abi": (INT32,),
+    "hooke_build_fact": (TEXT, TEXT),
+    # options.h
+    "hooke_options_copy": (STATUS, OPTIONS, POINTER(OPTIONS)),
+    "hooke_options_destroy": (None, OPTIONS),
+    "hooke_options_set_number": (STATUS, OPTIONS, TEXT, DOUBLE),
+    "hooke_options_set_numbers": (STATUS, OPTIONS, TEXT, INT64, DOUBLES),
+    "hooke_options_set_text": (STATUS, OPTIONS, TEXT, TEXT),
+    "hooke_options_unset": (STATUS, OPTIONS, TEXT),
+    "hooke_options_is_set": (INT32, OPTIONS, TEXT),
+    "hooke_options_number_count": (INT64, OPTIONS, TEXT),
+    "hooke_options_numbers": (DOUBLES, OPTIONS, TEXT),
+    "hooke_options_number": (DOUBLE, OPTIONS, TEXT),
+    "hooke_options_text": (TEXT, OPTIONS, TEXT),
+    "hooke_options_row_count": (INT64, OPTIONS),
+    "hooke_options_row": (TEXT, OPTIONS, INT64, TEXT),
+    # system.h: building
+    "hooke_system_create": (STATUS, POINTER(SYSTEM)),
+    "hooke_system_destroy": (None, SYSTEM),
+    "hooke_system_add_particles": (STATUS, SYSTEM, INT64, DOUBLES, DOUBLES, INT64, DOUBLES, INTEGERS),
+    "hooke_system_pin": (STATUS, SYSTEM, INT64, INTEGERS),
+    "hooke_spring_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_system_add_springs": (STATUS, SYSTEM, TEXT, INT64, INTEGERS, OPTIONS),
+    "hooke_system_set_gravity": (STATUS, SYSTEM, DOUBLES),
+    "hooke_system_set_drag": (STATUS, SYSTEM, DOUBLE),
+    "hooke_system_set_force": (STATUS, SYSTEM, FORCE, FORCE_PRODUCT, ADDRESS),
+    "hooke_system_drive_harmonic": (STATUS, SYSTEM, INT64, INTEGERS, DOUBLES, DOUBLE, DOUBLE),
+    "hooke_system_drive_table": (STATUS, SYSTEM, INT64, INTEGERS, INT64, DOUBLES, DOUBLES),
+    "hooke_system_drive_callback": (STATUS, SYSTEM, INT64, INTEGERS, DRIVE, ADDRESS),
+    "hooke_system_commit": (STATUS, SYSTEM),
+    # system.h: asking
+    "hooke_system_is_committed": (INT32, SYSTEM),
+    "hooke_system_particle_count": (INT64, SYSTEM),
+    "hooke_system_free_count": (INT64, SYSTEM),
+    "hooke_system_spring_count": (INT64, SYSTEM),
+    "hooke_system_group_count": (INT64, SYSTEM),
+    "hooke_system_group_name": (TEXT, SYSTEM, INT64),
+    "hooke_system_group_size": (INT64, SYSTEM, INT64),
+    "hooke_system_mass": (DOUBLES, SYSTEM),
+    "hooke_system_inverse_mass": (DOUBLES, SYSTEM),
+    "hooke_system_spring_ends": (STATUS, SYSTEM, INTEGERS),
+    "hooke_system_spring_material": (STATUS, SYSTEM, DOUBLES, DOUBLES, DOUBLES),
+    "hooke_system_force_count": (INT64, SYSTEM),
+    "hooke_system_force_name": (TEXT, SYSTEM, INT64),
+    "hooke_system_memory": (INT64, SYSTEM),
+    "hooke_system_force": (STATUS, SYSTEM, DOUBLE, DOUBLES, DOUBLES, DOUBLES),
+    "hooke_system_acceleration": (STATUS, SYSTEM, DOUBLE, DOUBLES, DOUBLES, DOUBLES),
+    "hooke_system_coincident_springs": (INT64, SYSTEM, DOUBLES),
+    "hooke_system_derivative_product": (STATUS, SYSTEM, DOUBLE, DOUBLES, DOUBLES, DOUBLES, DOUBLES, DOUBLES),
+    "hooke_system_block_count": (INT64, SYSTEM),
+    "hooke_system_derivative_pattern": (STATUS, SYSTEM, INTEGERS, INTEGERS),
+    "hooke_system_derivative_blocks": (STATUS, SYSTEM, DOUBLES, DOUBLES, DOUBLES, DOUBLES),
+    "hooke_system_kinetic_energy": (DOUBLE, SYSTEM, DOUBLES),
+    "hooke_system_spring_energy": (DOUBLE, SYSTEM, DOUBLES),
+    "hooke_system_gravity_energy": (DOUBLE, SYSTEM, DOUBLES),
+    "hooke_system_potential_energy": (DOUBLE, SYSTEM, DOUBLES),
+    "hooke_system_energy": (DOUBLE, SYSTEM, DOUBLES, DOUBLES),
+    "hooke_system_dissipated_power": (DOUBLE, SYSTEM, DOUBLES, DOUBLES),
+    "hooke_system_momentum": (None, SYSTEM, DOUBLES, DOUBLES),
+    "hooke_system_angular_momentum": (None, SYSTEM, DOUBLES, DOUBLES, DOUBLES),
+    # build.h
+    "hooke_part_kind_count": (INT64,),
+    "hooke_part_kind": (TEXT, INT64),
+    "hooke_part_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
+    "hooke_system_add_part": (STATUS, SYSTEM, TEXT, TEXT, OPTIONS, INTEGERS, INTEGERS),
+    # state.h
+    "hooke_state_create": (STATUS, SYSTEM, POINTER(STATE)),
+    "hooke_state_create_first_order": (STATUS, INT64, POINTER(STATE)),
+    "hooke_state_destroy": (None, STATE),
+    "hooke_state_copy": (STATUS, STATE, STATE),
+    "hooke_state_time": (DOUBLE, STATE),
+    "hooke_state_set_time": (None, STATE, DOUBLE),
+    "hooke_state_size": (INT64, STATE),
+    "hooke_state_position": (DOUBLES, STATE),
+    "hooke_state_velocity": (DOUBLES, STATE),
+    # integrator.h
+    "hooke_method_count": (INT64,),
+    "hooke_method_name": (TEXT, INT64),
+    "hooke_method_summary": (TEXT, TEXT),
+    "hooke_method_is_adaptive": (INT32, TEXT),
+    "hooke_method_is_built": (INT32, TEXT),
+    "hooke_run_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_integrator_create": (STATUS, SYSTEM, OPTIONS, POINTER(INTEGRATOR)),
+    "hooke_integrator_create_first_order": (STATUS, INT64, RATE, ADDRESS, OPTIONS, POINTER(INTEGRATOR)),
+    "hooke_integrator_destroy": (None, INTEGRATOR),
+    "hooke_integrator_options": (OPTIONS, INTEGRATOR),
+    "hooke_integrator_on_frame": (STATUS, INTEGRATOR, OBSERVER, ADDRESS),
+    "hooke_integrator_on_step": (STATUS, INTEGRATOR, INT64, OBSERVER, ADDRESS),
+    "hooke_integrator_frame_count": (INT64, INTEGRATOR),
+    "hooke_integrator_run": (OUTCOME, INTEGRATOR, STATE),
+    "hooke_integrator_step": (OUTCOME, INTEGRATOR, STATE, INT64),
+    "hooke_integrator_count": (INT64, INTEGRATOR, TEXT),
+    "hooke_integrator_wall_seconds": (DOUBLE, INTEGRATOR),
+    "hooke_integrator_stop_value": (INT32, INTEGRATOR),
+    "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
+    # measure.h
+    "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
+    "hooke_comparison_create": (STATUS, SYSTEM, OPTIONS, POINTER(COMPARISON)),
+    "hooke_comparison_destroy": (None, COMPARISON),
+    "hooke_comparison_add": (STATUS, COMPARISON, TEXT),
+    "hooke_comparison_on_progress": (None, COMPARISON, PROGRESS, ADDRESS),
+    "hooke_comparison_on_frame": (None, COMPARISON, COMPARISON_FRAME, ADDRESS),
+    "hooke_comparison_run": (OUTCOME, COMPARISON),
+    "hooke_comparison_row_count": (INT64, COMPARISON),
+    "hooke_comparison_text": (TEXT, COMPARISON, INT64, TEXT),
+    "hooke_comparison_number": (DOUBLE, COMPARISON, INT64, TEXT),
+    "hooke_comparison_reference": (TEXT, COMPARISON),
+    "hooke_comparison_frame_count": (INT64, COMPARISON),
+    "hooke_comparison_series": (DOUBLES, COMPARISON, INT64, TEXT),
+    # io.h
+    "hooke_io_own_process": (STATUS,),
+    "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
+    "hooke_scene_parse": (STATUS, TEXT, INT64, TEXT, TEXT, POINTER(SCENE)),
+    "hooke_scene_commit": (STATUS, SCENE),
+    "hooke_scene_destroy": (None, SCENE),
+    "hooke_scene_system": (SYSTEM, SCENE),
+    "hooke_scene_run_options": (OPTIONS, SCENE),
+    "hooke_scene_title": (TEXT, SCENE),
+    "hooke_scene_text": (TEXT, SCENE),
+    "hooke_trajectory_create": (STATUS, TEXT, SYSTEM, INTEGRATOR, TEXT, POINTER(TRAJECTORY)),
+    "hooke_trajectory_write": (STATUS, TRAJECTORY, INT64, STATE),
+    "hooke_trajectory_close": (STATUS, TRAJECTORY, INT32),
+    "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
+    "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
+}

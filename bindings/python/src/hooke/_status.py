@@ -1,0 +1,95 @@
+"""Statuses of the library as exceptions, and exceptions of callbacks on their way through the library."""
+
+from __future__ import annotations
+
+import threading
+
+#: Outcomes of a run: they are results, not exceptions.
+OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
+
+
+class Error(Exception):
+    """A failure that the library reports; the message is the library's own, `status` its number."""
+
+    status: int | None = None
+
+
+class NoMemory(Error, MemoryError):
+    """An allocation failed."""
+
+    status = -1
+
+
+class BadValue(Error, ValueError):
+    """An argument, an option or a scene has a value that is not allowed."""
+
+    status = -2
+
+
+class BadCall(Error, RuntimeError):
+    """Calls out of order, such as adding to a system that was committed."""
+
+    status = -3
+
+
+class IOFailed(Error, OSError):
+    """A file could not be read or written."""
+
+    status = -4
+
+
+class NotBuilt(Error, NotImplementedError):
+    """This build of the library was made without the part asked for."""
+
+    status = -5
+
+
+class Unsuited(Error, ValueError):
+    """The method does not take this kind of problem."""
+
+    status = -6
+
+
+class SolverFailed(Error, ArithmeticError):
+    """A nonlinear or error-controlled solver gave up."""
+
+    status = -7
+
+
+class Stopped(Error):
+    """A callback asked to stop where nothing is run, so that there is no result to return."""
+
+    status = 1
+
+
+_KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Stopped)
+FAILURES = {kind.status: kind for kind in _KINDS}
+
+
+class _Pending(threading.local):
+    """The exception that a callback of this thread left behind, until the library has returned."""
+
+    exception: BaseException | None = None
+
+
+pending = _Pending()
+
+
+def checker(words, outcomes):
+    """The ctypes `errcheck` of functions that return a status; `words` are hooke_last_error and
+    hooke_status_name. With `outcomes` a positive status is a result and not raised."""
+    last_error, status_name = words
+
+    def check(code, function, arguments):
+        exception = pending.exception
+        if exception is not None:
+            pending.exception = None
+            raise exception
+        if code < 0 or (code > 0 and not outcomes):
+            message = last_error().decode("utf-8", "replace") or status_name(code).decode()
+            failure = FAILURES.get(code, Error)(message)
+            failure.status = code
+            raise failure
+        return code
+
+    return check

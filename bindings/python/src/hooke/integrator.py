@@ -1,0 +1,156 @@
+"""Methods, and the loop that runs them."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from typing import Any, Callable, NamedTuple, Optional
+
+from . import _callback
+from ._library import lib
+from ._memory import Handle, text
+from ._prototypes import OBSERVER
+from ._status import OUTCOMES, BadCall
+from .first_order import FirstOrder
+from .options import Options
+from .state import State
+from .system import System
+
+#: observer(step, state): sees the state after `step` steps and must not change it; returns None or 0 to go
+#: on.
+Observer = Callable[[int, State], Optional[int]]
+
+COUNTS = (
+    "steps",
+    "force_evaluations",
+    "derivative_products",
+    "nonlinear_iterations",
+    "nonlinear_failures",
+    "linear_iterations",
+    "error_test_failures",
+    "coincident_springs",
+    "memory_bytes",
+)
+
+
+class Method(NamedTuple):
+    """A method: its name, a line about it, whether it chooses its steps itself, whether this build has it."""
+
+    name: str
+    summary: str
+    adaptive: bool
+    built: bool
+
+
+def methods() -> list[Method]:
+    """All methods, in the library's order."""
+    names = [lib.hooke_method_name(number) for number in range(lib.hooke_method_count())]
+    return [
+        Method(
+            text(name),
+            text(lib.hooke_method_summary(name)),
+            lib.hooke_method_is_adaptive(name) == 1,
+            lib.hooke_method_is_built(name) == 1,
+        )
+        for name in names
+    ]
+
+
+class Integrator:
+    """A method with its options, made for one system or first-order problem; several may share a system.
+
+    Options are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s], rtol,
+    atol [m], atol_velocity [m/s], ...; keywords win over `options`. The system is committed if it was not. An
+    integrator and its state belong to one thread at a time. Other Python threads go on while it runs.
+    """
+
+    def __init__(self, problem: System | FirstOrder, options: Options | None = None, **keywords: Any):
+        chosen = (options.copy() if options is not None else Options.for_run()).set(**keywords)
+        self._problem = problem  # its callbacks are called by the library
+        self._handle = problem._integrator(chosen)
+        self._running = False
+        self.outcome = 0  #: the last outcome as the library's number
+        self.message = ""  #: what the library said about the last outcome that was not "finished"
+
+    @property
+    def options(self) -> Options:
+        """The options that it runs with, defaults filled in."""
+        return Options(Handle(lib.hooke_integrator_options(self._handle), None, self._handle), read_only=True)
+
+    def run(
+        self, state: State, *, on_frame: Observer | None = None, on_step: tuple[int, Observer] | None = None
+    ) -> str:
+        """Runs `duration` from the state's time on and leaves the final state in `state`.
+
+        ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)``
+        after every `stride` steps. Returns "finished", "stopped" (a callback asked for it), "diverged" or
+        "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
+        again; so does Ctrl-C.
+        """
+        with self._watched(state, on_frame, on_step):
+            return self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
+
+    def step(self, state: State, steps: int = 1) -> str:
+        """Takes `steps` steps without frames, for time loops of your own; returns an outcome as `run`
+        does."""
+        with self._watched(state, None, None):
+            return self._outcome(lib.hooke_integrator_step(self._handle, state._handle, steps))
+
+    def _outcome(self, code: int) -> str:
+        self.outcome = code
+        self.message = text(lib.hooke_last_error()) if code else ""
+        return OUTCOMES.get(code, f"outcome {code}")
+
+    @contextlib.contextmanager
+    def _watched(self, state: State, on_frame: Observer | None, on_step: Any) -> Iterator[None]:
+        if self._running:
+            raise BadCall("this integrator is running; a callback or another thread needs one of its own")
+        stride, step_observer = on_step or (1, None)
+        # a frame observer is always there, so that Ctrl-C is noticed
+        frames = _observer(on_frame or (lambda step, state: None), state)
+        steps = _observer(step_observer, state) if step_observer else OBSERVER()
+        self._running = True
+        try:
+            lib.hooke_integrator_on_frame(self._handle, frames, None)
+            lib.hooke_integrator_on_step(self._handle, stride, steps, None)
+            with _callback.interruptible():
+                yield
+        finally:
+            self._running = False
+            lib.hooke_integrator_on_frame(self._handle, OBSERVER(), None)
+            lib.hooke_integrator_on_step(self._handle, 1, OBSERVER(), None)
+
+    @property
+    def frame_count(self) -> int:
+        """Frames of a whole run, the initial one included."""
+        return lib.hooke_integrator_frame_count(self._handle)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """What was done since the integrator was made: steps, force evaluations, solver iterations, ..."""
+        return {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+
+    @property
+    def wall_seconds(self) -> float:
+        """Time spent stepping [s], without observers and output."""
+        return lib.hooke_integrator_wall_seconds(self._handle)
+
+    @property
+    def stop_value(self) -> int:
+        """What the callback that stopped the run returned; 0 if none did."""
+        return lib.hooke_integrator_stop_value(self._handle)
+
+    @property
+    def diverged_at(self) -> float:
+        """Time at which divergence was noticed [s], NaN if it was not."""
+        return lib.hooke_integrator_diverged_at(self._handle)
+
+    def __repr__(self) -> str:
+        return f"Integrator({self._problem!r}, {self.options!r})"
+
+
+def _observer(function: Observer, state: State) -> Any:
+    def observer(step, _state, _):
+        return _callback.guarded(function, step, state)
+
+    return OBSERVER(observer)

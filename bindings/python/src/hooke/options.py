@@ -1,0 +1,177 @@
+"""Named options: of a run, of a group of springs, of a part. The library's tables say which there are."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator, Mapping, MutableMapping
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+
+from ._library import lib
+from ._memory import Handle, address_of, double_pointer, doubles, text, view
+from ._prototypes import OPTIONS
+from ._status import BadCall, BadValue
+
+Value = Union[None, bool, int, float, str, np.ndarray, list]
+
+
+class Row(NamedTuple):
+    """One option: its name, type, unit, default, what is allowed and a line about it, all as text."""
+
+    name: str
+    type: str
+    unit: str
+    default: str
+    allowed: str
+    doc: str
+
+
+class Options(MutableMapping):
+    """The options of one thing by name: ``options["step"] = 1e-3``.
+
+    A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or
+    None where there is neither a value nor a default. Setting None, or deleting, takes a value back. A family
+    of options (the springs of a part) is set by a dict and read by dotted names: ``options["stretch"] =
+    {"stiffness": 50}``, ``options["stretch.stiffness"]``.
+
+    Options that belong to an integrator are those it runs with, and cannot be changed.
+    """
+
+    def __init__(self, handle: Handle, read_only: bool = False):
+        self._handle = handle
+        self._read_only = read_only
+        self._rows = {row.name: row for row in _rows(handle)}
+
+    @classmethod
+    def for_run(cls) -> Options:
+        """Options of a run: method, step [s], duration [s], every [s], rtol, atol [m], ..."""
+        return cls(_create(lib.hooke_run_options_create))
+
+    @classmethod
+    def for_springs(cls) -> Options:
+        """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
+        return cls(_create(lib.hooke_spring_options_create))
+
+    @classmethod
+    def for_part(cls, kind: str) -> Options:
+        """Options of a part, such as a "rope" or a "cloth"."""
+        return cls(_create(lambda out: lib.hooke_part_options_create(kind.encode(), out)))
+
+    def copy(self) -> Options:
+        """Options of their own with the same values."""
+        return Options(_create(lambda out: lib.hooke_options_copy(self._handle, out)))
+
+    @property
+    def rows(self) -> list[Row]:
+        """The table: every option that there is."""
+        return list(self._rows.values())
+
+    def is_set(self, name: str) -> bool:
+        """Whether the option was given a value, rather than having its default or none."""
+        return bool(lib.hooke_options_is_set(self._handle, name.encode()))
+
+    def __getitem__(self, name: str) -> Value:
+        if name not in self._rows:
+            raise KeyError(name)
+        key = name.encode()
+        words = text(lib.hooke_options_text(self._handle, key))
+        count = lib.hooke_options_number_count(self._handle, key)
+        if count == 0:
+            return words or None
+        numbers = view(
+            address_of(lib.hooke_options_numbers(self._handle, key)), (count,), self._handle
+        ).copy()
+        if self._rows[name].type == "flag":
+            return bool(numbers[0])
+        if "whole number" in self._rows[name].allowed:
+            numbers = numbers.astype(np.int64)
+        if words:
+            return [*words.split(), *numbers.tolist()]
+        return numbers if count > 1 else numbers[0].item()
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        if self._read_only:
+            raise BadCall(
+                "these are the options that an integrator runs with; make another integrator to change them"
+            )
+        key = name.encode()
+        if value is None:
+            lib.hooke_options_unset(self._handle, key)
+        elif isinstance(value, str):
+            lib.hooke_options_set_text(self._handle, key, value.encode())
+        elif isinstance(value, Mapping):
+            lib.hooke_options_set_text(self._handle, key, b"")
+            for member, member_value in value.items():
+                self[f"{name}.{member}"] = member_value
+        elif np.ndim(value) == 0:
+            lib.hooke_options_set_number(self._handle, key, _number(name, value))
+        elif any(isinstance(item, str) for item in value):
+            words = ",".join(item if isinstance(item, str) else repr(_number(name, item)) for item in value)
+            lib.hooke_options_set_text(self._handle, key, words.encode())
+        else:
+            numbers = doubles(value, name).reshape(-1)
+            lib.hooke_options_set_numbers(self._handle, key, numbers.size, double_pointer(numbers))
+
+    def __delitem__(self, name: str) -> None:
+        if name not in self._rows:
+            raise KeyError(name)
+        self[name] = None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def set(self, **values: Any) -> Options:
+        """Sets options by keyword, those of None left out; ``from_`` stands for an option named ``from``."""
+        for name, value in values.items():
+            if value is not None:
+                self[name[:-1] if name.endswith("_") else name] = value
+        return self
+
+    def describe(self) -> str:
+        """The table as text."""
+        lines = [
+            f"{row.name:24} {row.allowed or row.type}{f' [{row.unit}]' if row.unit else ''}"
+            f"{f', default {row.default}' if row.default else ''}: {row.doc}"
+            for row in self.rows
+        ]
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={self[name]!r}" for name in self if self.is_set(name))
+        return f"Options({values})"
+
+
+def part_kinds() -> list[str]:
+    """The kinds of parts there are: "rope", "cloth"."""
+    return [text(lib.hooke_part_kind(kind)) for kind in range(lib.hooke_part_kind_count())]
+
+
+def describe(what: str) -> str:
+    """The options of a "run", of "springs", or of a kind of part, as text: names, units, defaults, bounds."""
+    if what == "run":
+        return Options.for_run().describe()
+    if what == "springs":
+        return Options.for_springs().describe()
+    return Options.for_part(what).describe()
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise BadValue(f"{name}: a number is needed, this is {value!r}") from None
+
+
+def _create(create: Any) -> Handle:
+    pointer = OPTIONS()
+    create(ctypes.byref(pointer))
+    return Handle(pointer, lib.hooke_options_destroy)
+
+
+def _rows(handle: Handle) -> Iterator[Row]:
+    for row in range(lib.hooke_options_row_count(handle)):
+        yield Row(*(text(lib.hooke_options_row(handle, row, field.encode())) for field in Row._fields))

@@ -1,0 +1,215 @@
+"""Running a scene in one call.
+
+The files that `output` names are H5MD 1.1 (HDF5) and read with h5py; nothing of this package is needed for
+it::
+
+    with h5py.File("out.h5") as file:
+        t = file["particles/all/position/time"][:]      # (frames,) [s]
+        q = file["particles/all/position/value"][:]     # (frames, n, 3) [m]
+        springs = file["connectivity/springs"][:]       # (m, 2)
+
+After a run that was killed, frames that were not written have the time NaN: use those with ``t == t`` only.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from dataclasses import dataclass
+from typing import Any, Callable, NamedTuple, Optional, Union
+
+import numpy as np
+
+from ._callback import stop_value
+from ._library import lib
+from ._prototypes import TRAJECTORY
+from ._status import BadValue
+from .first_order import FirstOrder
+from .integrator import Integrator, Observer
+from .options import Options
+from .scene import Scene, scene_text
+from .state import State
+from .system import Force, System
+
+Path = Union[str, "os.PathLike[str]"]
+#: What can be run: a scene or the path of one, a system, a first-order problem.
+Runnable = Union[Path, Scene, System, FirstOrder]
+#: progress(fraction, state): told at each frame; `fraction` goes from 0 to 1.
+Progress = Callable[[float, State], Optional[int]]
+
+_STOPPED = 1
+
+
+class Frames(NamedTuple):
+    """The frames of a run: times (k,) [s], positions (k, n, 3) [m], velocities (k, n, 3) [m/s]; of a
+    first-order problem `q` is (k, size) and `v` None."""
+
+    t: np.ndarray
+    q: np.ndarray
+    v: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came out of a run.
+
+    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
+    `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
+    `stop_value` is what the callback that stopped the run returned.
+    """
+
+    status: str
+    message: str
+    state: State
+    problem: System | FirstOrder
+    options: Options
+    counts: dict[str, int]
+    wall_seconds: float
+    diverged_at: float
+    stop_value: int
+    frames: Frames | None = None
+
+    @property
+    def system(self) -> System:
+        """The system that was run."""
+        if not isinstance(self.problem, System):
+            raise AttributeError("this was a first-order problem, which has no system")
+        return self.problem
+
+    def __repr__(self) -> str:
+        return (
+            f"Result({self.status}, {self.options['method']}, t={self.state.t!r}, "
+            f"steps={self.counts['steps']}, wall_seconds={self.wall_seconds:.3g})"
+        )
+
+
+def run(
+    problem: Runnable,
+    *,
+    state: State | None = None,
+    output: Path | None = None,
+    frames: bool = False,
+    force: Force | None = None,
+    progress: Progress | None = None,
+    on_frame: Observer | None = None,
+    on_step: tuple[int, Observer] | None = None,
+    **options: Any,
+) -> Result:
+    """Runs a scene (or the path of one), a system or a first-order problem, and returns the `Result`.
+
+    The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
+    every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
+    start (it is changed; by default the initial state), `output` the HDF5 file to write, ``frames=True``
+    keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
+    state)`` is told at each frame; for `on_frame` and `on_step` see `Integrator.run`.
+    """
+    scene, problem, given = resolve(problem, force)
+    integrator = Integrator(problem, given, **options)
+    state = problem.state() if state is None else state
+    watchers: list[Observer] = []
+    if on_frame is not None:
+        watchers.append(on_frame)
+    recorder = _Recorder(integrator.frame_count, state) if frames else None
+    if recorder is not None:
+        watchers.append(recorder)
+    if progress is not None:
+        watchers.append(_Progress(progress, integrator.frame_count))
+    if output is None:
+        status = integrator.run(state, on_frame=_all(watchers), on_step=on_step)
+    else:
+        status = _run_to_file(os.fsencode(output), scene, integrator, state, watchers, on_step)
+    return Result(
+        status=status,
+        message=integrator.message,
+        state=state,
+        problem=problem,
+        options=integrator.options,
+        counts=integrator.counts,
+        wall_seconds=integrator.wall_seconds,
+        diverged_at=integrator.diverged_at,
+        stop_value=integrator.stop_value,
+        frames=recorder.frames() if recorder is not None else None,
+    )
+
+
+def resolve(
+    problem: Runnable, force: Force | None
+) -> tuple[Scene | None, System | FirstOrder, Options | None]:
+    """The scene (if there is one), the problem and the options of a run that the scene gives."""
+    scene, options = None, None
+    if isinstance(problem, (str, os.PathLike)):
+        problem = Scene.load(problem)
+    if isinstance(problem, Scene):
+        scene, options = problem, problem.run_options
+        problem = scene.system
+    if force is not None:
+        if not isinstance(problem, System):
+            raise BadValue("force: only a system takes one")
+        problem.set_force(force)
+    return scene, problem, options
+
+
+def _all(watchers: list[Observer]) -> Observer:
+    def watch(step: int, state: State) -> int | None:
+        for watcher in watchers:
+            value = stop_value(watcher(step, state))
+            if value:
+                return value
+        return None
+
+    return watch
+
+
+def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
+    if not isinstance(integrator._problem, System):
+        raise BadValue("output: a first-order problem has no particles to write")
+    pointer = TRAJECTORY()
+    lib.hooke_trajectory_create(
+        path, integrator._problem._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer)
+    )
+
+    def write(step: int, state: State) -> None:
+        lib.hooke_trajectory_write(pointer, step, state._handle)
+
+    try:
+        status = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
+    except BaseException as exception:
+        outcome = getattr(exception, "status", None)
+        lib.hooke_trajectory_close(pointer, outcome if isinstance(outcome, int) else _STOPPED)
+        raise
+    lib.hooke_trajectory_close(pointer, integrator.outcome)
+    return status
+
+
+class _Progress:
+    def __init__(self, progress: Progress, frame_count: int):
+        self._progress, self._last, self._frame = progress, max(frame_count - 1, 1), 0
+
+    def __call__(self, step: int, state: State) -> int | None:
+        fraction, self._frame = self._frame / self._last, self._frame + 1
+        return self._progress(fraction, state)
+
+
+class _Recorder:
+    def __init__(self, frame_count: int, state: State):
+        self._count = 0
+        self._t = np.empty(frame_count)
+        q, v = _arrays(state)
+        self._q = np.empty((frame_count, *q.shape), q.dtype)
+        self._v = None if v is None else np.empty((frame_count, *v.shape))
+
+    def __call__(self, step: int, state: State) -> None:
+        q, v = _arrays(state)
+        self._t[self._count] = state.t
+        self._q[self._count] = q
+        if self._v is not None:
+            self._v[self._count] = v
+        self._count += 1
+
+    def frames(self) -> Frames:
+        end = self._count
+        return Frames(self._t[:end], self._q[:end], None if self._v is None else self._v[:end])
+
+
+def _arrays(state: State) -> tuple[np.ndarray, np.ndarray | None]:
+    return (state.x, None) if state._v is None else (state.q, state.v)

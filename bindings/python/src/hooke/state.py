@@ -1,0 +1,103 @@
+"""What moves: time, positions and velocities."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from ._library import lib
+from ._memory import Handle, address_of, view
+from ._prototypes import STATE
+
+
+class State:
+    """Time, positions and velocities of a system (``system.state()``) or of a first-order problem
+    (``problem.state()``).
+
+    `q` and `v` are NumPy arrays over the library's own memory, no copy: write into them to set the state, and
+    read them again after a run. They stay valid however long they are kept, also when the state itself is
+    gone.
+    """
+
+    __slots__ = ("_handle", "_x", "_v", "__weakref__")
+
+    def __init__(self, handle: Handle, dtype: Any = float):
+        self._handle = handle
+        size = lib.hooke_state_size(handle)
+        velocity = lib.hooke_state_velocity(handle)
+        numbers = size if np.dtype(dtype) == float else size // 2
+        self._x = view(address_of(lib.hooke_state_position(handle)), (numbers,), handle, dtype=dtype)
+        self._v: np.ndarray | None = None
+        if velocity or not size:
+            self._v = view(address_of(velocity), (size // 3, 3), handle)
+
+    @classmethod
+    def _of_system(cls, system: Handle) -> State:
+        pointer = STATE()
+        lib.hooke_state_create(system, ctypes.byref(pointer))
+        return cls(Handle(pointer, lib.hooke_state_destroy, system))
+
+    @classmethod
+    def _of_size(cls, size: int, dtype: Any = float) -> State:
+        pointer = STATE()
+        lib.hooke_state_create_first_order(size, ctypes.byref(pointer))
+        return cls(Handle(pointer, lib.hooke_state_destroy), dtype)
+
+    @property
+    def t(self) -> float:
+        """Time [s]."""
+        return lib.hooke_state_time(self._handle)
+
+    @t.setter
+    def t(self, value: float) -> None:
+        lib.hooke_state_set_time(self._handle, value)
+
+    @property
+    def q(self) -> np.ndarray:
+        """Positions (n, 3) [m], a view."""
+        return self._x.reshape(-1, 3) if self._v is not None else self._no_particles("q")
+
+    @q.setter
+    def q(self, value: Any) -> None:
+        self.q[...] = value
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (n, 3) [m/s], a view."""
+        return self._v if self._v is not None else self._no_particles("v")
+
+    @v.setter
+    def v(self, value: Any) -> None:
+        self.v[...] = value
+
+    @property
+    def x(self) -> np.ndarray:
+        """All positions in one row (3n,) [m], or the unknowns of a first-order problem (size,); a view."""
+        return self._x
+
+    @x.setter
+    def x(self, value: Any) -> None:
+        self._x[...] = value
+
+    def copy(self) -> State:
+        """A state of its own with the same values."""
+        if self._v is None:
+            other = State._of_size(lib.hooke_state_size(self._handle), self._x.dtype)
+        else:
+            other = State._of_system(self._handle.parent)
+        other.assign(self)
+        return other
+
+    def assign(self, other: State) -> None:
+        """Takes over time, positions and velocities of a state of the same size."""
+        lib.hooke_state_copy(other._handle, self._handle)
+
+    def _no_particles(self, name: str) -> Any:
+        raise AttributeError(f"a first-order problem has no {name}; its unknowns are x")
+
+    def __repr__(self) -> str:
+        if self._v is None:
+            return f"State(t={self.t!r}, {self._x.size} unknowns)"
+        return f"State(t={self.t!r}, {len(self._v)} particles)"

@@ -1,0 +1,202 @@
+"""What a scene is: particles, springs and forces."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, Callable, Optional
+
+import numpy as np
+
+from . import _callback
+from ._library import lib
+from ._memory import Handle, double_pointer, doubles, index_pointer, indices
+from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
+from ._queries import Queries
+from .options import Options
+from .state import State
+
+if TYPE_CHECKING:
+    from .results import Result
+
+#: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
+Force = Callable[[float, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+#: product(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to `out`; all arrays (n, 3).
+ForceProduct = Callable[[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+#: drive(t, q, v): writes positions [m] and velocities [m/s] at time t, arrays (count, 3).
+Drive = Callable[[float, np.ndarray, np.ndarray], Optional[int]]
+
+
+class System(Queries):
+    """Particles, springs and forces: built by calls that add to it, then committed and constant from then on.
+
+    The first use that needs a finished system (a state, a run, a force or an energy) commits it; `commit()`
+    does so at a moment of your choice. Units are SI. Particles and springs are numbered from 0 in the order
+    in which they are added, springs of parts after all others.
+
+    Callbacks are given arrays that are valid during the call only: copy what you want to keep. They return
+    None or 0 to go on; any other whole number stops the run. An exception stops it too, and is raised again
+    by the call that ran.
+    """
+
+    def __init__(self) -> None:
+        pointer = SYSTEM()
+        lib.hooke_system_create(ctypes.byref(pointer))
+        self._adopt(Handle(pointer, lib.hooke_system_destroy), lambda: lib.hooke_system_commit(pointer))
+
+    @classmethod
+    def _of_scene(cls, scene: Handle) -> System:
+        system = cls.__new__(cls)
+        handle = Handle(lib.hooke_scene_system(scene), None, scene)
+        system._adopt(handle, lambda: lib.hooke_scene_commit(scene))
+        return system
+
+    def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
+        self._handle = handle
+        self._commit = commit
+        self._callbacks: list = []  # the library calls them as long as the system is in use
+
+    # building
+
+    def add_particles(self, position: Any, velocity: Any = None, *, mass: Any) -> range:
+        """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and
+        `mass` [kg], one number for all or (n,). Returns their numbers."""
+        position = np.atleast_2d(doubles(position, "position"))
+        count = len(position)
+        position = doubles(position, "position", (count, 3))
+        if velocity is not None:
+            velocity = doubles(velocity, "velocity", (count, 3), (3 * count,))
+        mass = doubles(mass, "mass").reshape(-1)
+        if mass.size != 1:
+            mass = doubles(mass, "mass", (count,), (1,))
+        first = ctypes.c_int64()
+        lib.hooke_system_add_particles(
+            self._handle,
+            count,
+            double_pointer(position),
+            None if velocity is None else double_pointer(velocity),
+            mass.size,
+            double_pointer(mass),
+            ctypes.byref(first),
+        )
+        return range(first.value, first.value + count)
+
+    def pin(self, particles: Any) -> None:
+        """Holds particles (a number or several) still."""
+        particles = indices(particles, "particles").reshape(-1)
+        lib.hooke_system_pin(self._handle, particles.size, index_pointer(particles))
+
+    def add_springs(self, name: str | None, between: Any, **options: Any) -> None:
+        """Adds a group of springs `between` pairs of particles (m, 2), with the options that
+        ``hooke.describe("springs")`` lists: ``law`` "strain" or "length"; ``stiffness`` [N] or, in the
+        length law, [N/m]; ``damping`` [N s] or [N s/m]; ``rest_length`` "initial" or [m]; ``rest_scale``;
+        ``compression``. Where several numbers are allowed it is one for all or (m,)."""
+        ends = indices(between, "between")
+        if ends.size == 0:
+            ends = ends.reshape(0, 2)
+        elif ends.ndim != 2 or ends.shape[1] != 2:
+            doubles(ends, "between", (ends.size // 2, 2))
+        lib.hooke_system_add_springs(
+            self._handle,
+            None if name is None else name.encode(),
+            len(ends),
+            index_pointer(ends),
+            Options.for_springs().set(**options)._handle,
+        )
+
+    def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
+        """Adds a part, a "rope" or a "cloth", with the options that ``hooke.describe(kind)`` lists
+        (``from_`` stands for ``from``); a family of springs is a dict: ``structural={"stiffness": 50}``.
+        Returns the numbers of its particles."""
+        first, count = ctypes.c_int64(), ctypes.c_int64()
+        lib.hooke_system_add_part(
+            self._handle,
+            kind.encode(),
+            None if name is None else name.encode(),
+            Options.for_part(kind).set(**options)._handle,
+            ctypes.byref(first),
+            ctypes.byref(count),
+        )
+        return range(first.value, first.value + count.value)
+
+    def set_gravity(self, gravity: Any) -> None:
+        """Acceleration of every free particle (3,) [m/s^2]."""
+        lib.hooke_system_set_gravity(self._handle, double_pointer(doubles(gravity, "gravity", (3,))))
+
+    def set_drag(self, coefficient: float) -> None:
+        """Ether drag f = -c v on every free particle, c >= 0 [N s/m]."""
+        lib.hooke_system_set_drag(self._handle, coefficient)
+
+    def set_force(self, force: Force, product: ForceProduct | None = None) -> None:
+        """Adds a force of your own, ``force(t, q, v, force)``, which adds newtons to its last argument.
+        ``product(t, q, v, dq, dv, out)`` adds the product with its derivative to `out`; without it
+        difference quotients stand in."""
+        callbacks = (
+            _callback.force_callback(force),
+            _callback.product_callback(product) if product else FORCE_PRODUCT(),
+        )
+        lib.hooke_system_set_force(self._handle, *callbacks, None)
+        self._callbacks.extend(callbacks)
+
+    def drive_harmonic(self, particles: Any, amplitude: Any, frequency: float, phase: float = 0.0) -> None:
+        """Moves particles as q0 + amplitude sin(2 pi frequency t + phase): `amplitude` (3,) [m],
+        `frequency` [Hz]."""
+        particles = indices(particles, "particles").reshape(-1)
+        amplitude = double_pointer(doubles(amplitude, "amplitude", (3,)))
+        lib.hooke_system_drive_harmonic(
+            self._handle, particles.size, index_pointer(particles), amplitude, frequency, phase
+        )
+
+    def drive_table(self, particles: Any, time: Any, displacement: Any) -> None:
+        """Moves particles along a smooth curve through `displacement` (samples, 3) [m] at ascending `time`
+        (samples,) [s]."""
+        particles = indices(particles, "particles").reshape(-1)
+        time = doubles(time, "time").reshape(-1)
+        displacement = doubles(displacement, "displacement", (time.size, 3))
+        lib.hooke_system_drive_table(
+            self._handle,
+            particles.size,
+            index_pointer(particles),
+            time.size,
+            double_pointer(time),
+            double_pointer(displacement),
+        )
+
+    def drive_callback(self, particles: Any, drive: Drive) -> None:
+        """Moves particles as ``drive(t, q, v)`` writes, which must depend on t alone."""
+        particles = indices(particles, "particles").reshape(-1)
+        callback = _callback.drive_callback(drive)
+        lib.hooke_system_drive_callback(
+            self._handle, particles.size, index_pointer(particles), callback, None
+        )
+        self._callbacks.append(callback)
+
+    def commit(self) -> System:
+        """Checks the system as a whole and makes it constant; a second call is a BadCall. Returns the
+        system."""
+        self._commit()
+        return self
+
+    # using
+
+    def state(self) -> State:
+        """The initial state: t = 0, positions and velocities as added."""
+        return State._of_system(self._committed())
+
+    def run(self, **options: Any) -> Result:
+        """Runs the system; see `hooke.run`."""
+        from .results import run
+
+        return run(self, **options)
+
+    def _integrator(self, options: Options) -> Handle:
+        pointer = INTEGRATOR()
+        lib.hooke_integrator_create(self._committed(), options._handle, ctypes.byref(pointer))
+        return Handle(pointer, lib.hooke_integrator_destroy, self._handle)
+
+    def _committed(self) -> Handle:
+        if not self.is_committed:
+            self._commit()
+        return self._handle
+
+    def __repr__(self) -> str:
+        return f"System({self.particle_count} particles, {self.spring_count} springs)"

@@ -1,0 +1,120 @@
+"""Options by name, from the tables of the library."""
+
+import numpy as np
+import pytest
+
+import hooke
+
+
+def test_the_tables_are_those_of_the_library():
+    assert {"method", "step", "duration", "every", "rtol", "atol", "atol_velocity"} <= set(
+        hooke.Options.for_run()
+    )
+    assert {"law", "stiffness", "damping", "rest_length", "rest_scale", "compression"} == set(
+        hooke.Options.for_springs()
+    )
+    assert hooke.part_kinds() == ["rope", "cloth"]
+    step = next(row for row in hooke.Options.for_run().rows if row.name == "step")
+    assert step.unit == "s" and step.type == "number" and step.doc
+    for what, options in [
+        ("run", hooke.Options.for_run()),
+        ("springs", hooke.Options.for_springs()),
+        ("rope", hooke.Options.for_part("rope")),
+        ("cloth", hooke.Options.for_part("cloth")),
+    ]:
+        text = hooke.describe(what)
+        assert len(text.splitlines()) == len(options) and all(name in text for name in options)
+
+
+def test_numbers_words_flags_and_arrays():
+    options = hooke.Options.for_springs()
+    assert options["law"] == "strain" and options["damping"] == 0 and options["stiffness"] is None
+    assert options["compression"] is True and options["rest_length"] == "initial"
+    options.set(
+        law="length", stiffness=[1, 2.5, 3], damping=np.float32(0.5), compression=False, rest_length=0
+    )
+    assert options["law"] == "length" and options["compression"] is False and options["rest_length"] == 0
+    np.testing.assert_array_equal(options["stiffness"], [1, 2.5, 3])
+    assert options["damping"] == 0.5 and isinstance(options["damping"], float)
+    run = hooke.Options.for_run().set(max_order=5)
+    assert run["max_order"] == 5 and isinstance(run["max_order"], int)
+
+
+def test_values_are_taken_back():
+    options = hooke.Options.for_run()
+    options["rtol"] = 1e-3
+    assert options.is_set("rtol")
+    del options["rtol"]
+    assert not options.is_set("rtol") and options["rtol"] == 1e-6
+    options["rtol"] = 1e-4
+    options["rtol"] = None
+    assert options["rtol"] == 1e-6
+
+
+def test_families_are_dicts():
+    options = hooke.Options.for_part("cloth").set(
+        origin=[0, 0, 0],
+        edges=[[1, 0, 0], [0, 0, 1]],
+        size=[3, 4],
+        structural={"stiffness": 50, "damping": 0.5},
+    )
+    assert options["structural.stiffness"] == 50 and options["structural.damping"] == 0.5
+    assert options["size"].tolist() == [3, 4] and options["size"].dtype == np.int64
+    options["pinned"] = ["top-corners", 5]
+    assert options["pinned"] == ["top-corners", 5]
+
+
+def test_a_python_keyword_as_a_name():
+    options = hooke.Options.for_part("rope").set(from_=[0, 0, 0], to=[1, 0, 0])
+    assert options["from"].tolist() == [0, 0, 0]
+
+
+def test_copies_are_separate():
+    options = hooke.Options.for_run().set(step=0.5)
+    other = options.copy()
+    other["step"] = 0.25
+    assert options["step"] == 0.5 and "step=0.5" in repr(options)
+
+
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("stiffness", -1),
+        ("stiffness", float("nan")),
+        ("stiffness", "soft"),
+        ("stiffness", object()),
+        ("stiffness", [1, None]),
+        ("stiffness", 1j),
+        ("law", "hooke"),
+        ("law", 3),
+        ("compression", 2),
+        ("stifness", 1),
+    ],
+)
+def test_bad_values_name_the_option(name, value):
+    options = hooke.Options.for_springs()
+    with pytest.raises(hooke.BadValue, match=name):
+        options[name] = value
+    assert not any(options.is_set(known) for known in options)
+
+
+def test_reading_an_unknown_name_is_a_key_error():
+    options = hooke.Options.for_run()
+    with pytest.raises(KeyError):
+        options["stepp"]
+    with pytest.raises(KeyError):
+        del options["stepp"]
+    assert "stepp" not in options and options.get("stepp") is None
+
+
+def test_an_unknown_keyword_of_a_run_is_refused(system):
+    with pytest.raises(hooke.BadValue, match="stepp"):
+        hooke.run(system, stepp=1)
+
+
+def test_the_options_of_an_integrator_are_complete_and_fixed(system):
+    integrator = hooke.Integrator(system, method="forward-euler", step=1e-3, duration=0.5)
+    assert integrator.options["every"] == pytest.approx(0.005)
+    assert integrator.options["atol_velocity"] == integrator.options["atol"] == 1e-9
+    with pytest.raises(hooke.BadCall):
+        integrator.options["step"] = 1

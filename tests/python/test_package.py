@@ -1,0 +1,140 @@
+"""The package as a user gets it: found, refused, installed."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+import hooke
+from hooke._library import lib
+
+SOURCE = ROOT / "bindings/python/src"
+
+
+def python(code, **environment):
+    """Runs code in a new Python without any setting of ours; a value of None takes a variable away."""
+    clean = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HOOKE_LIBRARY")}
+    clean.update({k: str(v) for k, v in environment.items()})
+    return subprocess.run(
+        [sys.executable, "-c", code], env=clean, cwd="/", capture_output=True, text=True, timeout=120
+    )
+
+
+def compiled(tmp_path, code):
+    """A shared library of this C code."""
+    source, library = tmp_path / "fake.c", tmp_path / "libfake.so"
+    source.write_text(code)
+    subprocess.run(
+        [os.environ.get("HOOKE_CC") or "cc", "-shared", "-fPIC", "-o", library, source], check=True
+    )
+    return library
+
+
+def test_versions_agree():
+    header = (ROOT / "include/hooke/base.h").read_text()
+    project = (ROOT / "bindings/python/pyproject.toml").read_text()
+    assert re.search(r'#define HOOKE_VERSION +"([^"]+)"', header).group(1) == hooke.__version__
+    assert f'version = "{hooke.__version__}"' in project
+    assert hooke.build_facts()["version"] == hooke.__version__
+
+
+def test_no_library():
+    run = python("import hooke", PYTHONPATH=SOURCE)
+    if run.returncode == 0:
+        pytest.skip("a hooke library is installed in this machine's own folders")
+    assert "ImportError: the hooke library was not found" in run.stderr
+    assert "pip install" in run.stderr and "HOOKE_LIBRARY" in run.stderr
+
+
+def test_a_library_that_is_not_there():
+    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY="/nowhere/libhooke.so")
+    assert run.returncode and "ImportError: HOOKE_LIBRARY names '/nowhere/libhooke.so'" in run.stderr
+
+
+def test_another_abi_is_refused(tmp_path):
+    library = compiled(tmp_path, "int hooke_abi(void) { return 7; }")
+    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    assert run.returncode and "has ABI 7, this package needs ABI 0" in run.stderr
+
+
+def test_another_library_is_refused(tmp_path):
+    library = compiled(tmp_path, "int nothing(void) { return 7; }")
+    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    assert run.returncode and "is not the hooke library" in run.stderr
+
+
+def test_a_library_without_a_function_is_refused(tmp_path):
+    library = compiled(tmp_path, "int hooke_abi(void) { return 0; }")
+    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    assert run.returncode and "has no function hooke_last_error" in run.stderr
+
+
+def test_importing_is_light():
+    code = "import sys, hooke; print([m for m in ('matplotlib', 'h5py', 'scipy') if m in sys.modules])"
+    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    assert run.stdout.strip() == "[]", run.stderr
+
+
+def test_leaving_with_everything_alive():
+    code = """
+import hooke
+system = hooke.System()
+system.add_particles([[0, 0, 0]], mass=1)
+system.set_force(lambda t, q, v, force: None)
+integrator = hooke.Integrator(system, method="symplectic-euler", step=1.0, duration=2.0)
+state = system.state()
+view = state.q
+print(integrator.run(state))
+"""
+    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "finished\n", "")
+
+
+@pytest.mark.parametrize("first", ["h5py", "hooke"])
+def test_h5py_and_the_library_get_along(first, tmp_path):
+    """Each brings its own HDF5."""
+    other = {"h5py": "hooke", "hooke": "h5py"}[first]
+    code = f"""
+import {first}, {other}
+system = hooke.System()
+system.add_particles([[0, 0, 0]], [[1, 0, 0]], mass=1)
+for k in range(3):
+    hooke.run(system, method="symplectic-euler", step=0.5, duration=2.0, output={str(tmp_path / "a.h5")!r})
+    with h5py.File({str(tmp_path / "a.h5")!r}) as file:
+        print(file["particles/all/position/value"][-1, 0, 0])
+"""
+    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "2.0\n" * 3, "")
+
+
+def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
+    """The slow one: builds the library as a user's pip does. pip fetches its build tools from the network."""
+    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HOOKE_LIBRARY")}
+    target = tmp_path / "packages"
+    before = set((ROOT / "bindings/python").iterdir())
+    command = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]
+    install = subprocess.run(
+        [*command, "--target", target, "./bindings/python"],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert install.returncode == 0, install.stderr
+    assert set((ROOT / "bindings/python").iterdir()) == before
+    files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
+    assert files == {path.name for path in (SOURCE / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE"}
+    assert {path.name for path in target.iterdir()} - {"hooke"} == {f"libhooke-{hooke.__version__}.dist-info"}
+    code = """
+import hooke
+scene = hooke.Scene.parse(
+    {"hooke": 1, "particles": {"position": [[0, 0, 0]], "mass": 1}, "gravity": [0, -8, 0]}
+)
+result = scene.run(method="symplectic-euler", step=0.5, duration=1.0)
+print(hooke.build_facts()["path"], result.state.v[0, 1], hooke.build_facts()["sundials"] != "")
+"""
+    run = python(code, PYTHONPATH=target)
+    assert run.stdout.split() == [str(target / "hooke" / "libhooke.so"), "-8.0", "True"], run.stderr

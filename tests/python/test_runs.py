@@ -1,0 +1,209 @@
+"""Runs: the same bits from every side, files, frames, first-order problems."""
+
+import json
+
+import h5py
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+RUN = SIX_PARTICLES["run"]
+
+
+@pytest.mark.parametrize("method", [method.name for method in hooke.methods()])
+def test_every_way_to_run_gives_the_same_bits(scene, tmp_path, method):
+    path = tmp_path / "six.json"
+    path.write_text(json.dumps(SIX_PARTICLES))
+    integrator = hooke.Integrator(build_six_particles(), **{**RUN, "method": method})
+    by_hand = build_six_particles().state()
+    integrator.run(by_hand)
+    states = [
+        hooke.run(path, method=method).state,
+        hooke.run(scene, method=method).state,
+        build_six_particles().run(**{**RUN, "method": method}).state,
+        by_hand,
+    ]
+    for state in states:
+        assert state.t == RUN["duration"]
+        np.testing.assert_array_equal(state.q, states[0].q)
+        np.testing.assert_array_equal(state.v, states[0].v)
+    assert not np.array_equal(states[0].q, build_six_particles().state().q)
+
+
+def test_the_schemes_are_those_of_the_book():
+    for method in ("forward-euler", "symplectic-euler"):
+        system, h = build_oscillator(), 1e-3
+        q, v = 1.25, 0.0
+        for _ in range(100):
+            f = -20 * (q - 1) / 0.5
+            q, v = (q + h * v, v + h * f) if method == "forward-euler" else (q + h * (v + h * f), v + h * f)
+        state = hooke.run(system, method=method, step=h, duration=0.1).state
+        assert state.q[1, 0] == pytest.approx(q, rel=1e-13) and state.v[1, 0] == pytest.approx(v, rel=1e-12)
+
+
+def test_cvode_follows_the_exact_solution():
+    for method in ("cvode-bdf", "cvode-adams"):
+        result = hooke.run(build_oscillator(), method=method, duration=2, rtol=1e-10, atol=1e-12)
+        assert result.state.q[1, 0] == pytest.approx(1 + 0.25 * np.cos(np.sqrt(40) * 2), abs=1e-7)
+        assert result.counts["steps"] > 10 and result.counts["force_evaluations"] > 10
+
+
+def test_a_result_tells_what_was_done(system):
+    result = hooke.run(system, **RUN)
+    assert (result.status, result.counts["steps"], result.state.t) == ("finished", 500, 0.5)
+    assert result.counts["force_evaluations"] in (500, 501) and result.counts["memory_bytes"] > 0
+    assert 0 < result.wall_seconds < 10 and result.system is system
+    assert result.options["method"] == "symplectic-euler" and "finished" in repr(result)
+
+
+def test_frames_in_memory(system):
+    result = hooke.run(system, frames=True, **RUN)
+    t, q, v = result.frames
+    assert q.shape == v.shape == (11, 6, 3)
+    np.testing.assert_allclose(t, np.arange(11) * 0.05, rtol=1e-15, atol=1e-17)
+    np.testing.assert_array_equal(q[0], SIX_PARTICLES["particles"]["position"])
+    np.testing.assert_array_equal(q[-1], result.state.q)
+    np.testing.assert_array_equal(v[-1], result.state.v)
+    stopped = hooke.run(system, frames=True, on_frame=lambda step, state: step == 200, **RUN)
+    assert stopped.status == "stopped" and len(stopped.frames.t) <= 5
+    np.testing.assert_array_equal(stopped.frames.q[:4], q[:4])
+
+
+def test_a_file_holds_the_frames(scene, tmp_path):
+    path = tmp_path / "out.h5"
+    result = hooke.run(scene, output=path, frames=True)
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["particles/all/position/value"], result.frames.q)
+        np.testing.assert_array_equal(file["particles/all/velocity/value"], result.frames.v)
+        np.testing.assert_array_equal(file["particles/all/position/time"], result.frames.t)
+        np.testing.assert_array_equal(file["connectivity/springs"], scene.system.spring_ends)
+        kinetic = [scene.system.kinetic_energy(v) for v in result.frames.v]
+        np.testing.assert_array_equal(file["observables/kinetic_energy/value"], kinetic)
+
+
+def test_a_file_of_a_built_system(system, tmp_path):
+    path = tmp_path / "out.h5"
+    result = hooke.run(system, output=path, **RUN)
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["particles/all/position/value"][-1], result.state.q)
+
+
+def test_a_stopped_run_leaves_a_file_of_its_frames(system, tmp_path):
+    path = tmp_path / "out.h5"
+
+    def watch(step, state):
+        if step == 200:
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        hooke.run(system, output=path, on_frame=watch, **RUN)
+    with h5py.File(path) as file:
+        time = file["particles/all/position/time"][:]
+        assert file["particles/all/position/value"].shape == (5, 6, 3)
+        np.testing.assert_allclose(time, np.arange(5) * 0.05, rtol=1e-15)
+
+
+def test_progress_goes_from_0_to_1(system):
+    seen = []
+    hooke.run(system, progress=lambda fraction, state: seen.append((fraction, state.t)), **RUN)
+    assert [fraction for fraction, _ in seen] == [k / 10 for k in range(11)]
+    np.testing.assert_allclose([t for _, t in seen], [k * 0.05 for k in range(11)], rtol=1e-14, atol=1e-16)
+
+
+def test_steps_by_hand_equal_a_run(system):
+    options = {"method": "symplectic-euler", "step": 1e-3}
+    state, other = system.state(), system.state()
+    integrator = hooke.Integrator(system, **options)
+    assert [integrator.step(state, count) for count in (1, 99, 400)] == ["finished"] * 3
+    hooke.Integrator(system, **options, duration=0.5).run(other)
+    np.testing.assert_array_equal(state.q, other.q)
+    assert integrator.counts["steps"] == 500 and state.t == other.t
+    with pytest.raises(hooke.BadValue):
+        integrator.step(state, -1)
+    with pytest.raises(hooke.BadValue, match="duration"):
+        integrator.run(state)
+
+
+def test_a_run_starts_where_it_is_told(system):
+    whole = hooke.run(system, **RUN).state
+    half = {**RUN, "duration": 0.25}
+    state = hooke.run(system, **half).state
+    result = hooke.run(system, state=state, **half)
+    assert result.state is state and state.t == pytest.approx(0.5)
+    np.testing.assert_allclose(state.q, whole.q, rtol=1e-12)
+
+
+def test_a_state_of_another_system_is_refused(system):
+    with pytest.raises(hooke.BadValue, match="state"):
+        hooke.run(system, state=build_oscillator().state(), **RUN)
+
+
+def test_a_step_that_does_not_fit_is_refused(system):
+    with pytest.raises(hooke.BadValue, match="step"):
+        hooke.run(system, method="symplectic-euler", step=0.3, duration=1)
+
+
+def test_a_force_given_to_run(scene):
+    plain = hooke.run(hooke.Scene.parse(SIX_PARTICLES)).state
+
+    def lift(t, q, v, force):
+        force[:5, 1] += 9.81 * scene.system.masses[:5]
+
+    lifted = hooke.run(scene, force=lift).state
+    weightless = hooke.run(hooke.Scene.parse({**SIX_PARTICLES, "gravity": [0, 0, 0]})).state
+    np.testing.assert_allclose(lifted.q, weightless.q, rtol=1e-11, atol=1e-11)
+    assert abs(plain.q - lifted.q).max() > 0.1
+
+
+def test_a_system_may_be_shared_by_integrators(system):
+    integrators = [hooke.Integrator(system, method="symplectic-euler", step=h) for h in (1e-3, 5e-4)]
+    states = [system.state() for _ in integrators]
+    for _ in range(10):
+        integrators[0].step(states[0], 1)
+        integrators[1].step(states[1], 2)
+    np.testing.assert_allclose(states[0].q, states[1].q, atol=1e-4)
+    assert not np.array_equal(states[0].q, states[1].q)
+
+
+# first-order problems
+
+
+@pytest.mark.parametrize("a", [-2.0, 0.5, 1j, -0.3 + 4j])
+def test_the_factor_of_forward_euler(a):
+    def rate(t, x, out):
+        out[:] = a * x
+
+    h, n = 0.01, 200
+    result = hooke.FirstOrder(rate, [1.0 if isinstance(a, float) else 1.0 + 0j]).run(
+        method="forward-euler", step=h, duration=n * h
+    )
+    assert result.status == "finished"
+    np.testing.assert_allclose(result.state.x[0], (1 + a * h) ** n, rtol=1e-12)
+
+
+def test_a_first_order_problem_by_cvode_sees_time():
+    def rate(t, x, out):
+        out[0], out[1] = np.cos(t), -x[1]
+
+    result = hooke.FirstOrder(rate, [0.0, 1.0]).run(
+        method="cvode-adams", duration=2, rtol=1e-10, atol=1e-12, frames=True
+    )
+    np.testing.assert_allclose(result.state.x, [np.sin(2), np.exp(-2)], atol=1e-8)
+    assert result.frames.q.shape == (101, 2) and result.frames.v is None
+    np.testing.assert_allclose(result.frames.q[:, 0], np.sin(result.frames.t), atol=1e-8)
+
+
+def test_what_a_first_order_problem_cannot_do(tmp_path):
+    problem = hooke.FirstOrder(lambda t, x, rate: None, [1.0])
+    run = {"method": "forward-euler", "step": 0.1, "duration": 1}
+    with pytest.raises(hooke.BadValue):
+        problem.run(output=tmp_path / "out.h5", **run)
+    with pytest.raises(hooke.BadValue):
+        problem.run(force=lambda t, q, v, force: None, **run)
+    with pytest.raises(AttributeError):
+        print(problem.run(**run).system)
+    for bad in ([], [[1.0]], ["a"]):
+        with pytest.raises(hooke.BadValue):
+            hooke.FirstOrder(lambda t, x, rate: None, bad)

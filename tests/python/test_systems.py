@@ -1,0 +1,207 @@
+"""Building systems, and asking them."""
+
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+
+@pytest.fixture
+def moved():
+    rng = np.random.default_rng(7)
+    return rng.normal(size=(6, 3)) * 2, rng.normal(size=(6, 3))
+
+
+def test_calls_and_scene_make_the_same_system(scene, system, moved):
+    a, b = scene.system, system
+    assert a.groups == b.groups == [("edges", 7)]
+    np.testing.assert_array_equal(a.masses, b.masses)
+    np.testing.assert_array_equal(a.inverse_masses, b.inverse_masses)
+    np.testing.assert_array_equal(a.spring_ends, b.spring_ends)
+    for left, right in zip(a.spring_material, b.spring_material):
+        np.testing.assert_array_equal(left, right)
+    np.testing.assert_array_equal(a.force(*moved), b.force(*moved))
+    assert a.forces == b.forces == ["springs", "gravity"]
+
+
+def test_what_a_system_tells(system):
+    assert not system.is_committed
+    assert (system.particle_count, system.spring_count) == (6, 7)
+    assert system.spring_ends.tolist() == SIX_PARTICLES["springs"][0]["between"]
+    assert system.is_committed and system.free_count == 5 and system.memory > 0
+    kappa, gamma, rest = system.spring_material
+    q = system.state().q
+    length = np.linalg.norm(np.diff(q[system.spring_ends], axis=1)[:, 0], axis=1)
+    np.testing.assert_allclose(rest, 0.9 * length, rtol=1e-15)
+    np.testing.assert_allclose(kappa, 100 / rest, rtol=1e-15)
+    np.testing.assert_allclose(gamma, 0.5 / rest, rtol=1e-15)
+    assert "6 particles, 7 springs" in repr(system)
+
+
+def test_the_force_is_that_of_the_formula(system, moved):
+    q, v = moved
+    kappa, gamma, rest = system.spring_material
+    expected = np.zeros((6, 3))
+    for (i, j), k, c, l0 in zip(system.spring_ends, kappa, gamma, rest):
+        d = q[i] - q[j]
+        r = np.linalg.norm(d)
+        f = -(k * (r - l0) + c * np.dot(v[i] - v[j], d / r)) * d / r
+        expected[i] += f
+        expected[j] -= f
+    gravity = system.masses[:, None] * np.array([0, -9.81, 0])
+    gravity[5] = 0
+    np.testing.assert_allclose(system.force(q, v), expected + gravity, rtol=1e-12, atol=1e-12)
+    acceleration = (expected + gravity) * system.inverse_masses[:, None]
+    np.testing.assert_allclose(system.acceleration(q, v), acceleration, rtol=1e-12, atol=1e-12)
+
+
+def test_the_energies_are_those_of_the_formula(system, moved):
+    q, v = moved
+    kappa, _, rest = system.spring_material
+    r = np.linalg.norm(np.diff(q[system.spring_ends], axis=1)[:, 0], axis=1)
+    m = system.masses.copy()
+    m[5] = 0
+    kinetic, spring, gravity = 0.5 * m @ (v**2).sum(axis=1), 0.5 * kappa @ (r - rest) ** 2, 9.81 * m @ q[:, 1]
+    assert system.kinetic_energy(v) == pytest.approx(kinetic, rel=1e-13)
+    assert system.spring_energy(q) == pytest.approx(spring, rel=1e-13)
+    assert system.gravity_energy(q) == pytest.approx(gravity, rel=1e-13)
+    assert system.potential_energy(q) == pytest.approx(spring + gravity, rel=1e-13)
+    assert system.energy(q, v) == pytest.approx(kinetic + spring + gravity, rel=1e-13)
+    np.testing.assert_allclose(system.momentum(v), m @ v, rtol=1e-13)
+    np.testing.assert_allclose(system.angular_momentum(q, v), m @ np.cross(q, v), rtol=1e-12)
+
+
+def test_dissipated_power_is_what_the_energy_loses(system, moved):
+    q, v = moved
+    v[5] = 0  # pinned
+    h, a = 1e-6, system.acceleration(q, v)
+    rate = (system.energy(q + h * v, v + h * a) - system.energy(q - h * v, v - h * a)) / (2 * h)
+    assert system.dissipated_power(q, v) == pytest.approx(-rate, rel=1e-6)
+    assert system.dissipated_power(q, v) > 0
+
+
+def test_the_derivative_is_that_of_the_force(system, moved):
+    q, v = moved
+    dq, dv = np.random.default_rng(8).normal(size=(2, 6, 3))
+    h = 1e-6
+    quotient = (system.force(q + h * dq, v + h * dv) - system.force(q - h * dq, v - h * dv)) / (2 * h)
+    product = system.derivative_product(q, v, dq, dv)
+    np.testing.assert_allclose(product, quotient, rtol=1e-6, atol=1e-6)
+    blocks = system.derivative_blocks(q, v)
+    total = np.zeros((6, 3))
+    for row in range(6):
+        for k in range(blocks.row_start[row], blocks.row_start[row + 1]):
+            column = blocks.column[k]
+            total[row] += blocks.dfdq[k] @ dq[column] + blocks.dfdv[k] @ dv[column]
+    np.testing.assert_allclose(total, product, rtol=1e-12, atol=1e-12)
+
+
+def test_inputs_may_be_lists_flat_or_strided(system, moved):
+    q, v = moved
+    expected = system.force(q, v)
+    np.testing.assert_array_equal(system.force(q.tolist(), v.ravel()), expected)
+    np.testing.assert_array_equal(system.force(np.asfortranarray(q), np.repeat(v, 2, axis=0)[::2]), expected)
+
+
+def test_springs_without_direction_are_counted():
+    system = hooke.System()
+    system.add_particles(np.zeros((2, 3)), mass=1)
+    system.add_springs(None, [[0, 1]], stiffness=1, rest_length=1)
+    assert system.coincident_springs(np.zeros((2, 3))) == 1
+    assert system.coincident_springs([[0, 0, 0], [1, 0, 0]]) == 0
+    assert not system.force(np.zeros((2, 3)), np.zeros((2, 3))).any()
+    assert system.groups == [("", 1)]
+
+
+def test_the_laws():
+    q, v = [[0, 0, 0], [3, 0, 0]], np.zeros((2, 3))
+    for law, expected in (("strain", 10 * (3 / 2 - 1)), ("length", 10 * (3 - 2))):
+        system = hooke.System()
+        system.add_particles([[0, 0, 0], [2, 0, 0]], mass=1)
+        system.add_springs("s", [[0, 1]], law=law, stiffness=10)
+        assert system.force(q, v)[0, 0] == pytest.approx(expected)
+    cable = hooke.System()
+    cable.add_particles([[0, 0, 0], [2, 0, 0]], mass=1)
+    cable.add_springs("s", [[0, 1]], stiffness=10, compression=False)
+    assert not cable.force([[0, 0, 0], [1, 0, 0]], v).any() and cable.force(q, v).any()
+
+
+def test_parts():
+    system = hooke.System()
+    anchor = system.add_particles([0, 5, 0], mass=1)
+    sheet = system.add_part(
+        "cloth",
+        "sail",
+        origin=[0, 0, 0],
+        edges=[[1, 0, 0], [0, 0, 2]],
+        size=[3, 4],
+        mass=1.2,
+        pinned="top-corners",
+        structural={"stiffness": 50, "damping": 0.02},
+        shear={"stiffness": 5},
+    )
+    line = system.add_part(
+        "rope", from_=[0, 0, 0], to=[0, 1, 0], segments=4, mass=1, stretch={"stiffness": 10}
+    )
+    assert (anchor, sheet, line) == (range(0, 1), range(1, 13), range(13, 18))
+    assert system.groups == [("sail.structural", 17), ("sail.shear", 12), ("rope1.stretch", 4)]
+    np.testing.assert_allclose(system.masses[1:13], 0.1, rtol=1e-15)
+    assert np.flatnonzero(system.inverse_masses == 0).tolist() == [1, 3]
+
+
+def test_drives():
+    system = hooke.System()
+    system.add_particles(np.zeros((3, 3)), mass=1)
+    system.drive_harmonic(0, [0, 0.5, 0], frequency=2, phase=0.3)
+    system.drive_table([1], [0, 1, 2], [[0, 0, 0], [1, 0, 0], [2, 0, 0]])
+    state = system.state()
+    assert state.q[0, 1] == pytest.approx(0.5 * np.sin(0.3), rel=1e-14)
+    assert state.v[0, 1] == pytest.approx(0.5 * 4 * np.pi * np.cos(0.3), rel=1e-14)
+    state = hooke.run(system, method="symplectic-euler", step=1 / 64, duration=1.5).state
+    assert state.q[0, 1] == pytest.approx(0.5 * np.sin(2 * np.pi * 2 * 1.5 + 0.3), rel=1e-12)
+    np.testing.assert_allclose(state.q[1], [1.5, 0, 0], atol=1e-14)
+    np.testing.assert_allclose(state.v[1], [1, 0, 0], atol=1e-13)
+    assert system.free_count == 1 and not state.q[2].any()
+
+
+def test_step_bound_of_an_oscillator():
+    system = build_oscillator(k=20.0, m=0.5)
+    bound = system.step_bound("symplectic-euler", system.state().q)
+    exact = 2 / np.sqrt(20 / 0.5)
+    assert 0.5 * exact < bound <= exact * (1 + 1e-12)
+    assert system.step_bound("forward-euler", system.state().q) == 0
+    with pytest.raises(hooke.BadValue):
+        system.step_bound("magic", system.state().q)
+
+
+def test_a_scene_gives_its_title_text_and_options(scene):
+    assert scene.title == "six particles" and '"gravity"' in scene.text
+    assert scene.run_options["step"] == 1e-3 and scene.run_options["method"] == "symplectic-euler"
+    scene.run_options["step"] = 1e-2
+    assert scene.run().options["step"] == 1e-2
+    assert scene.system is scene.system
+
+
+def test_facts():
+    facts = hooke.build_facts()
+    assert facts["version"] and facts["licence"] and facts["instructions"]
+    names = [method.name for method in hooke.methods()]
+    assert names[:2] == ["forward-euler", "symplectic-euler"]
+    for method in hooke.methods():
+        assert method.summary and method.adaptive == method.name.startswith("cvode")
+        assert method.built or not facts["sundials"]
+
+
+def test_an_empty_system_runs():
+    result = build_empty().run(method="symplectic-euler", step=0.1, duration=1)
+    assert result.status == "finished" and result.state.q.shape == (0, 3) and result.counts["steps"] == 10
+
+
+def build_empty():
+    return hooke.System()
+
+
+def test_build_six_particles_is_what_the_scene_says():
+    state = build_six_particles().state()
+    np.testing.assert_array_equal(state.q, SIX_PARTICLES["particles"]["position"])
