@@ -1,0 +1,124 @@
+/* Cloth: nu x nv particles over two edges. Particle (r, c) is r*nu + c, at origin + c/(nu-1) u + r/(nv-1) v.
+ */
+#include "build/part.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <string.h>
+
+static const struct hooke_option_row rows[] = {
+    {.name = "origin",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .required = 1,
+     .doc = "corner where it begins"},
+    {.name = "edges",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 6,
+     .max_count = 6,
+     .columns = 3,
+     .required = 1,
+     .doc = "the two edges from the origin, u and v, as vectors"},
+    {.name = "size",
+     .type = HOOKE_OPTION_NUMBERS,
+     .low = 2,
+     .high = INT32_MAX,
+     .whole = 1,
+     .min_count = 2,
+     .max_count = 2,
+     .required = 1,
+     .doc = "particles along u and along v"},
+    {.name = "mass",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "kg",
+     .low = 0,
+     .above_low = 1,
+     .high = 1e300,
+     .required = 1,
+     .doc = "total mass, shared equally"},
+    {.name = "pinned",
+     .type = HOOKE_OPTION_NUMBERS,
+     .low = 0,
+     .high = INT32_MAX,
+     .whole = 1,
+     .words = "corners top top-corners",
+     .word_lists = 1,
+     .doc = "particles held still: numbers within the cloth, or words; top is the row at the origin"},
+    {.name = "structural",
+     .type = HOOKE_OPTION_FAMILY,
+     .family = &hooke_part_family,
+     .doc = "springs between neighbours along u and v"},
+    {.name = "shear",
+     .type = HOOKE_OPTION_FAMILY,
+     .family = &hooke_part_family,
+     .doc = "springs along both diagonals of every cell"},
+    {.name = "bend",
+     .type = HOOKE_OPTION_FAMILY,
+     .family = &hooke_part_family,
+     .doc = "springs two apart along u and v"},
+};
+
+static const struct hooke_option_table table = {"cloth", HOOKE_OPTION_ROWS(rows)};
+
+static void place_particles(const double *origin, const double *edges, int64_t nu, int64_t nv,
+                            double *position) {
+  for (int64_t r = 0; r < nv; r++) {
+    const double along_v = (double)r / (double)(nv - 1);
+    for (int64_t c = 0; c < nu; c++) {
+      const double along_u = (double)c / (double)(nu - 1);
+      double *p = position + 3 * (r * nu + c);
+      for (int i = 0; i < 3; i++)
+        p[i] = origin[i] + along_u * edges[i] + along_v * edges[3 + i];
+    }
+  }
+}
+
+static int32_t add_springs(struct hooke_part *part, const double *edges, int64_t nu, int64_t nv) {
+  double u[3], v[3], along[3], across[3]; /* sides and diagonals of a cell */
+  for (int i = 0; i < 3; i++) {
+    u[i] = edges[i] / (double)(nu - 1);
+    v[i] = edges[3 + i] / (double)(nv - 1);
+    along[i] = u[i] + v[i];
+    across[i] = u[i] - v[i];
+  }
+  const double side_u = hooke_part_length(edges) / (double)(nu - 1);
+  const double side_v = hooke_part_length(edges + 3) / (double)(nv - 1);
+
+  const struct hooke_part_strip structural[] = {{nv, nu - 1, 0, 1, side_u}, {nv - 1, nu, 0, nu, side_v}};
+  const struct hooke_part_strip shear[] = {{nv - 1, nu - 1, 0, nu + 1, hooke_part_length(along)},
+                                           {nv - 1, nu - 1, 1, nu, hooke_part_length(across)}};
+  const struct hooke_part_strip bend[] = {{nv, nu - 2, 0, 2, 2.0 * side_u},
+                                          {nv - 2, nu, 0, 2 * nu, 2.0 * side_v}};
+  int32_t status = hooke_part_add_family(part, "structural", nu, 2, structural);
+  if (status == HOOKE_OK) status = hooke_part_add_family(part, "shear", nu, 2, shear);
+  if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", nu, 2, bend);
+  return status;
+}
+
+static int32_t build(struct hooke_part *part) {
+  const double *size = hooke_options_numbers(part->options, "size");
+  const double *edges = hooke_options_numbers(part->options, "edges");
+  const int64_t nu = (int64_t)size[0], nv = (int64_t)size[1];
+
+  double *position;
+  int32_t status = hooke_part_new_positions(part, nu * nv, &position, "a cloth of %lld x %lld particles",
+                                            (long long)nu, (long long)nv);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "size");
+  place_particles(hooke_options_numbers(part->options, "origin"), edges, nu, nv, position);
+  status = hooke_part_add_particles(part, position);
+  hooke_free(position);
+  return status == HOOKE_OK ? add_springs(part, edges, nu, nv) : status;
+}
+
+static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+  const int64_t nu = (int64_t)hooke_options_numbers(part->options, "size")[0];
+  if (strcmp(word, "top") == 0) return k < nu ? k : -1;
+  const int64_t corner[] = {0, nu - 1, part->count - nu, part->count - 1};
+  return k < (strcmp(word, "top-corners") == 0 ? 2 : 4) ? corner[k] : -1;
+}
+
+const struct hooke_part_kind hooke_part_cloth = {&table, build, named};

@@ -1,0 +1,249 @@
+/* The table of kinds, and the steps that all builders share: size, mass, springs of a family, pins. */
+#include "build/part.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const struct hooke_part_kind *const kinds[] = {&hooke_part_rope, &hooke_part_cloth};
+enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
+
+static const struct hooke_option_row family_rows[] = {
+    {.name = "stiffness",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "N",
+     .low = 0,
+     .high = 1e300,
+     .required = 1,
+     .doc = "force at double length, of the strain law"},
+    {.name = "damping",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "N s",
+     .fallback = "0",
+     .low = 0,
+     .high = 1e300,
+     .doc = "damping along the spring"},
+    {.name = "rest_scale",
+     .type = HOOKE_OPTION_NUMBER,
+     .fallback = "1",
+     .low = 0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "factor on the rest length"},
+    {.name = "compression",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "true",
+     .doc = "false: the springs only pull"},
+};
+
+const struct hooke_option_table hooke_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};
+
+int64_t hooke_part_kind_count(void) {
+  return KIND_COUNT;
+}
+
+const char *hooke_part_kind(int64_t kind) {
+  return kind >= 0 && kind < KIND_COUNT ? kinds[kind]->table->name : NULL;
+}
+
+static const struct hooke_part_kind *find_kind(const char *name) {
+  for (int k = 0; k < KIND_COUNT; k++) {
+    if (name && strcmp(kinds[k]->table->name, name) == 0) return kinds[k];
+  }
+  char known[128] = "";
+  for (int k = 0; k < KIND_COUNT; k++) {
+    const size_t used = strlen(known);
+    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kinds[k]->table->name);
+  }
+  hooke_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
+             known);
+  return NULL;
+}
+
+int32_t hooke_part_options_create(const char *kind, hooke_options **options) {
+  *options = NULL;
+  const struct hooke_part_kind *found = find_kind(kind);
+  return found ? hooke_options_create(found->table, options) : HOOKE_BAD_VALUE;
+}
+
+double hooke_part_length(const double *vector) {
+  return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
+}
+
+int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
+                                 const char *format, ...) {
+  /* system, springs of every family, a state and an integrator's scratch, roughly */
+  const double gigabytes = 400.0 * (double)count / 1e9;
+  const double machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
+  char what[128];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(what, sizeof what, format, args);
+  va_end(args);
+
+  *position = NULL;
+  if (count > INT32_MAX - hooke_system_particle_count(part->system)) {
+    return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                      "%s needs about %.3g GB; a system holds up to 2147483647 particles", what, gigabytes);
+  }
+  if (machine > 0.0 && gigabytes > machine) {
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s needs about %.3g GB; this machine has %.3g GB", what,
+                      gigabytes, machine);
+  }
+  part->count = count;
+  *position = hooke_new(3 * count, sizeof(double));
+  return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+int32_t hooke_part_add_particles(struct hooke_part *part, const double *position) {
+  const double share = hooke_options_number(part->options, "mass") / (double)part->count;
+  return hooke_system_add_particles(part->system, part->count, position, NULL, 1, &share, &part->first);
+}
+
+static void join(const struct hooke_part *part, int64_t stride, int32_t strip_count,
+                 const struct hooke_part_strip *strip, int64_t *ends, double *rest_length) {
+  for (int32_t s = 0; s < strip_count; s++) {
+    for (int64_t r = 0; r < strip[s].rows; r++) {
+      for (int64_t c = 0; c < strip[s].columns; c++) {
+        const int64_t at = part->first + r * stride + c;
+        *ends++ = at + strip[s].low;
+        *ends++ = at + strip[s].high;
+        *rest_length++ = strip[s].rest_length;
+      }
+    }
+  }
+}
+
+/* Options of a spring group with the values of a family. */
+static int32_t material(const struct hooke_part *part, const char *family, int64_t count,
+                        const double *rest_length, hooke_options **options) {
+  static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
+  int32_t status = hooke_spring_options_create(options);
+  for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
+    char dotted[64];
+    snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
+    status = hooke_options_set_number(*options, keys[k], hooke_options_number(part->options, dotted));
+  }
+  if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
+  return status;
+}
+
+static int32_t add_group(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
+                         const double *rest_length) {
+  int64_t different = 1;
+  while (different < count && rest_length[different] == rest_length[0])
+    different++;
+
+  char *name = hooke_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
+  if (name == NULL) return HOOKE_NO_MEMORY;
+  sprintf(name, "%s.%s", part->name, family);
+  hooke_options *options = NULL;
+  int32_t status = material(part, family, different == count ? 1 : count, rest_length, &options);
+  if (status == HOOKE_OK) status = hooke_system_add_part_springs(part->system, name, count, ends, options);
+  hooke_options_destroy(options);
+  hooke_free(name);
+  return status;
+}
+
+int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
+                              int32_t strip_count, const struct hooke_part_strip *strip) {
+  if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
+  int64_t count = 0;
+  for (int32_t s = 0; s < strip_count; s++) {
+    const int64_t springs = strip[s].rows * strip[s].columns;
+    count += springs;
+    if (springs > 0 && (!(strip[s].rest_length > 0.0) || !isfinite(strip[s].rest_length))) {
+      return hooke_fail(HOOKE_BAD_VALUE, family,
+                        "its springs would have a rest length of %g m; allowed: finite "
+                        "and > 0, so let the ends and edges of the part lie apart",
+                        strip[s].rest_length);
+    }
+  }
+  if (count == 0) return HOOKE_OK; /* too short for springs two apart */
+
+  int64_t *ends = hooke_new(2 * count, sizeof(int64_t));
+  double *rest_length = hooke_new(count, sizeof(double));
+  int32_t status = HOOKE_NO_MEMORY;
+  if (ends && rest_length) {
+    join(part, stride, strip_count, strip, ends, rest_length);
+    status = add_group(part, family, count, ends, rest_length);
+  }
+  hooke_free(ends);
+  hooke_free(rest_length);
+  return status == HOOKE_OK ? status : hooke_fail_within(status, "%s", family);
+}
+
+static int32_t pin_numbers(const struct hooke_part *part) {
+  const int64_t count = hooke_options_number_count(part->options, "pinned");
+  const double *number = hooke_options_numbers(part->options, "pinned");
+  for (int64_t k = 0; k < count; k++) {
+    if (number[k] >= (double)part->count) {
+      hooke_fail(HOOKE_BAD_VALUE, NULL, "the part has no particle %.0f; allowed: 0 to %lld", number[k],
+                 (long long)(part->count - 1));
+      return hooke_fail_within(HOOKE_BAD_VALUE, "pinned[%lld]", (long long)k);
+    }
+    const int64_t particle = part->first + (int64_t)number[k];
+    int32_t status = hooke_system_pin(part->system, 1, &particle);
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t pin_words(const struct hooke_part_kind *kind, const struct hooke_part *part) {
+  const char *text = hooke_options_text(part->options, "pinned");
+  while (*(text += strspn(text, " "))) {
+    const size_t length = strcspn(text, " ");
+    char word[32];
+    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), text);
+    text += length;
+    int64_t offset;
+    for (int64_t k = 0; (offset = kind->named(part, word, k)) >= 0; k++) {
+      const int64_t particle = part->first + offset;
+      int32_t status = hooke_system_pin(part->system, 1, &particle);
+      if (status != HOOKE_OK) return status;
+    }
+  }
+  return HOOKE_OK;
+}
+
+static int32_t build(const struct hooke_part_kind *kind, struct hooke_part *part) {
+  int32_t status = hooke_options_check_required(part->options);
+  if (status == HOOKE_OK) status = kind->build(part);
+  if (status == HOOKE_OK) status = pin_numbers(part);
+  if (status == HOOKE_OK) status = pin_words(kind, part);
+  return status;
+}
+
+int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
+                              const hooke_options *options, int64_t *first, int64_t *count) {
+  const struct hooke_part_kind *found = find_kind(kind);
+  if (found == NULL) return HOOKE_BAD_VALUE;
+  if (options == NULL || hooke_options_table(options) != found->table) {
+    return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                      "the options are not those of a %s; make them with "
+                      "hooke_part_options_create(\"%s\", ...)",
+                      kind, kind);
+  }
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+
+  const struct hooke_system_mark mark = hooke_system_mark(system);
+  const int64_t number = hooke_system_next_part(system);
+  char unnamed[64];
+  snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
+  struct hooke_part part = {system, name && name[0] ? name : unnamed, options, 0, 0};
+  status = build(found, &part);
+  if (status != HOOKE_OK) {
+    hooke_system_roll_back(system, mark);
+    return status;
+  }
+  if (first) *first = part.first;
+  if (count) *count = part.count;
+  return HOOKE_OK;
+}

@@ -1,0 +1,88 @@
+/* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend). */
+#include "build/part.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <string.h>
+
+static const struct hooke_option_row rows[] = {
+    {.name = "from",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .required = 1,
+     .doc = "where it begins"},
+    {.name = "to",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .required = 1,
+     .doc = "where it ends"},
+    {.name = "segments",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1,
+     .high = INT32_MAX,
+     .whole = 1,
+     .required = 1,
+     .doc = "pieces it is cut into; it has one particle more"},
+    {.name = "mass",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "kg",
+     .low = 0,
+     .above_low = 1,
+     .high = 1e300,
+     .required = 1,
+     .doc = "total mass, shared equally"},
+    {.name = "pinned",
+     .type = HOOKE_OPTION_NUMBERS,
+     .low = 0,
+     .high = INT32_MAX,
+     .whole = 1,
+     .words = "start end",
+     .word_lists = 1,
+     .doc = "particles held still: numbers within the rope, or words"},
+    {.name = "stretch",
+     .type = HOOKE_OPTION_FAMILY,
+     .family = &hooke_part_family,
+     .doc = "springs between neighbours"},
+    {.name = "bend", .type = HOOKE_OPTION_FAMILY, .family = &hooke_part_family, .doc = "springs two apart"},
+};
+
+static const struct hooke_option_table table = {"rope", HOOKE_OPTION_ROWS(rows)};
+
+static int32_t build(struct hooke_part *part) {
+  const double *from = hooke_options_numbers(part->options, "from");
+  const double *to = hooke_options_numbers(part->options, "to");
+  const int64_t segments = (int64_t)hooke_options_number(part->options, "segments");
+  const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+
+  double *position;
+  int32_t status =
+      hooke_part_new_positions(part, segments + 1, &position, "a rope of %lld segments", (long long)segments);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "segments");
+  for (int64_t k = 0; k < segments; k++) {
+    const double share = (double)k / (double)segments;
+    for (int i = 0; i < 3; i++)
+      position[3 * k + i] = from[i] + share * span[i];
+  }
+  memcpy(position + 3 * segments, to, 3 * sizeof(double));
+  status = hooke_part_add_particles(part, position);
+  hooke_free(position);
+
+  const double piece = hooke_part_length(span) / (double)segments;
+  const struct hooke_part_strip stretch = {1, segments, 0, 1, piece};
+  const struct hooke_part_strip bend = {1, segments - 1, 0, 2, 2.0 * piece};
+  if (status == HOOKE_OK) status = hooke_part_add_family(part, "stretch", segments + 1, 1, &stretch);
+  if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", segments + 1, 1, &bend);
+  return status;
+}
+
+static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+  if (k > 0) return -1;
+  return strcmp(word, "start") == 0 ? 0 : part->count - 1;
+}
+
+const struct hooke_part_kind hooke_part_rope = {&table, build, named};
