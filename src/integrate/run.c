@@ -166,7 +166,7 @@ int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
 static int goes_on(const hooke_integrator *it, const hooke_state *state) {
   const size_t bytes = (size_t)(1 + (state->has_v ? 2 : 1) * state->size) * sizeof(double);
-  return it->k > 0 && memcmp(it->good->t, state->t, bytes) == 0;
+  return it->k > 0 && isnan(it->diverged_at) && memcmp(it->good->t, state->t, bytes) == 0;
 }
 
 int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {

@@ -1,0 +1,168 @@
+/* The top level of a scene. */
+#include "io/scene_json.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_JANSSON
+
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { METHODS_SIZE = 512 };
+
+static const char other_keys[] = "hooke particles springs parts driven run";
+
+static const struct hooke_option_row scene_rows[] = {
+    {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
+    {.name = "gravity",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m/s^2",
+     .min_count = 3,
+     .max_count = 3,
+     .doc = "acceleration of every free particle"},
+    {.name = "drag",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "N s/m",
+     .high = 1e300,
+     .doc = "ether drag f = -c v on every free particle"},
+};
+
+static const struct hooke_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
+
+/* ---- syntax ---- */
+
+static const char *advice(enum json_error_code code) {
+  switch (code) {
+  case json_error_duplicate_key:
+    return "allowed: each key once";
+  case json_error_premature_end_of_input:
+    return "the text ends too early; allowed: one whole JSON object";
+  case json_error_end_of_input_expected:
+    return "allowed: one JSON object and nothing after it";
+  case json_error_null_character:
+  case json_error_null_byte_in_key:
+    return "allowed: texts without the character \\u0000";
+  default:
+    return "allowed: JSON (RFC 8259), without comments and trailing commas";
+  }
+}
+
+/* jansson tells of missing memory in three ways: a code, no text, or a refusal of a token that is
+ * fine, as all are once their check has passed. */
+static int ran_out_of_memory(const json_error_t *error) {
+  return json_error_code(error) == json_error_out_of_memory || error->text[0] == '\0' ||
+         strstr(error->text, "string or '}' expected near '\"") || strstr(error->text, "invalid token");
+}
+
+static int32_t syntax_error(const json_error_t *error, struct hooke_scene_trouble *trouble) {
+  enum json_error_code code = json_error_code(error);
+  if (ran_out_of_memory(error)) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
+  char text[JSON_ERROR_TEXT_LENGTH];
+  int null_character = code == json_error_null_character || code == json_error_null_byte_in_key;
+  snprintf(text, sizeof text, "%s", null_character ? "the character \\u0000 in a text" : error->text);
+  for (char *c = text; *c; c++)
+    if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+  trouble->line = error->line > 0 ? error->line : 1;
+  trouble->column = error->column;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+}
+
+/* ---- the parts of a scene ---- */
+
+static int32_t check_version(const json_t *root) {
+  const json_t *version = json_object_get(root, "hooke");
+  if (version == NULL)
+    return hooke_fail(HOOKE_BAD_VALUE, "hooke",
+                      "is required but missing; allowed: 1, the version of the format");
+  if (!json_is_integer(version)) return hooke_scene_refuse(version, "hooke", "1, the version of the format");
+  if (json_integer_value(version) == 1) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "hooke", "%lld is not a known version of the format; allowed: 1",
+                    (long long)json_integer_value(version));
+}
+
+static int32_t apply(hooke_scene *scene, const hooke_options *options) {
+  int32_t status = HOOKE_OK;
+  if (hooke_options_is_set(options, "gravity"))
+    status = hooke_system_set_gravity(scene->system, hooke_options_numbers(options, "gravity"));
+  if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
+    status = hooke_system_set_drag(scene->system, hooke_options_number(options, "drag"));
+  if (status == HOOKE_OK && (scene->title = hooke_copy_text(hooke_options_text(options, "title"))) == NULL)
+    status = HOOKE_NO_MEMORY;
+  return status;
+}
+
+static int32_t read_top(struct hooke_scene_reader *reader, const json_t *root) {
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create(&scene_table, &options);
+  if (status == HOOKE_OK) status = hooke_scene_read_options(reader, root, other_keys, options);
+  if (status == HOOKE_OK) status = apply(reader->scene, options);
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* The table of a run takes any text as method; a scene that names none that exists is wrong at once. */
+static int32_t check_method(const hooke_options *run) {
+  const char *method = hooke_options_text(run, "method");
+  if (!hooke_options_is_set(run, "method") || hooke_method_is_adaptive(method) >= 0) return HOOKE_OK;
+  char methods[METHODS_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    size_t used = strlen(methods);
+    snprintf(methods + used, sizeof methods - used, "%s%s", k ? ", " : "", hooke_method_name(k));
+  }
+  hooke_option_show(method, (int64_t)strlen(method), shown);
+  return hooke_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method; allowed: %s", shown, methods);
+}
+
+static int32_t read_run(struct hooke_scene_reader *reader, const json_t *run) {
+  int32_t status = hooke_run_options_create(&reader->scene->run);
+  if (status || run == NULL) return status;
+  status = hooke_scene_require_object(run, NULL);
+  if (status == HOOKE_OK) status = hooke_scene_read_some_options(reader, run, NULL, reader->scene->run);
+  if (status == HOOKE_OK) status = check_method(reader->scene->run);
+  return status ? hooke_fail_within(status, "run") : HOOKE_OK;
+}
+
+/* Particles first, then parts, so that springs can name them all. */
+static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root) {
+  const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
+  const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
+  int32_t status = check_version(root);
+  if (status == HOOKE_OK) status = read_top(reader, root);
+  if (status == HOOKE_OK && particles) status = hooke_scene_add_particles(reader, particles);
+  if (status == HOOKE_OK && parts) status = hooke_scene_add_parts(reader, parts);
+  if (status == HOOKE_OK && hooke_system_particle_count(reader->scene->system) == 0)
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
+  if (status == HOOKE_OK && springs) status = hooke_scene_add_springs(reader, springs);
+  if (status == HOOKE_OK && driven) status = hooke_scene_add_driven(reader, driven);
+  if (status == HOOKE_OK) status = read_run(reader, json_object_get(root, "run"));
+  return status;
+}
+
+int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+  json_error_t error;
+  json_t *root = json_loadb(scene->text, (size_t)scene->length, JSON_REJECT_DUPLICATES, &error);
+  if (root == NULL) return syntax_error(&error, trouble);
+  struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
+  int32_t status = hooke_system_create(&scene->system);
+  if (status == HOOKE_OK) status = read_scene(&reader, root);
+  for (int64_t k = 0; k < reader.part_count; k++)
+    hooke_free(reader.part[k].name);
+  hooke_free(reader.part);
+  json_decref(root);
+  trouble->at_key = reader.at_key;
+  return status;
+}
+
+#else
+
+int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+  (void)scene;
+  (void)folder;
+  (void)trouble;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
+}
+
+#endif

@@ -1,0 +1,196 @@
+"""The schema of scenes, held against the examples, the bad scenes, and the library's own option tables."""
+
+import ctypes
+import json
+import os
+import pathlib
+
+import jsonschema
+import pytest
+
+from conftest import CLI  # noqa: F401  (fails early without the program)
+
+pytestmark = pytest.mark.everything
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SCHEMA = json.loads((SOURCE / "examples" / "scene.schema.json").read_text())
+EXAMPLES = sorted((SOURCE / "examples" / "scenes").glob("*.json"))
+BAD = sorted((SOURCE / "tests" / "cli" / "scenes" / "bad").glob("*.json"))
+VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+
+LIBRARY = os.environ.get("HOOKE_LIBRARY", "")
+LOADABLE = LIBRARY and b"__asan_init" not in pathlib.Path(LIBRARY).read_bytes()
+
+# Bad scenes whose trouble a schema cannot see: what belongs together, what exists, whole numbers written with a point.
+BEYOND_A_SCHEMA = {
+    "between-range", "between-real", "between-same", "driven-pinned", "driven-range", "driven-twice", "file-missing",
+    "file-not-hdf5", "mass-count", "part-index", "part-names", "part-pinned-range", "part-unknown", "pinned-moving",
+    "pinned-range", "pinned-real", "rest-length-coincident", "rope-of-no-length", "segments-real", "stiffness-count",
+    "table-order", "table-rows", "velocity-rows",
+}  # fmt: skip
+
+
+def strict_json(path):
+    """The value, or None for a text that is no JSON or has a key twice."""
+
+    def refuse(word):
+        raise ValueError(word)
+
+    def pairs(items):
+        if len({key for key, _ in items}) != len(items):
+            raise ValueError("a key twice")
+        return dict(items)
+
+    try:
+        return json.loads(path.read_bytes().decode("utf-8"), parse_constant=refuse, object_pairs_hook=pairs)
+    except ValueError:
+        return None
+
+
+def test_the_schema_is_one():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_the_examples_are_there():
+    names = {path.stem for path in EXAMPLES}
+    assert names >= {
+        "oscillator", "six-particles", "rope", "rope-resolution", "drag-or-damping", "cloth-16", "cloth-64", "stiff-spring"
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_example_passes_schema_and_program(hooke, path):
+    scene = strict_json(path)
+    VALIDATOR.validate(scene)
+    answer = hooke("check", path, "--json")
+    assert (answer.code, answer.json["warnings"]) == (0, []), answer.err
+    assert scene["title"] and {"step", "duration", "every"} <= set(scene["run"])
+
+
+def test_bad_scenes_fail_the_schema_or_are_beyond_it():
+    scenes = {path.stem: strict_json(path) for path in BAD}
+    checked = {name: scene for name, scene in scenes.items() if scene is not None}
+    assert len(checked) >= 70
+    # numbers that Python reads as infinity or zero never get as far as a schema
+    accepted = {name for name, scene in checked.items() if VALIDATOR.is_valid(scene)}
+    assert accepted - {"huge-exponent", "tiny-exponent", "huge-integer", "nul-in-text"} == BEYOND_A_SCHEMA
+
+
+# ---- the option tables ----
+
+
+def option_rows(create, *arguments):
+    """Names, types and defaults of a table, straight from the library."""
+    library = ctypes.CDLL(LIBRARY)
+    library.hooke_options_row.restype = ctypes.c_char_p
+    library.hooke_options_row.argtypes = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_char_p]
+    library.hooke_options_row_count.restype = ctypes.c_int64
+    library.hooke_options_row_count.argtypes = [ctypes.c_void_p]
+    library.hooke_options_destroy.argtypes = [ctypes.c_void_p]
+    options = ctypes.c_void_p()
+    assert getattr(library, create)(*arguments, ctypes.byref(options)) == 0
+    rows = {}
+    for row in range(library.hooke_options_row_count(options)):
+        name, kind, default = (
+            library.hooke_options_row(options, row, what).decode() for what in (b"name", b"type", b"default")
+        )
+        rows[name] = (kind, default)
+    library.hooke_options_destroy(options)
+    return rows
+
+
+def check_table(rows, properties, own=()):
+    top = {name for name in rows if "." not in name}
+    assert top | set(own) == set(properties)
+    for name in top:
+        kind, default = rows[name]
+        if "default" in properties[name]:
+            wanted = properties[name]["default"]
+            found = default == "true" if kind == "flag" else default if kind == "choice" else float(default)
+            assert found == wanted, name
+
+
+@pytest.mark.skipif(not LOADABLE, reason="needs a library that Python can load, without sanitizers")
+class TestTables:
+    def test_run(self):
+        rows = option_rows("hooke_run_options_create")
+        check_table(rows, SCHEMA["$defs"]["run"]["properties"])
+
+    def test_springs(self):
+        rows = option_rows("hooke_spring_options_create")
+        check_table(rows, SCHEMA["$defs"]["springs"]["properties"], own=["name", "between"])
+
+    @pytest.mark.parametrize("kind", ["rope", "cloth"])
+    def test_part(self, kind):
+        rows = option_rows("hooke_part_options_create", kind.encode())
+        properties = SCHEMA["$defs"][kind]["properties"]
+        check_table(rows, properties, own=["kind", "name"])
+        for family in (name for name, (type_, _) in rows.items() if type_ == "family"):
+            members = {name.split(".")[1]: row for name, row in rows.items() if name.startswith(family + ".")}
+            check_table(members, SCHEMA["$defs"]["family"]["properties"])
+
+    def test_kinds_and_methods(self):
+        library = ctypes.CDLL(LIBRARY)
+        library.hooke_part_kind_count.restype = library.hooke_method_count.restype = ctypes.c_int64
+        library.hooke_part_kind.restype = library.hooke_method_name.restype = ctypes.c_char_p
+        library.hooke_part_kind.argtypes = library.hooke_method_name.argtypes = [ctypes.c_int64]
+        kinds = [library.hooke_part_kind(k).decode() for k in range(library.hooke_part_kind_count())]
+        methods = [library.hooke_method_name(k).decode() for k in range(library.hooke_method_count())]
+        assert sorted(kinds) == sorted(SCHEMA["properties"]["parts"]["items"]["properties"]["kind"]["enum"])
+        assert sorted(methods) == sorted(SCHEMA["$defs"]["run"]["properties"]["method"]["enum"])
+
+
+# ---- what the examples are there to show ----
+
+
+def final(hooke, name, *options):
+    answer = hooke("run", SOURCE / "examples" / "scenes" / f"{name}.json", "--json", "--final", *options)
+    assert answer.code == 0, answer.err
+    assert answer.json["status"] == "finished"
+    return answer.json
+
+
+@pytest.mark.parametrize("name", ["oscillator", "six-particles", "rope", "stiff-spring", "cloth-16"])
+def test_example_runs(hooke, name):
+    result = final(hooke, name)
+    assert result["energy"]["final"] < result["energy"]["initial"]
+
+
+def test_cloth_64_begins_to_run(hooke):
+    assert final(hooke, "cloth-64", "--duration", "0.01")["time"] == pytest.approx(0.01, abs=1e-15)
+
+
+def test_cloth_16_is_wrong_but_finite_with_forward_euler(hooke):
+    forward = final(hooke, "cloth-16", "--method", "forward-euler")["final"]["position"]
+    symplectic = final(hooke, "cloth-16")["final"]["position"]
+    apart = max(abs(a - b) for p, q in zip(forward, symplectic) for a, b in zip(p, q))
+    assert 0.005 < apart < 0.5
+
+
+def test_rope_resolution_tells_the_laws_apart(hooke):
+    position = final(hooke, "rope-resolution")["final"]["position"]
+    assert len(position) == 2 * (2 + 3 + 9 + 65)
+    ends, at = [], 0
+    for law in ("length", "strain"):
+        for springs in (1, 2, 8, 64):
+            at += springs + 1
+            ends.append((law, springs, -position[at - 1][1] - 1))
+    stretch = 0.1 * 9.81 / (2 * 5)  # half the weight over the stiffness, for a band of 1 m
+    for law, springs, found in ends:
+        if law == "strain":
+            assert abs(found - stretch) < 1e-6 * stretch
+        else:
+            assert found == pytest.approx(springs * stretch, rel=5e-3)
+
+
+def test_drag_slows_the_fall_and_damping_does_not(hooke):
+    result = final(hooke, "drag-or-damping")["final"]
+    speed = [-velocity[1] for velocity in result["velocity"]]
+    free = 9.81 * 4
+    assert speed[0] == pytest.approx(9.81 * (1 - 2.718281828459045**-4), rel=2e-3)
+    assert speed[2] == pytest.approx(free, rel=1e-5)
+    # both oscillations have died alike
+    position = result["position"]
+    light, heavy = (position[k + 1][0] - position[k][0] for k in (0, 2))
+    assert 0.02 < light - 1 < 0.04
+    assert abs(light - heavy) < 1e-6

@@ -1,0 +1,412 @@
+/* Option tables: what is taken, what is refused and how the refusal reads, defaults, families, copies. */
+#include "check.h"
+
+#include "core/number.h"
+#include "core/option.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct hooke_option_row family_rows[] = {
+    {.name = "stiffness",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N",
+     .high = 1e300,
+     .min_count = 1,
+     .required = 1},
+    {.name = "damping",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N s",
+     .high = 1e300,
+     .min_count = 1,
+     .fallback = "0"},
+    {.name = "compression", .type = HOOKE_OPTION_FLAG, .fallback = "true"},
+};
+static const struct hooke_option_table family = {"springs", HOOKE_OPTION_ROWS(family_rows)};
+
+static const struct hooke_option_row rows[] = {
+    {.name = "step",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .high = 10,
+     .above_low = 1,
+     .doc = "length of a step"},
+    {.name = "law", .type = HOOKE_OPTION_CHOICE, .words = "strain length", .fallback = "strain"},
+    {.name = "gravity", .type = HOOKE_OPTION_NUMBERS, .unit = "m/s^2", .min_count = 3, .max_count = 3},
+    {.name = "rest_length",
+     .type = HOOKE_OPTION_NUMBERS,
+     .high = 1e300,
+     .min_count = 1,
+     .words = "initial",
+     .fallback = "initial"},
+    {.name = "edges", .type = HOOKE_OPTION_NUMBERS, .min_count = 6, .max_count = 6, .columns = 3},
+    {.name = "pinned",
+     .type = HOOKE_OPTION_NUMBERS,
+     .whole = 1,
+     .high = 2147483647,
+     .words = "start end",
+     .word_lists = 1},
+    {.name = "order", .type = HOOKE_OPTION_NUMBER, .whole = 1, .low = 1, .high = 12, .fallback = "5"},
+    {.name = "title", .type = HOOKE_OPTION_TEXT},
+    {.name = "quick", .type = HOOKE_OPTION_FLAG},
+    {.name = "structural", .type = HOOKE_OPTION_FAMILY, .family = &family},
+    {.name = "shear", .type = HOOKE_OPTION_FAMILY, .family = &family},
+};
+static const struct hooke_option_table table = {"thing", HOOKE_OPTION_ROWS(rows)};
+
+static int setup(void **state) {
+  return hooke_options_create(&table, (hooke_options **)state);
+}
+
+static int teardown(void **state) {
+  hooke_options_destroy(*state);
+  return 0;
+}
+
+/* ---- numbers as text ---- */
+
+static enum hooke_number_result parse(const char *text, double *value) {
+  return hooke_number_parse(text, (int64_t)strlen(text), value);
+}
+
+static void decimal_numbers_are_read(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double value;
+  } good[] = {
+      {"0", 0},
+      {"-0.0", -0.0},
+      {"1", 1},
+      {"+1.5", 1.5},
+      {".5", .5},
+      {"5.", 5},
+      {"1e-3", 1e-3},
+      {"-9.81E+0", -9.81},
+      {"1e308", 1e308},
+      {"4.94e-324", 5e-324},
+      {"1e-310", 1e-310},
+      {"0e-99999", 0},
+      {"0.1000000000000000055511151231257827021181583404541015625000000000000000000000000000000000000001",
+       0.1}};
+  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
+    double value = 7;
+    assert_int_equal(parse(good[k].text, &value), HOOKE_NUMBER_FINE);
+    check_same_bits(1, &value, &good[k].value);
+  }
+}
+
+static void other_texts_are_no_numbers(void **state) {
+  (void)state;
+  static const char *const junk[] = {"",    "-",   ".",    "e5",       "1e",    "1e+",   "nan",
+                                     "NaN", "inf", "-inf", "infinity", "0x10",  "1,5",   "1.2.3",
+                                     "1 ",  " 1",  "1f",   "--1",      "1e5.5", "1_000", "0x1p3"};
+  double value = 7;
+  for (size_t k = 0; k < sizeof junk / sizeof junk[0]; k++)
+    if (parse(junk[k], &value) != HOOKE_NUMBER_JUNK) check_failed("\"%s\" was read as a number", junk[k]);
+  assert_int_equal(parse("1e309", &value), HOOKE_NUMBER_TOO_LARGE);
+  assert_int_equal(parse("-1e999", &value), HOOKE_NUMBER_TOO_LARGE);
+  assert_int_equal(parse("1e-999", &value), HOOKE_NUMBER_TOO_SMALL);
+  assert_int_equal(parse("-0.01e-400", &value), HOOKE_NUMBER_TOO_SMALL);
+  assert_true(value == 7);
+}
+
+static void printed_numbers_read_back(void **state) {
+  (void)state;
+  static const double values[] = {
+      0.1, 1.0 / 3, 1e22, 123456789012345680, 5e-324, -2.5, 1.7976931348623157e308};
+  char text[HOOKE_NUMBER_SIZE];
+  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
+    double value = 0;
+    hooke_number_print(values[k], text);
+    assert_int_equal(parse(text, &value), HOOKE_NUMBER_FINE);
+    check_same_bits(1, &value, &values[k]);
+  }
+  hooke_number_print(0.1, text);
+  assert_string_equal(text, "0.1");
+}
+
+/* With a comma locale, where the machine has one, nothing changes. */
+static void locale_does_not_matter(void **state) {
+  (void)state;
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
+  const char *found = NULL;
+  for (size_t k = 0; !found && k < sizeof names / sizeof names[0]; k++)
+    found = setlocale(LC_NUMERIC, names[k]);
+  double value = 0;
+  char text[HOOKE_NUMBER_SIZE];
+  enum hooke_number_result result = parse("-2.5e-1", &value);
+  enum hooke_number_result comma = parse("2,5", &value);
+  hooke_number_print(-0.25, text);
+  setlocale(LC_NUMERIC, "C");
+  assert_int_equal(result, HOOKE_NUMBER_FINE);
+  assert_int_equal(comma, HOOKE_NUMBER_JUNK);
+  assert_true(value == -0.25);
+  assert_string_equal(text, "-0.25");
+}
+
+/* ---- values ---- */
+
+static void defaults_are_there_and_unset(void **state) {
+  hooke_options *o = *state;
+  assert_string_equal(hooke_options_text(o, "law"), "strain");
+  assert_string_equal(hooke_options_text(o, "rest_length"), "initial");
+  assert_int_equal(hooke_options_number_count(o, "rest_length"), 0);
+  assert_true(hooke_options_numbers(o, "rest_length") == NULL);
+  check_close(hooke_options_number(o, "order"), 5, 0);
+  assert_true(isnan(hooke_options_number(o, "step")));
+  assert_int_equal(hooke_options_is_set(o, "order"), 0);
+  assert_int_equal(hooke_options_is_set(o, "nothing"), 0);
+  check_ok(hooke_options_set_number(o, "order", 2));
+  check_close(hooke_options_number(o, "order"), 2, 0);
+  assert_int_equal(hooke_options_is_set(o, "order"), 1);
+  check_ok(hooke_options_unset(o, "order"));
+  check_close(hooke_options_number(o, "order"), 5, 0);
+  assert_int_equal(hooke_options_is_set(o, "order"), 0);
+  check_status(hooke_options_unset(o, "ordr"), HOOKE_BAD_VALUE);
+}
+
+static void texts_set_every_type(void **state) {
+  hooke_options *o = *state;
+  check_ok(hooke_options_set_text(o, "step", "1e-3"));
+  check_close(hooke_options_number(o, "step"), 1e-3, 0);
+  check_ok(hooke_options_set_text(o, "gravity", "0,-9.81, 0"));
+  assert_int_equal(hooke_options_number_count(o, "gravity"), 3);
+  check_close(hooke_options_numbers(o, "gravity")[1], -9.81, 0);
+  check_ok(hooke_options_set_text(o, "gravity", "1 2 3"));
+  check_close(hooke_options_numbers(o, "gravity")[2], 3, 0);
+  check_ok(hooke_options_set_text(o, "law", "length"));
+  assert_string_equal(hooke_options_text(o, "law"), "length");
+  check_ok(hooke_options_set_text(o, "title", "a, b \xc3\xa9"));
+  assert_string_equal(hooke_options_text(o, "title"), "a, b \xc3\xa9");
+  check_ok(hooke_options_set_text(o, "quick", "true"));
+  check_close(hooke_options_number(o, "quick"), 1, 0);
+  check_ok(hooke_options_set_text(o, "quick", "false"));
+  check_close(hooke_options_number(o, "quick"), 0, 0);
+}
+
+static void a_word_and_numbers_replace_each_other(void **state) {
+  hooke_options *o = *state;
+  const double lengths[] = {1, 2};
+  check_ok(hooke_options_set_numbers(o, "rest_length", 2, lengths));
+  assert_string_equal(hooke_options_text(o, "rest_length"), "");
+  check_ok(hooke_options_set_text(o, "rest_length", "initial"));
+  assert_int_equal(hooke_options_number_count(o, "rest_length"), 0);
+  assert_string_equal(hooke_options_text(o, "rest_length"), "initial");
+  check_status(hooke_options_set_text(o, "rest_length", "initial, 2"), HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_options_text(o, "rest_length"), "initial");
+}
+
+static void words_and_numbers_mix_where_allowed(void **state) {
+  hooke_options *o = *state;
+  check_ok(hooke_options_set_text(o, "pinned", "start, 3 end"));
+  assert_string_equal(hooke_options_text(o, "pinned"), "start end");
+  assert_int_equal(hooke_options_number_count(o, "pinned"), 1);
+  check_close(hooke_options_number(o, "pinned"), 3, 0);
+  check_ok(hooke_options_set_number(o, "pinned", 7));
+  assert_string_equal(hooke_options_text(o, "pinned"), "");
+  check_ok(hooke_options_add_word(o, "pinned", "end"));
+  check_ok(hooke_options_add_word(o, "pinned", "start"));
+  assert_string_equal(hooke_options_text(o, "pinned"), "end start");
+  check_close(hooke_options_number(o, "pinned"), 7, 0);
+  check_status(hooke_options_add_word(o, "pinned", "star"), HOOKE_BAD_VALUE);
+  check_status(hooke_options_add_word(o, "rest_length", "initial"), HOOKE_BAD_VALUE);
+  check_ok(hooke_options_set_numbers(o, "pinned", 0, NULL));
+  assert_int_equal(hooke_options_is_set(o, "pinned"), 1);
+  assert_int_equal(hooke_options_number_count(o, "pinned"), 0);
+  assert_string_equal(hooke_options_text(o, "pinned"), "");
+}
+
+static void large_arrays_are_copied(void **state) {
+  hooke_options *o = *state;
+  enum { COUNT = 1000000 };
+  double *values = new_doubles(COUNT);
+  for (int k = 0; k < COUNT; k++)
+    values[k] = 1 + k;
+  check_ok(hooke_options_set_numbers(o, "rest_length", COUNT, values));
+  values[COUNT - 1] = -1;
+  check_close(hooke_options_numbers(o, "rest_length")[COUNT - 1], COUNT, 0);
+  check_status(hooke_options_set_numbers(o, "rest_length", COUNT, values), HOOKE_BAD_VALUE);
+  check_message("rest_length[999999]: -1 is not allowed");
+  check_close(hooke_options_numbers(o, "rest_length")[COUNT - 1], COUNT, 0);
+  free(values);
+}
+
+/* ---- refusals ---- */
+
+static void refuse_text(hooke_options *o, const char *name, const char *text, const char *message) {
+  check_status(hooke_options_set_text(o, name, text), HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_last_error(), message);
+}
+
+static void refusals_give_value_and_allowed(void **state) {
+  hooke_options *o = *state;
+  refuse_text(o, "step", "0", "step: 0 is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "10.5", "step: 10.5 is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "fast", "step: \"fast\" is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "nan", "step: \"nan\" is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "1e-999",
+              "step: 1e-999 is so small that it would become 0; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "1e999",
+              "step: 1e999 is beyond the largest number, 1.8e308; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "law", "cubic", "law: \"cubic\" is not allowed; allowed: \"strain\" or \"length\"");
+  refuse_text(o, "order", "2.5", "order: 2.5 is not allowed; allowed: a whole number >= 1 and <= 12");
+  refuse_text(o, "quick", "yes", "quick: \"yes\" is not allowed; allowed: true or false");
+  refuse_text(o, "gravity", "1,2", "gravity: 2 numbers given; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "gravity", "1,two,3", "gravity[1]: \"two\" is not allowed; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "gravity", "1,,3", "gravity[1]: \"\" is not allowed; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "gravity", "1,2,3,", "gravity: \"1,2,3,\" is not allowed; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "rest_length", "-1",
+              "rest_length: -1 is not allowed; allowed: one or more numbers >= 0 or \"initial\"");
+  refuse_text(o, "structural", "strong",
+              "structural: \"strong\" is not allowed; allowed: an object of stiffness, damping, compression");
+  refuse_text(o, "structural.stiffness", "1 -2",
+              "structural.stiffness[1]: -2 is not allowed; allowed: one or more numbers >= 0 [N]");
+  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+}
+
+static void numbers_are_checked_like_texts(void **state) {
+  hooke_options *o = *state;
+  const double gravity[] = {0, NAN, 0};
+  check_status(hooke_options_set_numbers(o, "gravity", 3, gravity), HOOKE_BAD_VALUE);
+  check_message("gravity[1]: ");
+  const double edges[] = {1, 0, 0, 0, INFINITY, 0};
+  check_status(hooke_options_set_numbers(o, "edges", 6, edges), HOOKE_BAD_VALUE);
+  check_message("edges[1][1]: inf is not allowed; allowed: 2 rows of 3 numbers each");
+  check_status(hooke_options_set_number(o, "quick", 2), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_number(o, "law", 1), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_number(o, "title", 1), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_number(o, "structural", 1), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_number(o, "pinned", 1e300), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_numbers(o, "pinned", -1, gravity), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_text(o, "step", NULL), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_text(NULL, "step", "1"), HOOKE_BAD_VALUE);
+}
+
+static void a_refused_value_changes_nothing(void **state) {
+  hooke_options *o = *state;
+  check_ok(hooke_options_set_text(o, "step", "0.5"));
+  check_status(hooke_options_set_text(o, "step", "-1"), HOOKE_BAD_VALUE);
+  check_close(hooke_options_number(o, "step"), 0.5, 0);
+  check_status(hooke_options_set_text(o, "pinned", "start, -3"), HOOKE_BAD_VALUE);
+  assert_int_equal(hooke_options_is_set(o, "pinned"), 0);
+}
+
+static void unknown_names_are_answered_with_names(void **state) {
+  hooke_options *o = *state;
+  check_status(hooke_options_set_number(o, "setp", 1), HOOKE_BAD_VALUE);
+  assert_string_equal(
+      hooke_last_error(),
+      "thing: unknown option \"setp\"; did you mean \"step\"? allowed: step, law, gravity, rest_length, "
+      "edges, pinned, order, title, quick, structural, shear");
+  check_status(hooke_options_set_number(o, "structural.stifness", 1), HOOKE_BAD_VALUE);
+  check_message(
+      "unknown option \"stifness\"; did you mean \"stiffness\"? allowed: stiffness, damping, compression");
+  check_status(hooke_options_set_number(o, "velocity_of_light", 1), HOOKE_BAD_VALUE);
+  assert_null(strstr(hooke_last_error(), "did you mean"));
+  check_status(hooke_options_set_number(o, "step.size", 1), HOOKE_BAD_VALUE);
+  check_message("step.size: step has no members");
+  check_status(hooke_options_set_number(o, "\x1b[2J", 1), HOOKE_BAD_VALUE);
+  assert_null(strchr(hooke_last_error(), '\x1b'));
+}
+
+/* ---- families, required, copies, reference ---- */
+
+static void a_member_makes_its_family_present(void **state) {
+  hooke_options *o = *state;
+  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+  check_ok(hooke_options_set_number(o, "structural.stiffness", 50));
+  assert_int_equal(hooke_options_has_family(o, "structural"), 1);
+  assert_int_equal(hooke_options_has_family(o, "shear"), 0);
+  check_close(hooke_options_number(o, "structural.compression"), 1, 0);
+  check_ok(hooke_options_set_text(o, "shear", ""));
+  assert_int_equal(hooke_options_has_family(o, "shear"), 1);
+  check_ok(hooke_options_unset(o, "structural"));
+  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+  assert_int_equal(hooke_options_is_set(o, "structural.stiffness"), 0);
+  assert_int_equal(hooke_options_has_family(o, "shear"), 1);
+}
+
+static void required_members_are_missed_only_where_present(void **state) {
+  hooke_options *o = *state;
+  check_ok(hooke_options_check_required(o));
+  check_ok(hooke_options_set_text(o, "shear", ""));
+  check_status(hooke_options_check_required(o), HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_last_error(),
+                      "shear.stiffness: is required but missing; allowed: one or more numbers >= 0 [N]");
+  check_ok(hooke_options_set_number(o, "shear.stiffness", 1));
+  check_ok(hooke_options_check_required(o));
+}
+
+static void a_copy_is_equal_and_separate(void **state) {
+  hooke_options *o = *state, *copy = NULL;
+  const double stiffness[] = {1, 2, 3};
+  check_ok(hooke_options_set_numbers(o, "structural.stiffness", 3, stiffness));
+  check_ok(hooke_options_set_text(o, "pinned", "end, 4"));
+  check_ok(hooke_options_copy(o, &copy));
+  check_ok(hooke_options_set_number(o, "structural.stiffness", 9));
+  check_ok(hooke_options_unset(o, "pinned"));
+  check_same_bits(3, hooke_options_numbers(copy, "structural.stiffness"), stiffness);
+  assert_string_equal(hooke_options_text(copy, "pinned"), "end");
+  check_close(hooke_options_number(copy, "pinned"), 4, 0);
+  assert_int_equal(hooke_options_has_family(copy, "structural"), 1);
+  assert_int_equal(hooke_options_is_set(copy, "step"), 0);
+  hooke_options_destroy(copy);
+}
+
+static void the_table_describes_itself(void **state) {
+  hooke_options *o = *state;
+  assert_int_equal(hooke_options_row_count(o), 17);
+  assert_string_equal(hooke_options_row(o, 0, "name"), "step");
+  assert_string_equal(hooke_options_row(o, 0, "type"), "number");
+  assert_string_equal(hooke_options_row(o, 0, "unit"), "s");
+  assert_string_equal(hooke_options_row(o, 0, "default"), "");
+  assert_string_equal(hooke_options_row(o, 0, "allowed"), "a number > 0 and <= 10");
+  assert_string_equal(hooke_options_row(o, 0, "doc"), "length of a step");
+  assert_string_equal(hooke_options_row(o, 1, "default"), "strain");
+  assert_string_equal(hooke_options_row(o, 9, "name"), "structural");
+  assert_string_equal(hooke_options_row(o, 9, "type"), "family");
+  assert_string_equal(hooke_options_row(o, 10, "name"), "structural.stiffness");
+  assert_string_equal(hooke_options_row(o, 16, "name"), "shear.compression");
+  assert_null(hooke_options_row(o, 17, "name"));
+  assert_null(hooke_options_row(o, -1, "name"));
+  assert_null(hooke_options_row(o, 0, "colour"));
+}
+
+static void a_wrong_default_is_noticed(void **state) {
+  (void)state;
+  static const struct hooke_option_row bad_rows[] = {
+      {.name = "step", .type = HOOKE_OPTION_NUMBER, .high = 1, .fallback = "2"}};
+  static const struct hooke_option_table bad = {"bad", HOOKE_OPTION_ROWS(bad_rows)};
+  hooke_options *options = (hooke_options *)1;
+  check_status(hooke_options_create(&bad, &options), HOOKE_BAD_VALUE);
+  assert_null(options);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      TEST(decimal_numbers_are_read),
+      TEST(other_texts_are_no_numbers),
+      TEST(printed_numbers_read_back),
+      TEST(locale_does_not_matter),
+      TEST(defaults_are_there_and_unset),
+      TEST(texts_set_every_type),
+      TEST(a_word_and_numbers_replace_each_other),
+      TEST(words_and_numbers_mix_where_allowed),
+      TEST(large_arrays_are_copied),
+      TEST(refusals_give_value_and_allowed),
+      TEST(numbers_are_checked_like_texts),
+      TEST(a_refused_value_changes_nothing),
+      TEST(unknown_names_are_answered_with_names),
+      TEST(a_member_makes_its_family_present),
+      TEST(required_members_are_missed_only_where_present),
+      TEST(a_copy_is_equal_and_separate),
+      TEST(the_table_describes_itself),
+      TEST(a_wrong_default_is_noticed),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,578 @@
+/* The scene loader: what comes out of a good scene, and where in the text a bad one is said to be wrong. */
+#include "check.h"
+
+#include "core/memory.h"
+#include "io/json_place.h"
+#include "io/json_scan.h"
+#include "io/scene_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Quotes are written ' in these texts. */
+static char *json(const char *text) {
+  char *copy = hooke_copy_text(text);
+  for (char *c = copy; *c; c++)
+    if (*c == '\'') *c = '"';
+  return copy;
+}
+
+#define TWO "'particles': {'position': [[0,0,0],[1,0,0]], 'mass': 1}"
+
+/* ---- places, tokens, files: no parser needed ---- */
+
+static void check_place(const char *path, int32_t key, int64_t line, int64_t column) {
+  char *text =
+      json("{ 'a': [1, {'b': 'x,}]'} ,\n  [2, 3]],\n\t'\xc3\xa4 k.y': { 'c[0]': null, 'c': [true] } }\n");
+  int64_t found_line, found_column;
+  hooke_json_line(text, hooke_json_find(text, (int64_t)strlen(text), path, key), &found_line, &found_column);
+  if (found_line != line || found_column != column)
+    check_failed("%s is at %lld:%lld, not %lld:%lld", path, (long long)found_line, (long long)found_column,
+                 (long long)line, (long long)column);
+  hooke_free(text);
+}
+
+static void paths_are_found(void **state) {
+  (void)state;
+  check_place("", 0, 1, 1);
+  check_place("a", 0, 1, 8);
+  check_place("a", 1, 1, 3);
+  check_place("a[0]", 0, 1, 9);
+  check_place("a[1]", 0, 1, 12);
+  check_place("a[1].b", 0, 1, 18);
+  check_place("a[1].b", 1, 1, 13);
+  check_place("a[2][1]", 0, 2, 7);
+  check_place("\xc3\xa4 k.y", 0, 3, 11);
+  check_place("\xc3\xa4 k.y", 1, 3, 2);
+  check_place("\xc3\xa4 k.y.c[0]", 0, 3, 21);
+  check_place("\xc3\xa4 k.y.c", 0, 3, 32);
+}
+
+/* What does not exist is placed at the nearest that does. */
+static void missing_paths_are_found_as_far_as_they_go(void **state) {
+  (void)state;
+  check_place("b", 0, 1, 1);
+  check_place("a[3]", 0, 1, 8);
+  check_place("a[99999999999]", 0, 1, 8);
+  check_place("a[2].x", 0, 2, 3);
+  check_place("a[1].b.c", 0, 1, 18);
+  check_place("a[1].c", 1, 1, 12);
+}
+
+static void check_tokens(const char *quoted, const char *message, int64_t column) {
+  char *text = json(quoted);
+  const char *at = NULL;
+  check_status(hooke_json_check_tokens(text, (int64_t)strlen(text), &at),
+               message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  if (message) {
+    check_message(message);
+    assert_int_equal(at - text + 1, column);
+  }
+  hooke_free(text);
+}
+
+static void numbers_that_would_change_are_refused(void **state) {
+  (void)state;
+  check_tokens(
+      "{'a': [1e-300, 0e-999, 9223372036854775807, -9223372036854775808, true, 'NaN 1e999 \\' 1e-999']}",
+      NULL, 0);
+  check_tokens("{'a': 1e-999}", "1e-999 would become 0", 7);
+  check_tokens("{'a': [0, -0.00001E-320]}", "-0.00001E-320 would become 0", 11);
+  check_tokens("{'a': 1e999}", "1e999 is beyond the largest number", 7);
+  check_tokens("{'a': NaN}", "NaN is not JSON", 7);
+  check_tokens("{'a': -Infinity}", "-Infinity is not JSON", 7);
+  check_tokens("{'a': 0x10}", "0x10 is not JSON", 7);
+  check_tokens("{'a': 01}", "01 is not JSON", 7);
+  check_tokens("{'a': .5}", ".5 is not JSON", 7);
+  check_tokens("{'a': 9223372036854775808}", "9223372036854775808 is too large", 7);
+  check_tokens("{'a': -9223372036854775809}", "-9223372036854775809 is too large", 7);
+  check_tokens("{'a': True}", "True is not JSON", 7);
+  check_tokens("{'a': 1, // one\n}", "a comment is not JSON", 10);
+  check_tokens("{'a' = 1}", "= is not JSON", 6);
+  check_tokens("{'a': \xc3\xa4}", "\xc3\xa4 is not JSON", 7);
+}
+
+static int32_t feed_in_pieces(const char *bytes, int64_t length, int64_t piece,
+                              struct hooke_json_guard *guard) {
+  memset(guard, 0, sizeof *guard);
+  for (int64_t k = 0; k < length; k += piece) {
+    int32_t status = hooke_json_guard_feed(guard, bytes + k, length - k < piece ? length - k : piece);
+    if (status) return status;
+  }
+  return hooke_json_guard_end(guard);
+}
+
+/* However the text is cut into pieces, the answer and its place are the same. */
+static void the_guard_refuses_hopeless_texts(void **state) {
+  (void)state;
+  static const struct {
+    const char *bytes;
+    int64_t length, line, column; /* line 0: fine */
+  } cases[] = {
+      {"{\"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80\": 1}", 16, 0, 0},
+      {"{\n \"\xff\": 1}", 9, 2, 3},
+      {"{\"a\xc3\x28\"}", 7, 1, 4},        /* broken off */
+      {"{\"\xc0\xaf\"}", 6, 1, 3},         /* overlong */
+      {"{\"\xed\xa0\x80\"}", 7, 1, 3},     /* a surrogate */
+      {"{\"\xf4\x90\x80\x80\"}", 8, 1, 3}, /* beyond Unicode */
+      {"{\"a\xe2\x82", 5, 1, 4},           /* ends within a character */
+      {"\xef\xbb\xbf{}", 5, 1, 1},         /* byte order mark */
+      {"{\"a\": \0}", 8, 1, 7},
+      {" [1]", 4, 1, 2},
+      {" \n ", 3, 2, 1},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+    for (int64_t piece = 1; piece <= 3; piece++) {
+      struct hooke_json_guard guard;
+      check_status(feed_in_pieces(cases[k].bytes, cases[k].length, piece, &guard),
+                   cases[k].line ? HOOKE_BAD_VALUE : HOOKE_OK);
+      if (cases[k].line && (guard.line != cases[k].line || guard.column != cases[k].column))
+        check_failed("case %zu: %lld:%lld", k, (long long)guard.line, (long long)guard.column);
+    }
+}
+
+static void the_guard_counts_brackets_outside_of_texts(void **state) {
+  (void)state;
+  char deep[64] = "{\"a\":\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\\\"[[[\",";
+  struct hooke_json_guard guard;
+  check_ok(feed_in_pieces(deep, (int64_t)strlen(deep), 1, &guard));
+  memset(deep + 1, '[', 32);
+  check_status(feed_in_pieces(deep, 33, 1, &guard), HOOKE_BAD_VALUE);
+  check_message("nested 33 levels deep; allowed: up to 32");
+  assert_int_equal(guard.column, 33);
+}
+
+/* They are never right, and a long row of them must not reach the parser. */
+static void the_guard_refuses_empty_brackets_in_arrays(void **state) {
+  (void)state;
+  static const char *const good[] = {"{\"a\": [], \"b\": {}}", "{\"a\": [{\"b\": []}, [1], \"[\", [\"]\"]]}"};
+  static const char *const bad[] = {"{\"a\": [[ \n]]}", "{\"a\": [{}]}", "{\"a\": [1, [2, []"};
+  struct hooke_json_guard guard;
+  for (size_t k = 0; k < 2; k++)
+    check_ok(feed_in_pieces(good[k], (int64_t)strlen(good[k]), 1, &guard));
+  for (size_t k = 0; k < 3; k++) {
+    check_status(feed_in_pieces(bad[k], (int64_t)strlen(bad[k]), 1, &guard), HOOKE_BAD_VALUE);
+    check_message("nothing between");
+  }
+}
+
+static void touch(const char *folder, const char *name) {
+  char path[512];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fclose(file);
+}
+
+static void check_file(const char *folder, const char *file, const char *message) {
+  char *path = NULL;
+  check_status(hooke_scene_find_file(folder, file, &path), message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  if (message) {
+    check_message(message);
+    assert_null(path);
+  } else {
+    assert_non_null(path);
+  }
+  hooke_free(path);
+}
+
+static void files_stay_in_the_folder_of_the_scene(void **state) {
+  (void)state;
+  char outer[] = "hooke_scene_XXXXXX", folder[64], link[96];
+  assert_non_null(mkdtemp(outer));
+  snprintf(folder, sizeof folder, "%s/scene", outer);
+  snprintf(link, sizeof link, "%s/link.h5", folder);
+  assert_int_equal(mkdir(folder, 0700), 0);
+  touch(outer, "secret.h5");
+  touch(folder, "state.h5");
+  touch(folder, "..odd.h5");
+  assert_int_equal(symlink("../secret.h5", link), 0);
+  check_file(folder, "state.h5", NULL);
+  check_file(folder, "./state.h5", NULL);
+  check_file(folder, "..odd.h5", NULL);
+  check_file(folder, "../secret.h5", "allowed: a path inside the scene's folder");
+  check_file(folder, "x/../state.h5", "allowed: a path inside the scene's folder");
+  check_file(folder, "..", "allowed: a path inside the scene's folder");
+  check_file(folder, "/etc/passwd", "allowed: a path inside the scene's folder");
+  check_file(folder, "", "allowed: a path inside the scene's folder");
+  check_file(folder, "link.h5", "\"link.h5\" leads out of the scene's folder");
+  check_file(folder, "none.h5", "\"none.h5\" cannot be opened: No such file or directory");
+  check_file(NULL, "state.h5", "this scene has no folder");
+  const char *const names[] = {"scene/state.h5", "scene/..odd.h5", "scene/link.h5", "secret.h5"};
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", outer, names[k]);
+    assert_int_equal(unlink(path), 0);
+  }
+  assert_int_equal(rmdir(folder), 0);
+  assert_int_equal(rmdir(outer), 0);
+}
+
+#if HOOKE_HAVE_JANSSON
+
+/* ---- good scenes ---- */
+
+static hooke_scene *parse(const char *quoted) {
+  char *text = json(quoted);
+  hooke_scene *scene = NULL;
+  check_ok(hooke_scene_parse(text, (int64_t)strlen(text), "test.json", NULL, &scene));
+  assert_string_equal(hooke_scene_text(scene), text);
+  hooke_free(text);
+  return scene;
+}
+
+static void a_whole_scene_becomes_a_system(void **state) {
+  (void)state;
+  hooke_scene *scene = parse(
+      "{'hooke': 1, 'title': 'net', 'gravity': [0, -9.81, 0], 'drag': 0.25,"
+      " 'particles': {'position': [[0,0,0],[1,0,0.5],[2,0.25,0]], 'velocity': [[0,0,0],[1,2,3],[4,5,6]],"
+      "               'mass': [1,2,4], 'pinned': [0]},"
+      " 'springs': [{'name': 'a', 'between': [[0,1],[1,2]], 'stiffness': [100, 50], 'damping': 0.5,"
+      "              'rest_length': 2, 'rest_scale': 0.5},"
+      "             {'between': [[2,0]], 'law': 'length', 'stiffness': 7, 'rest_length': 0, 'compression': "
+      "false}],"
+      " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}");
+  hooke_system *system = hooke_scene_system(scene);
+  assert_string_equal(hooke_scene_title(scene), "net");
+  assert_int_equal(hooke_system_is_committed(system), 0);
+  check_ok(hooke_scene_commit(scene));
+  assert_int_equal(hooke_system_particle_count(system), 3);
+  assert_int_equal(hooke_system_free_count(system), 2);
+  assert_int_equal(hooke_system_group_count(system), 2);
+  assert_string_equal(hooke_system_group_name(system, 0), "a");
+  assert_string_equal(hooke_system_group_name(system, 1), "");
+  assert_int_equal(hooke_system_force_count(system), 3);
+  const double inverse[] = {0, 0.5, 0.25};
+  check_same_bits(3, hooke_system_inverse_mass(system), inverse);
+
+  int64_t ends[6];
+  const int64_t wanted_ends[] = {0, 1, 1, 2, 2, 0};
+  double kappa[3], gamma[3], length[3];
+  const double wanted_kappa[] = {100, 50, 7}, wanted_gamma[] = {0.5, 0.5, 0}, wanted_length[] = {1, 1, 0};
+  check_ok(hooke_system_spring_ends(system, ends));
+  check_ok(hooke_system_spring_material(system, kappa, gamma, length));
+  assert_memory_equal(ends, wanted_ends, sizeof ends);
+  check_same_bits(3, kappa, wanted_kappa);
+  check_same_bits(3, gamma, wanted_gamma);
+  check_same_bits(3, length, wanted_length);
+
+  hooke_state *initial = NULL;
+  const double position[] = {0, 0, 0, 1, 0, 0.5, 2, 0.25, 0}, velocity[] = {0, 0, 0, 1, 2, 3, 4, 5, 6};
+  check_ok(hooke_state_create(system, &initial));
+  check_same_bits(9, hooke_state_position(initial), position);
+  check_same_bits(9, hooke_state_velocity(initial), velocity);
+  hooke_state_destroy(initial);
+
+  hooke_options *run = hooke_scene_run_options(scene);
+  assert_string_equal(hooke_options_text(run, "method"), "forward-euler");
+  check_close(hooke_options_number(run, "step"), 1e-3, 0);
+  assert_int_equal(hooke_options_is_set(run, "every"), 1);
+  assert_int_equal(hooke_options_is_set(run, "duration"), 0);
+  assert_int_equal(hooke_options_is_set(run, "rtol"), 0);
+  hooke_scene_destroy(scene);
+}
+
+static void what_is_not_named_is_not_computed(void **state) {
+  (void)state;
+  hooke_scene *scene = parse("{'hooke': 1, " TWO "}");
+  check_ok(hooke_scene_commit(scene));
+  hooke_system *system = hooke_scene_system(scene);
+  assert_int_equal(hooke_system_force_count(system), 0);
+  assert_int_equal(hooke_system_spring_count(system), 0);
+  assert_int_equal(hooke_system_free_count(system), 2);
+  assert_string_equal(hooke_scene_title(scene), "");
+  assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
+  hooke_state *initial = NULL;
+  check_ok(hooke_state_create(system, &initial));
+  for (int k = 0; k < 6; k++)
+    check_close(hooke_state_velocity(initial)[k], 0, 0);
+  hooke_state_destroy(initial);
+  hooke_scene_destroy(scene);
+}
+
+/* Explicit particles come first, then those of parts in order; explicit springs first, then those of parts.
+ */
+static void parts_follow_what_is_listed(void **state) {
+  (void)state;
+  hooke_scene *scene = parse(
+      "{'hooke': 1, " TWO ","
+      " 'springs': [{'name': 'tie', 'between': [[1, ['line', 0]], [['line', 2], ['cloth1', 3]], [0, 5]], "
+      "'stiffness': 1}],"
+      " 'parts': [{'kind': 'rope', 'name': 'line', 'from': [2,0,0], 'to': [4,0,0], 'segments': 2, 'mass': 3,"
+      "            'pinned': ['end', 0], 'stretch': {'stiffness': 10}, 'bend': {'stiffness': 5, "
+      "'rest_scale': 0.5}},"
+      "           {'kind': 'cloth', 'origin': [0,1,0], 'edges': [[1,0,0],[0,0,1]], 'size': [2,2], 'mass': 1,"
+      "            'structural': {'stiffness': 20, 'compression': false}}]}");
+  check_ok(hooke_scene_commit(scene));
+  hooke_system *system = hooke_scene_system(scene);
+  assert_int_equal(hooke_system_particle_count(system), 9);
+  assert_int_equal(hooke_system_free_count(system), 7);
+  assert_int_equal(hooke_system_group_count(system), 4);
+  assert_string_equal(hooke_system_group_name(system, 0), "tie");
+  assert_string_equal(hooke_system_group_name(system, 1), "line.stretch");
+  assert_string_equal(hooke_system_group_name(system, 2), "line.bend");
+  assert_string_equal(hooke_system_group_name(system, 3), "cloth1.structural");
+  int64_t ends[20];
+  const int64_t wanted[] = {1, 2, 4, 8, 0, 5, 2, 3, 3, 4, 2, 4, 5, 6, 7, 8, 5, 7, 6, 8};
+  assert_int_equal(hooke_system_spring_count(system), 10);
+  check_ok(hooke_system_spring_ends(system, ends));
+  assert_memory_equal(ends, wanted, sizeof ends);
+  double length[10];
+  check_ok(hooke_system_spring_material(system, NULL, NULL, length));
+  check_close(length[5], 1.0, 1e-15);
+  assert_true(hooke_system_inverse_mass(system)[2] == 0 && hooke_system_inverse_mass(system)[4] == 0);
+  check_close(hooke_system_mass(system)[3], 1, 1e-15);
+  hooke_scene_destroy(scene);
+}
+
+static void driven_particles_move(void **state) {
+  (void)state;
+  hooke_scene *scene =
+      parse("{'hooke': 1, " TWO
+            ", 'parts': [{'kind': 'rope', 'from': [0,1,0], 'to': [1,1,0], 'segments': 1, 'mass': 1}],"
+            " 'driven': [{'particles': [1], 'motion': 'harmonic', 'amplitude': [0,2,0], 'frequency': 0.25,"
+            "             'phase': 1.5707963267948966},"
+            "            {'particles': [['rope0', 1]], 'motion': 'table', 'time': [0, 1, 2],"
+            "             'position': [[0,0,0],[0,0,1],[0,0,2]]}]}");
+  check_ok(hooke_scene_commit(scene));
+  hooke_system *system = hooke_scene_system(scene);
+  assert_int_equal(hooke_system_free_count(system), 2);
+  hooke_state *initial = NULL;
+  check_ok(hooke_state_create(system, &initial));
+  check_close(hooke_state_position(initial)[4], 2, 1e-15);
+  check_close(hooke_state_position(initial)[3], 1, 0);
+  hooke_state_destroy(initial);
+  hooke_scene_destroy(scene);
+}
+
+/* ---- bad scenes: exact messages ---- */
+
+static void refuse(const char *quoted, const char *message) {
+  char *text = json(quoted), *wanted = json(message);
+  hooke_scene *scene = (hooke_scene *)1;
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_last_error(), wanted);
+  assert_null(scene);
+  hooke_free(text);
+  hooke_free(wanted);
+}
+
+static void messages_give_file_line_column_and_path(void **state) {
+  (void)state;
+  refuse("{\n 'hooke': 1,\n 'particles': {'position': [[0,0,0],[1,0,0]],\n   'mass': [1,\n    -2]}}",
+         "t.json:5:5: particles.mass[1]: -2 is not allowed; allowed: one or more numbers > 0 [kg]");
+  refuse(
+      "{'hooke': 1, " TWO
+      ",\n'springs': [{'between': [[0,1]], 'stiffness': 1},\n {'between': [[0,1], [0,2]], 'stiffness': 1}]}",
+      "t.json:3:25: springs[1].between[1][1]: there is no particle 2; allowed: 0 to 1");
+  refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]],\n  'stifness': 1}]}",
+         "t.json:3:3: springs[0].stifness: unknown key 'stifness'; did you mean 'stiffness'? allowed: name, "
+         "between, law, "
+         "stiffness, damping, rest_length, rest_scale, compression");
+  refuse("{'hooke': 1, " TWO ",\n 'springs': [{'stiffness': 1}]}",
+         "t.json:2:14: springs[0].between: is required but missing; allowed: an array of pairs of particles");
+  refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]]}]}",
+         "t.json:2:14: springs[0].stiffness: is required but missing; allowed: one or more numbers >= 0 "
+         "[N (strain law), N/m (length law)]");
+  refuse("{'hooke': 1, " TWO
+         ",\n 'parts': [{'kind': 'rope', 'from': [0,0,0], 'to': [0,0,1], 'segments': 4, 'mass': 1,\n"
+         "    'stretch': {'stiffness': -4}}]}",
+         "t.json:3:30: parts[0].stretch.stiffness: -4 is not allowed; allowed: a number >= 0 [N]");
+  refuse("{'hooke': 1, " TWO ",\n 'run': {'step': '1e-3'}}",
+         "t.json:2:18: run.step: '1e-3' is not allowed; allowed: a number > 0 [s]");
+}
+
+static void indices_are_whole_numbers(void **state) {
+  (void)state;
+  refuse("{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
+         "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, or "
+         "['part', index]");
+  refuse("{'hooke': 1,\n'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0.0]}}",
+         "t.json:2:60: particles.pinned[0]: 0.0 is not allowed; allowed: a whole number, without a point");
+  refuse("{'hooke': 1.0, " TWO "}",
+         "t.json:1:11: hooke: 1.0 is not allowed; allowed: 1, the version of the format");
+}
+
+static void parts_are_named_and_counted(void **state) {
+  (void)state;
+  static const char rope[] = "'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1";
+  char text[1024];
+  snprintf(text, sizeof text,
+           "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['rope0', 3]]], 'stiffness': 1}]}",
+           rope);
+  refuse(text, "t.json:3:40: springs[0].between[0][1][1]: part 'rope0' has no particle 3; allowed: 0 to 2");
+  snprintf(text, sizeof text,
+           "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['string', 0]]], 'stiffness': 1}]}",
+           rope);
+  refuse(text, "t.json:3:31: springs[0].between[0][1][0]: there is no part 'string'; allowed: rope0");
+  snprintf(text, sizeof text, "{'hooke': 1,\n'parts': [{%s, 'name': 'rope1'},\n{%s}]}", rope, rope);
+  refuse(text,
+         "t.json:3:1: parts[1].name: 'rope1' is the name of part 0 already; allowed: a name of its own");
+  refuse("{'hooke': 1,\n'parts': [{'kind': 'lattice'}]}",
+         "t.json:2:20: parts[0].kind: 'lattice' is not a kind of part; allowed: rope, cloth");
+}
+
+/* Words between the numbers of a list do not shift the place. */
+static void mixed_lists_give_the_place_in_the_text(void **state) {
+  (void)state;
+  static const char rope[] =
+      "{'hooke': 1,\n'parts': [{'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1,\n"
+      "'pinned': %s}]}";
+  static const struct {
+    const char *pinned, *message;
+  } cases[] = {
+      {"['start', 1, 'end', 3]",
+       "t.json:3:31: parts[0].pinned[3]: the part has no particle 3; allowed: 0 to 2"},
+      {"['start', -1]",
+       "t.json:3:21: parts[0].pinned[1]: -1 is not allowed; allowed: any number of whole numbers >= 0 and <= "
+       "2147483647, or any of 'start' or 'end'"},
+      {"['start', 1.0]", "t.json:3:21: parts[0].pinned[1]: 1.0 is not allowed; allowed: any number of whole "
+                         "numbers >= 0 and <= "
+                         "2147483647, or any of 'start' or 'end'"},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    char text[512];
+    snprintf(text, sizeof text, rope, cases[k].pinned);
+    refuse(text, cases[k].message);
+  }
+}
+
+static void drives_take_the_keys_of_their_motion(void **state) {
+  (void)state;
+  refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'table', 'phase': 1, 'time': [0,1],"
+         " 'position': [[0,0,0],[0,0,0]]}]}",
+         "t.json:2:59: driven[0].phase: belongs to motion 'harmonic'; allowed with 'table': time, position");
+  refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'harmonic', 'amplitude': [0,0,1]}]}",
+         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing");
+  refuse("{'hooke': 1, " TWO
+         ",\n'driven': [{'particles': [0], 'motion': 'table', 'time': [0,1], 'position': [[0,0,0]]}]}",
+         "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");
+}
+
+static void syntax_errors_give_line_and_column(void **state) {
+  (void)state;
+  char *text = json("{'hooke': 1,\n 'title': 'a'\n 'gravity': [0,0,0]}");
+  hooke_scene *scene = NULL;
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  check_message("t.json:3:10: ");
+  check_message("allowed: JSON (RFC 8259)");
+  hooke_free(text);
+  text = json("{'hooke': 1,\n 'hooke': 1}");
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_last_error(),
+                      "t.json:2:8: duplicate object key near '\"hooke\"'; allowed: each key once");
+  hooke_free(text);
+}
+
+/* Commit knows more than the parser; its message still has a place in the text. */
+static void commit_gives_the_place_too(void **state) {
+  (void)state;
+  hooke_scene *scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
+                             " 'velocity': [[0,0,3]]}}");
+  check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
+  check_message("test.json:2:20: particles.velocity[0][2]: ");
+  hooke_scene_destroy(scene);
+}
+
+static void files_need_a_folder(void **state) {
+  (void)state;
+  refuse("{'hooke': 1,\n'particles': {'mass': 1, 'position': {'file': 'a.h5', 'dataset': '/q'}}}",
+         "t.json:2:47: particles.position.file: 'a.h5' is not allowed; this scene has no folder to take "
+         "files from");
+  refuse("{'hooke': 1,\n'particles': {'mass': 1, 'position': {'file': 'a.h5', 'frame': 0}}}",
+         "t.json:2:38: particles.position.dataset: is required but missing; allowed: a text");
+}
+
+static void files_that_are_none_are_bad_input(void **state) {
+  (void)state;
+  hooke_scene *scene = NULL;
+  check_status(hooke_scene_load("no/such/scene.json", &scene), HOOKE_BAD_VALUE);
+  check_message("no/such/scene.json: cannot be opened: No such file or directory");
+  check_status(hooke_scene_load("/", &scene), HOOKE_BAD_VALUE);
+  check_message("/: is a directory");
+  check_status(hooke_scene_load("/dev/null", &scene), HOOKE_BAD_VALUE);
+  check_message("/dev/null: is empty");
+  check_status(hooke_scene_load(NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse("{}", -1, NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse("", 0, NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  check_message("scene:1:1: is empty");
+  assert_null(scene);
+  hooke_scene_destroy(NULL);
+}
+
+/* Every truncation and every changed byte of a good scene ends in a scene or a message, never in a fault. */
+static void damaged_scenes_are_survived(void **state) {
+  (void)state;
+  char *text =
+      json("{'hooke':1,'particles':{'position':[[0,0,0],[1,0,0]],'mass':[1,2],'pinned':[0]},"
+           "'springs':[{'between':[[0,1]],'stiffness':1e2,'rest_length':'initial'}],'run':{'step':1e-3}}");
+  static const char replacements[] = "{}[]\",:0-e.\\ x\x80";
+  int64_t length = (int64_t)strlen(text), refused = 0;
+  for (int64_t k = 0; k < length; k++) {
+    hooke_scene *scene = NULL;
+    check_status(hooke_scene_parse(text, k, "cut", NULL, &scene), HOOKE_BAD_VALUE);
+    char kept = text[k];
+    for (const char *c = replacements; *c; c++) {
+      text[k] = *c;
+      int32_t status = hooke_scene_parse(text, length, "damaged", NULL, &scene);
+      if (status) {
+        assert_int_equal(status, HOOKE_BAD_VALUE);
+        assert_int_equal(strncmp(hooke_last_error(), "damaged:1:", 10), 0);
+        refused++;
+      }
+      hooke_scene_destroy(scene);
+      scene = NULL;
+    }
+    text[k] = kept;
+  }
+  check_between((double)refused, 1000, 2900);
+  hooke_free(text);
+}
+
+#else
+
+static void scenes_are_not_in_this_build(void **state) {
+  (void)state;
+  hooke_scene *scene = (hooke_scene *)1;
+  check_status(hooke_scene_load("scene.json", &scene), HOOKE_NOT_BUILT);
+  check_message("jansson");
+  assert_null(scene);
+  check_status(hooke_scene_parse("{}", 2, NULL, NULL, &scene), HOOKE_NOT_BUILT);
+  check_message("jansson");
+}
+
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(paths_are_found),
+    cmocka_unit_test(missing_paths_are_found_as_far_as_they_go),
+    cmocka_unit_test(numbers_that_would_change_are_refused),
+    cmocka_unit_test(the_guard_refuses_hopeless_texts),
+    cmocka_unit_test(the_guard_counts_brackets_outside_of_texts),
+    cmocka_unit_test(the_guard_refuses_empty_brackets_in_arrays),
+    cmocka_unit_test(files_stay_in_the_folder_of_the_scene),
+#if HOOKE_HAVE_JANSSON
+    cmocka_unit_test(a_whole_scene_becomes_a_system),
+    cmocka_unit_test(what_is_not_named_is_not_computed),
+    cmocka_unit_test(parts_follow_what_is_listed),
+    cmocka_unit_test(driven_particles_move),
+    cmocka_unit_test(messages_give_file_line_column_and_path),
+    cmocka_unit_test(indices_are_whole_numbers),
+    cmocka_unit_test(parts_are_named_and_counted),
+    cmocka_unit_test(mixed_lists_give_the_place_in_the_text),
+    cmocka_unit_test(drives_take_the_keys_of_their_motion),
+    cmocka_unit_test(syntax_errors_give_line_and_column),
+    cmocka_unit_test(commit_gives_the_place_too),
+    cmocka_unit_test(files_need_a_folder),
+    cmocka_unit_test(files_that_are_none_are_bad_input),
+    cmocka_unit_test(damaged_scenes_are_survived),
+#else
+    cmocka_unit_test(scenes_are_not_in_this_build),
+#endif
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
