@@ -11,29 +11,53 @@
 
 enum { BLOCK = 256 };
 
+/* The block is apart from all arrays that are read, so iterations may be reordered. */
+#if defined(__clang__)
+#define VECTORISE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define VECTORISE _Pragma("GCC ivdep")
+#endif
+
 struct block {
   double x[BLOCK], y[BLOCK], z[BLOCK];
 };
 
-/* The elastic and damping part s of F = -s d for spring k of the block, and d. */
-#define SPRING(k, i, j)                                                                                      \
-  do {                                                                                                       \
-    double dx = qx[i] - qx[j], dy = qy[i] - qy[j], dz = qz[i] - qz[j];                                       \
-    double r = hooke_spring_length(dx, dy, dz);                                                              \
-    double ir = hooke_spring_inverse_length(r);                                                              \
-    double kappa = mixed ? kappas[k] : run->kappa;                                                           \
-    double rest = mixed ? rests[k] : run->rest_length;                                                       \
-    double brake = 0.0;                                                                                      \
-    if (damped) {                                                                                            \
-      double gamma = mixed ? gammas[k] : run->gamma;                                                         \
-      brake = gamma * ((((vx[i] - vx[j]) * dx + (vy[i] - vy[j]) * dy) + (vz[i] - vz[j]) * dz) * ir);         \
-    }                                                                                                        \
-    double s = hooke_spring_tension(r, rest, kappa, brake, damped, pull) * ir;                               \
-    b->x[k] = s * dx;                                                                                        \
-    b->y[k] = s * dy;                                                                                        \
-    b->z[k] = s * dz;                                                                                        \
-    lost += (r == 0.0) & (rest != 0.0);                                                                      \
-  } while (0)
+/* What a loop needs of a run, in locals that no store can change: materials, and the ends of its springs. */
+struct springs {
+  double kappa, gamma, rest_length;
+  const double *kappas, *gammas, *rest_lengths;
+  const int32_t *head, *tail; /* NULL: spring k joins k and k + offset */
+  ptrdiff_t offset;
+};
+
+/* b = s d for every spring of a block, with F = -s d; returns how many had a rest length but no direction. */
+HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double *restrict bz,
+                                const double *restrict qx, const double *restrict qy,
+                                const double *restrict qz, const double *restrict vx,
+                                const double *restrict vy, const double *restrict vz,
+                                const struct springs springs, const ptrdiff_t count, const int indexed,
+                                const int damped, const int mixed, const int pull) {
+  int64_t lost = 0;
+  VECTORISE
+  for (ptrdiff_t k = 0; k < count; k++) {
+    const ptrdiff_t i = indexed ? springs.head[k] : k, j = indexed ? springs.tail[k] : k + springs.offset;
+    const double kappa = mixed ? springs.kappas[k] : springs.kappa;
+    const double rest_length = mixed ? springs.rest_lengths[k] : springs.rest_length;
+    const double dx = qx[i] - qx[j], dy = qy[i] - qy[j], dz = qz[i] - qz[j];
+    const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+    double brake = 0.0;
+    if (damped) {
+      const double gamma = mixed ? springs.gammas[k] : springs.gamma;
+      brake = gamma * ((((vx[i] - vx[j]) * dx + (vy[i] - vy[j]) * dy) + (vz[i] - vz[j]) * dz) * ir);
+    }
+    const double s = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+    bx[k] = s * dx;
+    by[k] = s * dy;
+    bz[k] = s * dz;
+    lost += (r == 0.0) & (rest_length != 0.0);
+  }
+  return lost;
+}
 
 HOOKE_INLINE void add_shifted(double *restrict f, const double *restrict b, ptrdiff_t count) {
   for (ptrdiff_t k = 0; k < count; k++)
@@ -57,51 +81,55 @@ HOOKE_INLINE void add_block(double *f, const double *b, ptrdiff_t i, ptrdiff_t j
   }
 }
 
+HOOKE_INLINE struct springs springs_from(const struct hooke_run *run, int64_t done, int mixed) {
+  struct springs springs = {
+      .kappa = run->kappa, .gamma = run->gamma, .rest_length = run->rest_length, .offset = run->offset};
+  if (mixed) {
+    springs.kappas = run->kappas + done;
+    springs.gammas = run->gammas + done;
+    springs.rest_lengths = run->rest_lengths + done;
+  }
+  return springs;
+}
+
 HOOKE_INLINE int64_t offset_loop(const struct hooke_run *run, const struct hooke_fields *fields,
                                  const int damped, const int mixed, const int pull) {
-  struct block block;
-  struct block *restrict b = &block;
+  struct block b;
   int64_t lost = 0;
   for (int64_t done = 0; done < run->count; done += BLOCK) {
     const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
-    const ptrdiff_t base = run->start + done, offset = run->offset;
-    const double *qx = fields->q[0] + base, *qy = fields->q[1] + base, *qz = fields->q[2] + base;
-    const double *vx = damped ? fields->v[0] + base : NULL, *vy = damped ? fields->v[1] + base : NULL,
-                 *vz = damped ? fields->v[2] + base : NULL;
-    const double *kappas = mixed ? run->kappas + done : NULL, *gammas = mixed ? run->gammas + done : NULL,
-                 *rests = mixed ? run->rest_lengths + done : NULL;
-    for (ptrdiff_t k = 0; k < count; k++)
-      SPRING(k, k, k + offset);
-    add_block(fields->f[0], b->x, base, base + offset, count);
-    add_block(fields->f[1], b->y, base, base + offset, count);
-    add_block(fields->f[2], b->z, base, base + offset, count);
+    const ptrdiff_t i = run->start + done, j = i + run->offset;
+    const double *const *q = fields->q, *const *v = fields->v;
+    lost += fill_block(b.x, b.y, b.z, q[0] + i, q[1] + i, q[2] + i, v[0] + i, v[1] + i, v[2] + i,
+                       springs_from(run, done, mixed), count, 0, damped, mixed, pull);
+    add_block(fields->f[0], b.x, i, j, count);
+    add_block(fields->f[1], b.y, i, j, count);
+    add_block(fields->f[2], b.z, i, j, count);
   }
   return lost;
 }
 
 HOOKE_INLINE int64_t indexed_loop(const struct hooke_run *run, const struct hooke_fields *fields,
                                   const int damped, const int mixed, const int pull) {
-  struct block block;
-  struct block *restrict b = &block;
-  const double *qx = fields->q[0], *qy = fields->q[1], *qz = fields->q[2];
-  const double *vx = fields->v[0], *vy = fields->v[1], *vz = fields->v[2];
+  struct block b;
   double *fx = fields->f[0], *fy = fields->f[1], *fz = fields->f[2];
   int64_t lost = 0;
   for (int64_t done = 0; done < run->count; done += BLOCK) {
     const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
-    const int32_t *head = run->head + done, *tail = run->tail + done;
-    const double *kappas = mixed ? run->kappas + done : NULL, *gammas = mixed ? run->gammas + done : NULL,
-                 *rests = mixed ? run->rest_lengths + done : NULL;
-    for (ptrdiff_t k = 0; k < count; k++)
-      SPRING(k, head[k], tail[k]);
+    const double *const *q = fields->q, *const *v = fields->v;
+    struct springs springs = springs_from(run, done, mixed);
+    springs.head = run->head + done;
+    springs.tail = run->tail + done;
+    lost +=
+        fill_block(b.x, b.y, b.z, q[0], q[1], q[2], v[0], v[1], v[2], springs, count, 1, damped, mixed, pull);
     for (ptrdiff_t k = 0; k < count; k++) {
-      ptrdiff_t i = head[k], j = tail[k];
-      fx[i] -= b->x[k];
-      fy[i] -= b->y[k];
-      fz[i] -= b->z[k];
-      fx[j] += b->x[k];
-      fy[j] += b->y[k];
-      fz[j] += b->z[k];
+      const ptrdiff_t i = springs.head[k], j = springs.tail[k];
+      fx[i] -= b.x[k];
+      fy[i] -= b.y[k];
+      fz[i] -= b.z[k];
+      fx[j] += b.x[k];
+      fy[j] += b.y[k];
+      fz[j] += b.z[k];
     }
   }
   return lost;
