@@ -1,0 +1,72 @@
+"""The code in README.md and docs/ compiles and runs, block after block in one folder that has the example scenes."""
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+import blocks
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    shutil.copytree(ROOT / "examples/scenes", tmp_path / "examples/scenes")
+    return tmp_path
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: p.name)
+def test_document(document, folder):
+    found = blocks.blocks(document.relative_to(ROOT), document.read_text(encoding="utf-8"))
+    complaints = [c for b in found if (c := blocks.complaint(b, folder))]
+    assert not complaints, "\n\n".join(complaints)
+
+
+def test_readme_shows_every_language():
+    kinds = {b.kind for b in blocks.blocks("README.md", DOCUMENTS[0].read_text(encoding="utf-8"))}
+    assert {"c", "python"} <= kinds and kinds & {"console", "sh"}
+
+
+PROGRAM = "#include <hooke.h>\nint main(void) { return %s; }\n"
+
+
+@pytest.mark.parametrize(
+    "kind, text",
+    [
+        ("c", PROGRAM % "hooke_abi() + 1"),
+        ("c", PROGRAM % "hooke_no_such_function()"),
+        ("c", "int32_t status = hooke_scene_load(path, &scene);\n"),
+        ("python", "import hooke\nhooke.no_such_name\n"),
+        ("console", "$ hooke run no-such-scene.json\n"),
+        ("sh", "hooke no-such-verb\n"),
+        ("sh", "hooke --version # exit 2\n"),
+        ("", "anything\n"),
+        ("cpp", PROGRAM % "0"),
+    ],
+)
+def test_planted(kind, text, folder):
+    (block,) = blocks.blocks("bad.md", f"Text.\n\n```{kind}\n{text}```\n")
+    assert blocks.complaint(block, folder)
+
+
+@pytest.mark.parametrize(
+    "kind, text",
+    [
+        ("c", PROGRAM % "hooke_abi()"),
+        ("python", "import hooke\n"),
+        ("console", "$ hooke --version\nhooke 0.1.0\n$ git clone something\n"),
+        ("sh", "hooke no-such-verb # exit 2\nhooke \\\n  --version | cat\n"),
+        ("text", "anything\n"),
+    ],
+)
+def test_fine(kind, text, folder):
+    (block,) = blocks.blocks("fine.md", f"```{kind}\n{text}```\n")
+    assert blocks.complaint(block, folder) is None
+
+
+def test_unclosed_block():
+    with pytest.raises(ValueError):
+        blocks.blocks("bad.md", "```c\nint main(void) {}\n")
