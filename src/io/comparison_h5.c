@@ -1,11 +1,12 @@
-/* A comparison in one H5MD file: the reference under /particles/all, each method under /particles/<method>,
- * and
+/* A comparison in one H5MD file: the reference under /particles/all, each method under /particles/<method>, the options
+ * that all have in common under /hooke/options, and
  *
  *   /comparison/reference              the method of the reference
  *   /comparison/method, status         [rows], texts
- *   /comparison/<column>               [rows], one array for each number of hooke_comparison_number(), NaN
- * where there is none /comparison/series/time            [frames] /comparison/series/error [rows][frames],
- * likewise energy_drift; NaN past the end of a run
+ *   /comparison/<column>               [rows], one array for each number of hooke_comparison_number(), NaN where
+ *                                      there is none
+ *   /comparison/series/time            [frames]
+ *   /comparison/series/error           [rows][frames], likewise energy_drift; NaN past the end of a run
  *
  * Texts are padded with zeros. All of it is made in advance and written in place, like the frames. */
 #include "core/memory.h"
@@ -101,7 +102,7 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   const double bytes = text + table + runs * hooke_recording_bytes(system, file->frame_count);
   int32_t status = hooke_h5_file_create(guard, path, bytes, &file->file);
   if (status != HOOKE_OK) return status;
-  herr_t result = hooke_h5md_describe(file->file.id, NULL, NULL, scene_text);
+  herr_t result = hooke_h5md_describe(file->file.id, NULL, file->comparison->options, scene_text);
   if (result >= 0) result = make_recordings(file, system);
   if (result >= 0) result = hooke_h5md_connect(file->file.id, system, "all");
   if (result >= 0) result = make_table(file);

@@ -1,0 +1,54 @@
+# All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
+#   make demo   sets up, builds, and compares all methods on a cloth
+#   make test   sets up, builds, and runs every test
+
+PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
+           libsundials-dev libgsl-dev libhdf5-dev libjansson-dev
+PYTHON ?= python3
+PRESETS = release minimal asan
+VENV = build/venv/bin/python
+export PYTHONDONTWRITEBYTECODE = 1
+
+all: build-release
+
+demo: build-release
+	PYTHONPATH=bindings/python/src HOOKE_LIBRARY=build/release/libhooke.so \
+	  $(VENV) examples/demo.py build/release/hooke build/demo
+
+test: $(PRESETS:%=build-%)
+	@failed=0; \
+	for preset in $(PRESETS); do \
+	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed=1; \
+	done; \
+	for preset in $(PRESETS); do \
+	  echo; echo "== $$preset"; sed -n '/ tests passed/,$$p' build/$$preset/tests.log; \
+	done; \
+	exit $$failed
+
+$(PRESETS:%=build-%): build-%: build/%/build.ninja
+	cmake --build --preset $*
+
+build/%/build.ninja: CMakePresets.json | build/venv/done
+	cmake --preset $*
+
+build/venv/done: tests/requirements.txt | build/packages
+	$(PYTHON) -m venv build/venv
+	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt
+	touch $@
+
+# What is missing is installed as root or through sudo; without either, the line to type is printed.
+build/packages: Makefile
+	@mkdir -p build
+	@missing=$$(for package in $(PACKAGES); do \
+	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
+	if [ -n "$$missing" ]; then \
+	  if [ $$(id -u) = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
+	  command -v $${as_root%% *} >/dev/null && $$as_root apt-get update && $$as_root \
+	    DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $$missing || \
+	  { printf 'Debian packages are missing. As root:\n\n  apt-get install %s\n\n' "$$missing"; exit 1; }; \
+	fi
+	@touch $@
+
+.PHONY: all demo test $(PRESETS:%=build-%)
+.DELETE_ON_ERROR:
+.SECONDARY:

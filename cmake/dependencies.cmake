@@ -1,0 +1,74 @@
+# The libraries that hooke can use, as imported targets hooke_dep::<name>. Read by the build and, for the static
+# library, by the installed package.
+
+# hooke_find_library(<name> HEADER <file> LIBRARIES <a|b>... [OPTIONAL <a>...] [SUFFIXES <dir>...]
+#                    VERSION <file> <pattern>)
+# Alternatives to a library name are separated by "|". Sets HOOKE_<NAME>_FOUND and HOOKE_<NAME>_VERSION.
+function(hooke_find_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "LIBRARIES;OPTIONAL;SUFFIXES;VERSION")
+  string(TOUPPER ${name} NAME)
+  set(HOOKE_${NAME}_FOUND FALSE PARENT_SCOPE)
+
+  find_path(HOOKE_${NAME}_INCLUDE_DIR ${arg_HEADER} PATH_SUFFIXES ${arg_SUFFIXES})
+  mark_as_advanced(HOOKE_${NAME}_INCLUDE_DIR)
+  if(NOT HOOKE_${NAME}_INCLUDE_DIR)
+    return()
+  endif()
+
+  set(files)
+  foreach(names IN LISTS arg_LIBRARIES arg_OPTIONAL)
+    string(MAKE_C_IDENTIFIER "HOOKE_LIBRARY_${names}" variable)
+    string(REPLACE "|" ";" alternatives "${names}")
+    find_library(${variable} NAMES ${alternatives} PATH_SUFFIXES ${arg_SUFFIXES})
+    mark_as_advanced(${variable})
+    if(${variable})
+      list(APPEND files "${${variable}}")
+    elseif(NOT names IN_LIST arg_OPTIONAL)
+      return()
+    endif()
+  endforeach()
+
+  list(POP_FRONT arg_VERSION version_file version_pattern)
+  file(STRINGS "${HOOKE_${NAME}_INCLUDE_DIR}/${version_file}" version REGEX "${version_pattern}" LIMIT_COUNT 1)
+  string(REGEX REPLACE ".*${version_pattern}.*" "\\1" version "${version}")
+  if(version STREQUAL "")
+    set(version unknown)
+  endif()
+  set(HOOKE_${NAME}_VERSION "${version}" PARENT_SCOPE)
+
+  if(NOT TARGET hooke_dep::${name})
+    add_library(hooke_dep::${name} INTERFACE IMPORTED GLOBAL)
+    target_include_directories(hooke_dep::${name} INTERFACE "${HOOKE_${NAME}_INCLUDE_DIR}")
+    target_link_libraries(hooke_dep::${name} INTERFACE ${files})
+  endif()
+  set(HOOKE_${NAME}_FOUND TRUE PARENT_SCOPE)
+endfunction()
+
+# The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
+# looked up by name. One of them ("sundials", "gsl", "hdf5", "jansson") per call.
+macro(hooke_find name)
+  if("${name}" STREQUAL "sundials")
+    hooke_find_library(sundials
+      HEADER cvode/cvode.h
+      LIBRARIES sundials_cvode sundials_nvecserial sundials_sunlinsolspgmr sundials_sunnonlinsolnewton
+                sundials_sunnonlinsolfixedpoint
+      OPTIONAL sundials_core # SUNDIALS 7
+      VERSION sundials/sundials_config.h "SUNDIALS_VERSION \"([^\"]+)\"")
+  elseif("${name}" STREQUAL "gsl")
+    hooke_find_library(gsl
+      HEADER gsl/gsl_version.h
+      LIBRARIES gsl gslcblas
+      VERSION gsl/gsl_version.h "GSL_VERSION \"([^\"]+)\"")
+  elseif("${name}" STREQUAL "hdf5")
+    hooke_find_library(hdf5 # the serial one
+      HEADER hdf5.h
+      LIBRARIES "hdf5_serial|hdf5"
+      SUFFIXES hdf5/serial
+      VERSION H5public.h "H5_VERS_INFO +\"HDF5 library version:? ([^\"]+)\"")
+  elseif("${name}" STREQUAL "jansson")
+    hooke_find_library(jansson
+      HEADER jansson.h
+      LIBRARIES jansson
+      VERSION jansson.h "JANSSON_VERSION +\"([^\"]+)\"")
+  endif()
+endmacro()

@@ -1,0 +1,48 @@
+# cmake --install: headers, both libraries, the program, the example scenes, and the files by which find_package(hooke)
+# and pkg-config find them. Nothing installed names a folder of this machine, so the result may be moved.
+include(CMakePackageConfigHelpers)
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
+
+install(FILES include/hooke.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/hooke DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY examples/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke/examples)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Two sets of targets: the static library alone needs the other libraries to be found.
+install(TARGETS hooke EXPORT hooke_shared_targets)
+install(TARGETS hooke_static EXPORT hooke_static_targets)
+install(EXPORT hooke_shared_targets FILE hooke-shared.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
+install(EXPORT hooke_static_targets FILE hooke-static.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
+
+if(HOOKE_BUILD_CLI)
+  file(RELATIVE_PATH to_library /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(hooke_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+  install(TARGETS hooke_cli)
+endif()
+
+configure_package_config_file(cmake/hooke-config.cmake.in hooke-config.cmake INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(hooke-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/hooke-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/hooke-config-version.cmake
+  cmake/dependencies.cmake
+  DESTINATION ${config_dir})
+
+# What the static library needs, as -L and -l.
+set(HOOKE_PRIVATE_LIBRARIES "-lm")
+foreach(dependency IN LISTS HOOKE_DEPENDENCIES)
+  get_target_property(files ${dependency} INTERFACE_LINK_LIBRARIES)
+  foreach(file IN LISTS files)
+    cmake_path(GET file PARENT_PATH folder)
+    cmake_path(GET file STEM LAST_ONLY name)
+    string(REGEX REPLACE "^lib" "" name ${name})
+    if(NOT folder IN_LIST CMAKE_C_IMPLICIT_LINK_DIRECTORIES)
+      string(APPEND HOOKE_PRIVATE_LIBRARIES " -L${folder}")
+    endif()
+    string(APPEND HOOKE_PRIVATE_LIBRARIES " -l${name}")
+  endforeach()
+endforeach()
+file(RELATIVE_PATH HOOKE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" HOOKE_PREFIX_FROM_PC "${HOOKE_PREFIX_FROM_PC}")
+configure_file(cmake/hooke.pc.in hooke.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -1,0 +1,67 @@
+"""What the public headers declare, read from their text."""
+
+import re
+
+NUMBERS = {"double", "int32_t", "int64_t"}
+NAME = r"hooke_[a-z0-9_]+"
+
+
+def statements(text):
+    """Top-level statements of a header as (line, text), comments and preprocessor lines left out."""
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.DOTALL)
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.MULTILINE)
+    text = text.replace('extern "C" {', " " * 12)
+    text = re.sub(r"^}[ \t]*$", " ", text, flags=re.MULTILINE)
+    start = 0
+    for part in text.split(";"):
+        words = " ".join(part.split())
+        if words:
+            lead = len(part) - len(part.lstrip())
+            yield text.count("\n", 0, start + lead) + 1, words
+        start += len(part) + 1
+
+
+def functions(text):
+    """Names of the functions declared with HOOKE_API."""
+    found = (re.fullmatch(rf"HOOKE_API [^(]*?\b({NAME}) ?\(.*\)", s) for _, s in statements(text))
+    return {m.group(1) for m in found if m}
+
+
+def opaque_types(text):
+    return {m.group(1) for _, s in statements(text) if (m := re.fullmatch(rf"typedef struct ({NAME}) \1", s))}
+
+
+def callback_types(text):
+    return {m.group(1) for _, s in statements(text) if (m := re.fullmatch(rf"typedef [^(]*?\b({NAME}) ?\(.*\)", s))}
+
+
+def value_complaint(words, opaque, callbacks, is_result=False):
+    """What is wrong with one parameter (or result) such as "const double *q"."""
+    match = re.fullmatch(r"((?:const )?\w+) ?((?:\*(?: ?const\b)? ?)*) ?(\w*)", words)
+    if not match:
+        return f"`{words}` is not a plain value or pointer"
+    kind, stars = match.group(1).removeprefix("const "), match.group(2).count("*")
+    if kind in NUMBERS:
+        return None
+    if kind == "void" and (stars or is_result):
+        return None
+    if kind == "char" or kind in opaque or kind in callbacks:
+        return None if stars else f"`{words}`: {kind} by value"
+    return f"`{words}`: the type {kind} does not belong in the interface"
+
+
+def signature_complaints(text, opaque, callbacks):
+    """Statements of a header that are not part of the allowed language."""
+    found = []
+    for line, words in statements(text):
+        match = re.fullmatch(rf"(?:HOOKE_API|typedef) ([^(]*?)\b{NAME} ?\((.*)\)", words)
+        if re.fullmatch(rf"typedef struct ({NAME}) \1", words):
+            continue
+        if not match:
+            found.append(f"line {line}: `{words}` is not a function with HOOKE_API, a callback or an opaque struct")
+            continue
+        values = [] if match.group(2) == "void" else match.group(2).split(",")
+        complaints = [value_complaint(match.group(1).strip(), opaque, callbacks, is_result=True)]
+        complaints += [value_complaint(v.strip(), opaque, callbacks) for v in values]
+        found += [f"line {line}: {c}" for c in complaints if c]
+    return found

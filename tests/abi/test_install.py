@@ -1,0 +1,100 @@
+"""An installed hooke is found and used, shared and static, by find_package and by pkg-config; so are its sources by
+add_subdirectory."""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+BUILD = Path(os.environ["HOOKE_BUILD_DIR"])
+CONSUMER = Path(__file__).with_name("consumer")
+CMAKE, CC = os.environ["HOOKE_CMAKE"], os.environ["HOOKE_CC"]
+VERSION = re.search(r'#define HOOKE_VERSION +"(.+)"', (ROOT / "include/hooke/base.h").read_text()).group(1)
+
+
+def run(*command, expect=0, env=None):
+    result = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=os.environ | (env or {}))
+    assert (result.returncode == 0) == (expect == 0), f"{command}\n{result.stdout}{result.stderr}"
+    return result.stdout + result.stderr
+
+
+def needed(program):
+    text = run("ldd", program)
+    return "libhooke.so." in text
+
+
+def check(shared, static):
+    for program in (shared, static):
+        assert run(program).startswith(VERSION + " ")
+    assert needed(shared) and not needed(static)
+
+
+def configure(folder, *arguments, expect=0):
+    return run(CMAKE, "-S", CONSUMER, "-B", folder, "-G", "Ninja", f"-DCMAKE_C_COMPILER={CC}", *arguments, expect=expect)
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory):
+    """Installed in one place, then moved to another: nothing in it may know where it is."""
+    first = tmp_path_factory.mktemp("install") / "first"
+    run(CMAKE, "--install", BUILD, "--prefix", first)
+    return first.rename(first.with_name("second place"))
+
+
+def test_files(prefix):
+    installed = {p.relative_to(prefix).as_posix() for p in prefix.rglob("*") if not p.is_dir()}
+    headers = {"include/" + p.relative_to(ROOT / "include").as_posix() for p in (ROOT / "include").rglob("*.h")}
+    scenes = {"share/hooke/examples/scenes/" + p.name for p in (ROOT / "examples/scenes").iterdir()}
+    assert headers <= installed
+    assert scenes <= installed
+    assert {p for p in installed if p.startswith("include/")} == headers
+
+
+def test_program(prefix):
+    if "HOOKE_CLI" not in os.environ:
+        pytest.skip("this build has no program")
+    assert VERSION in run(prefix / "bin/hooke", "--version")
+
+
+def test_find_package(prefix, tmp_path):
+    configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DHOOKE_WANTED={VERSION}")
+    run(CMAKE, "--build", tmp_path)
+    check(tmp_path / "shared", tmp_path / "static")
+
+
+def test_find_package_refuses_another_version(prefix, tmp_path):
+    text = configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", "-DHOOKE_WANTED=99.0", expect=1)
+    assert "99.0" in text
+
+
+@pytest.mark.skipif(not shutil.which("pkg-config"), reason="pkg-config is not installed")
+def test_pkg_config(prefix, tmp_path):
+    pc = next(prefix.rglob("hooke.pc"))
+    env = {"PKG_CONFIG_PATH": str(pc.parent)}
+    assert run("pkg-config", "--modversion", "hooke", env=env).strip() == VERSION
+    flags = shlex.split(run("pkg-config", "--cflags", "--libs", "hooke", env=env))
+    rpath = f"-Wl,-rpath,{next(prefix.rglob('libhooke.so')).parent}"
+    run(CC, CONSUMER / "main.c", *flags, rpath, "-o", tmp_path / "shared")
+    # with both libraries in one folder, the static one is asked for by its file name
+    flags = shlex.split(run("pkg-config", "--static", "--cflags", "--libs", "hooke", env=env))
+    flags = ["-l:libhooke.a" if f == "-lhooke" else f for f in flags]
+    run(CC, CONSUMER / "main.c", *flags, "-o", tmp_path / "static")
+    check(tmp_path / "shared", tmp_path / "static")
+
+
+def test_subdirectory(tmp_path):
+    configure(tmp_path, f"-DHOOKE_SOURCES={ROOT}", "-DHOOKE_BUILD_CLI=OFF", "-DCMAKE_BUILD_TYPE=Debug",
+              *(f"-DHOOKE_{part}=OFF" for part in ("SUNDIALS", "GSL", "HDF5", "JANSSON")))
+    run(CMAKE, "--build", tmp_path, "--target", "shared", "static", "-j2")
+    check(tmp_path / "shared", tmp_path / "static")
+
+
+def test_missing_part_is_named(tmp_path):
+    """A part that is asked for and not there is an error that names the package."""
+    text = configure(tmp_path, f"-DHOOKE_SOURCES={ROOT}", "-DHOOKE_GSL=ON", "-DHOOKE_GSL_INCLUDE_DIR=", expect=1)
+    assert "apt-get install libgsl-dev" in text

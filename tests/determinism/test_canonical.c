@@ -1,0 +1,191 @@
+/* Every force path of the library against the canonical sum, to the bit. */
+#include "canonical.h"
+#include "check.h"
+#include "hash.h"
+#include "lockstep.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void compare_acceleration(const struct random_scene *scene, uint64_t seed) {
+  const int64_t n = scene->canonical.particle_count;
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
+         *expected = new_doubles(3 * n);
+  random_scene_shake(scene, seed, q, v);
+  memset(found, 0x55, (size_t)(3 * n) * sizeof(double));
+  check_ok(hooke_system_acceleration(scene->system, 0.125, q, v, found));
+  canonical_acceleration(&scene->canonical, 0.125, q, v, expected);
+  assert_true(largest(3 * n, expected) < 1e9);
+  check_same_bits(3 * n, found, expected);
+  free(q);
+  free(v);
+  free(found);
+  free(expected);
+}
+
+static void compare_scene(struct random_scene_request request) {
+  struct random_scene scene;
+  random_scene_create(request, &scene);
+  compare_acceleration(&scene, request.seed + 1000);
+  const double start = scene.driven_count ? 0.0 : 0.003;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    /* a step that is no binary fraction: t0 + k h has to be rounded the same way */
+    check_lockstep(&scene, method, request.seed % 2 ? 2 : 1, start, 0.0009765, 10);
+  }
+  random_scene_destroy(&scene);
+}
+
+/* Two scenes for each of the 256 combinations of features. */
+static void test_small_scenes(void **unused) {
+  (void)unused;
+  for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
+    for (uint64_t round = 0; round < 2; round++) {
+      const uint64_t seed = 2 * (uint64_t)features + round + 1;
+      compare_scene((struct random_scene_request){.seed = seed,
+                                                  .particles = 7 + (int64_t)(seed * 37 % 900),
+                                                  .springs = (int64_t)(seed * 53 % 1500),
+                                                  .features = features});
+    }
+  }
+}
+
+static void test_large_scenes(void **unused) {
+  (void)unused;
+  const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
+                              SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
+  for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
+    compare_scene((struct random_scene_request){
+        .seed = 7001 + k, .particles = 30011, .springs = 100003, .features = features[k]});
+  }
+}
+
+static void test_parts(void **unused) {
+  (void)unused;
+  const int32_t size[] = {2, 3, 4, 5, 8, 9, 16, 17, 33, 64, 70};
+  const int32_t sizes = (int32_t)(sizeof size / sizeof size[0]);
+  for (int32_t k = 0; k < sizes; k++) {
+    for (int32_t m = 0; m < sizes; m++) {
+      const int32_t features = (k * sizes + m) * 29 & SCENE_EVERYTHING;
+      compare_scene((struct random_scene_request){.seed = (uint64_t)(9000 + k * sizes + m),
+                                                  .particles = 7 + m,
+                                                  .springs = k == m ? 0 : 20,
+                                                  .features = features,
+                                                  .cloth = {size[k], size[m]},
+                                                  .rope = 1 + (k * sizes + m) % 70});
+    }
+  }
+}
+
+/* A scene listed spring by spring is summed like the same scene made of parts. */
+static void test_parts_are_springs(void **unused) {
+  (void)unused;
+  struct random_scene parts;
+  random_scene_create((struct random_scene_request){.seed = 3,
+                                                    .particles = 7,
+                                                    .springs = 12,
+                                                    .features = SCENE_DAMPING | SCENE_GRAVITY,
+                                                    .cloth = {23, 40},
+                                                    .rope = 31},
+                      &parts);
+  const struct canonical *c = &parts.canonical;
+  const int64_t n = c->particle_count, m = c->spring_count;
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
+         *expected = new_doubles(3 * n);
+  random_scene_shake(&parts, 4, q, v);
+
+  hooke_system *listed = NULL;
+  hooke_options *options = NULL;
+  check_ok(hooke_system_create(&listed));
+  check_ok(hooke_system_add_particles(listed, n, q, v, n, hooke_system_mass(parts.system), NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", m, c->kappa));
+  check_ok(hooke_options_set_numbers(options, "damping", m, c->gamma));
+  check_ok(hooke_options_set_numbers(options, "rest_length", m, c->rest_length));
+  check_ok(hooke_system_add_springs(listed, NULL, m, c->ends, options));
+  check_ok(hooke_system_set_gravity(listed, parts.gravity));
+  check_ok(hooke_system_commit(listed));
+  hooke_options_destroy(options);
+
+  check_ok(hooke_system_acceleration(parts.system, 0.0, q, v, expected));
+  check_ok(hooke_system_acceleration(listed, 0.0, q, v, found));
+  check_same_bits(3 * n, found, expected);
+  hooke_system_destroy(listed);
+  random_scene_destroy(&parts);
+  free(q);
+  free(v);
+  free(found);
+  free(expected);
+}
+
+/* The comparison itself: one unit in the last place, and another order of the springs, have to show. */
+static void test_planted_faults(void **unused) {
+  (void)unused;
+  struct random_scene scene;
+  random_scene_create(
+      (struct random_scene_request){
+          .seed = 11, .particles = 200, .springs = 2000, .features = SCENE_DAMPING | SCENE_GRAVITY},
+      &scene);
+  struct canonical *c = &scene.canonical;
+  const int64_t n = c->particle_count, m = c->spring_count;
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  random_scene_shake(&scene, 12, q, v);
+  canonical_acceleration(c, 0.0, q, v, a);
+
+  memcpy(b, a, (size_t)(3 * n) * sizeof(double));
+  assert_int_equal(first_difference(3 * n, a, b), -1);
+  assert_true(hash_doubles(3 * n, a, HASH_START) == hash_doubles(3 * n, b, HASH_START));
+  b[3 * n - 1] = nextafter(b[3 * n - 1], INFINITY);
+  assert_int_equal(first_difference(3 * n, a, b), 3 * n - 1);
+  assert_true(hash_doubles(3 * n, a, HASH_START) != hash_doubles(3 * n, b, HASH_START));
+
+  for (int64_t low = 0, high = m - 1; low < high; low++, high--) {
+    for (int end = 0; end < 2; end++) {
+      const int64_t keep = c->ends[2 * low + end];
+      c->ends[2 * low + end] = c->ends[2 * high + end];
+      c->ends[2 * high + end] = keep;
+    }
+    double *const material[] = {c->kappa, c->gamma, c->rest_length};
+    for (int k = 0; k < 3; k++) {
+      const double keep = material[k][low];
+      material[k][low] = material[k][high];
+      material[k][high] = keep;
+    }
+  }
+  canonical_acceleration(c, 0.0, q, v, b);
+  assert_true(first_difference(3 * n, a, b) >= 0);
+  assert_true(largest_difference(3 * n, a, b) <
+              1e-9 * largest(3 * n, a)); /* the same physics in another order */
+  random_scene_destroy(&scene);
+  free(q);
+  free(v);
+  free(a);
+  free(b);
+}
+
+/* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */
+static void test_hash(void **unused) {
+  (void)unused;
+  const double zero = 0.0, one = 1.0, minus_zero = -0.0;
+  assert_true(hash_doubles(0, &zero, HASH_START) == HASH_START);
+  uint64_t expected = HASH_START;
+  for (int k = 0; k < 8; k++)
+    expected *= UINT64_C(0x100000001b3);
+  assert_true(hash_doubles(1, &zero, HASH_START) == expected);
+  assert_true(hash_doubles(1, &one, HASH_START) != expected);
+  assert_int_equal(first_difference(1, &zero, &minus_zero), 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_hash),         cmocka_unit_test(test_planted_faults),
+      cmocka_unit_test(test_small_scenes), cmocka_unit_test(test_large_scenes),
+      cmocka_unit_test(test_parts),        cmocka_unit_test(test_parts_are_springs),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,114 @@
+/* A million springs of every kind, with a callback and driven particles, give the same bits every time. */
+#include "check.h"
+#include "hash.h"
+#include "lockstep.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SLOW_BUILD 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SLOW_BUILD 1
+#endif
+#endif
+#ifdef SLOW_BUILD
+enum { SPRINGS = 100000, PARTICLES = 30000 };
+#else
+enum { SPRINGS = 1000000, PARTICLES = 300000 };
+#endif
+enum { STEPS = 20 };
+
+struct task {
+  const hooke_system *system;
+  const char *method;
+  int32_t threads;
+  uint64_t hash;
+  int32_t status;
+};
+
+/* No assertions here: they belong to the main thread. */
+static void *run_task(void *argument) {
+  struct task *task = argument;
+  hooke_options *options = NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  int32_t status = hooke_run_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", task->method);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", 1e-4);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", task->threads);
+  if (status == HOOKE_OK) status = hooke_integrator_create(task->system, options, &integrator);
+  if (status == HOOKE_OK) status = hooke_state_create(task->system, &state);
+  if (status == HOOKE_OK) status = hooke_integrator_step(integrator, state, STEPS);
+  if (status == HOOKE_OK) {
+    const int64_t size = hooke_state_size(state);
+    task->hash = hash_doubles(size, hooke_state_position(state), HASH_START);
+    task->hash = hash_doubles(size, hooke_state_velocity(state), task->hash);
+  }
+  task->status = status;
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  return NULL;
+}
+
+static uint64_t hash_of(const struct random_scene *scene, const char *method, int32_t threads) {
+  struct task task = {scene->system, method, threads, 0, 0};
+  run_task(&task);
+  check_status(task.status, HOOKE_OK);
+  return task.hash;
+}
+
+static void test_same_bits(void **unused) {
+  (void)unused;
+  struct random_scene scene;
+  random_scene_create(
+      (struct random_scene_request){
+          .seed = 20240607, .particles = PARTICLES, .springs = SPRINGS, .features = SCENE_EVERYTHING},
+      &scene);
+  assert_int_equal(hooke_system_spring_count(scene.system), SPRINGS);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    const uint64_t first = hash_of(&scene, method, 1), second = hash_of(&scene, method, 1);
+    if (first != second) check_failed("%s: two runs differ", method);
+    if (hash_of(&scene, method, 2) != first) check_failed("%s: two threads differ from one", method);
+
+    pthread_t thread[2];
+    struct task task[2] = {{scene.system, method, 1, 0, -1}, {scene.system, method, 1, 0, -1}};
+    for (int k = 0; k < 2; k++)
+      assert_int_equal(pthread_create(&thread[k], NULL, run_task, &task[k]), 0);
+    for (int k = 0; k < 2; k++)
+      assert_int_equal(pthread_join(thread[k], NULL), 0);
+    for (int k = 0; k < 2; k++) {
+      check_status(task[k].status, HOOKE_OK);
+      if (task[k].hash != first) check_failed("%s: runs at the same time on one system differ", method);
+    }
+    check_lockstep(&scene, method, 2, 0.0, 1e-4, 3);
+  }
+  random_scene_destroy(&scene);
+}
+
+/* Another seed is another scene: a hash that never changes would prove nothing. */
+static void test_seeds_differ(void **unused) {
+  (void)unused;
+  uint64_t hash[2];
+  for (uint64_t k = 0; k < 2; k++) {
+    struct random_scene scene;
+    random_scene_create(
+        (struct random_scene_request){
+            .seed = 5 + k, .particles = 100, .springs = 300, .features = SCENE_EVERYTHING},
+        &scene);
+    hash[k] = hash_of(&scene, "symplectic-euler", 1);
+    random_scene_destroy(&scene);
+  }
+  assert_true(hash[0] != hash[1]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_seeds_differ)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

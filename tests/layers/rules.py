@@ -1,0 +1,159 @@
+"""The rules of the house on who may include what, as functions from a file to a list of complaints."""
+
+import re
+
+# Folders of src/, and what each may include besides itself.
+LAYERS = {
+    "core": set(),
+    "kernel": {"core"},
+    "model": {"core", "kernel"},
+    "build": {"core", "kernel", "model"},
+    "integrate": {"core", "kernel", "model"},
+    "measure": {"core", "kernel", "model", "integrate"},
+    "io": {"core", "kernel", "model", "build", "integrate", "measure"},
+}
+
+# The layer to which each public header belongs.
+PUBLIC = {
+    "hooke/base.h": "core",
+    "hooke/options.h": "core",
+    "hooke/system.h": "model",
+    "hooke/state.h": "model",
+    "hooke/build.h": "build",
+    "hooke/integrator.h": "integrate",
+    "hooke/measure.h": "measure",
+    "hooke/io.h": "io",
+}
+
+# Third-party headers, and the only files that may see them, be it through a header of their own.
+FENCES = [
+    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]"),
+    (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]"),
+    (r"(cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*", r"src/integrate/cvode\w*\.[ch]"),
+    (r"gsl/.*", r"src/measure/\w+_gsl\.[ch]"),
+    (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
+]
+
+# Headers of C17, POSIX and the compiler.
+STANDARD = set(
+    "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
+    "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
+    "dirent dlfcn fcntl libgen pthread sched strings termios unistd "
+    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/wait "
+    "getopt immintrin".split()
+)
+
+# Folders that see the library as a user does.
+OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/support/",
+           "tests/abi/", "bindings/")
+
+LINE_LIMIT = 800
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^">]+)[">]', re.MULTILINE)
+LAZY_NAME = re.compile(r"(^|_)(util|utils|misc|common|helper|helpers)(_|\.|$)")
+
+
+def without_comments(text):
+    """The text with comments blanked out, line numbers kept. Strings that look like comments do not occur."""
+    return re.sub(r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.DOTALL)
+
+
+def includes(text):
+    clean = without_comments(text)
+    for match in INCLUDE.finditer(clean):
+        yield clean.count("\n", 0, match.start()) + 1, match.group(1) == "<", match.group(2)
+
+
+def angle_complaint(path, name):
+    for pattern, allowed in FENCES:
+        if re.fullmatch(pattern, name):
+            return None if re.fullmatch(allowed, path) else f"<{name}> is fenced into {allowed}"
+    if name.removesuffix(".h") in STANDARD and name.endswith(".h"):
+        return None
+    return f"<{name}> is neither a standard header nor behind a fence"
+
+
+def library_complaint(path, name):
+    """`path` in src/, `name` between quotes."""
+    layer = path.split("/")[1]
+    allowed = LAYERS.get(layer)
+    if allowed is None:
+        return f"src/{layer} is not a layer"
+    if name in PUBLIC:
+        other = PUBLIC[name]
+    elif name.startswith("hooke"):
+        return f'"{name}" is not a public header that the library may include'
+    else:
+        other = name.split("/")[0]
+        if "/" not in name or other not in LAYERS:
+            return f'"{name}" should name its folder in src/, as in "core/status.h"'
+    if other != layer and other not in allowed:
+        return f'"{name}" is of layer {other}, which {layer} may not see'
+    return None
+
+
+def outside_complaint(path, name):
+    if name == "hooke.h" or name in PUBLIC:
+        return None
+    if "/" not in name:  # a neighbour, or a header of tests/support
+        return None
+    return f'"{name}": only include/ may be seen from here'
+
+
+def public_complaint(name):
+    return None if "hooke/" + name in PUBLIC else f'"{name}": a public header includes its siblings alone'
+
+
+def include_complaints(path, text):
+    """What is wrong with the includes of the file at `path`, relative to the project."""
+    found = []
+    for line, angle, name in includes(text):
+        if path.startswith("tests/") and re.fullmatch(r"\.\./data/\w+\.inc", name):
+            complaint = None
+        elif ".." in name or name.endswith(".c"):
+            complaint = f'"{name}": no parent folders and no .c files'
+        elif path.startswith("include/"):
+            if angle:
+                complaint = None if name == "stdint.h" else f"<{name}>: a public header needs <stdint.h> alone"
+            elif path == "include/hooke.h":
+                complaint = None if name in PUBLIC else f'"{name}" is not a public header'
+            else:
+                complaint = public_complaint(name)
+        elif angle and not (path.startswith(OUTSIDE) and (name == "hooke.h" or name in PUBLIC)):
+            complaint = angle_complaint(path, name)
+        elif path.startswith("src/"):
+            complaint = library_complaint(path, name)
+        elif path.startswith(OUTSIDE):
+            complaint = outside_complaint(path, name)
+        else:  # tests/unit sees everything
+            complaint = None
+        if complaint:
+            found.append(f"{path}:{line}: {complaint}")
+    return found
+
+
+def leak_complaints(files):
+    """Headers that bring a third-party header to a file outside its fence; `files` is {path: text}."""
+    found = []
+    for header, text in files.items():
+        if not header.startswith("src/") or not header.endswith(".h"):
+            continue
+        for fence in {f for _, angle, name in includes(text) if angle for p, f in FENCES if re.fullmatch(p, name)}:
+            for path, other in files.items():
+                sees = any("src/" + name == header for _, angle, name in includes(other) if not angle)
+                if sees and not re.fullmatch(fence, path):
+                    found.append(f'{path}: "{header[4:]}" is fenced into {fence}')
+    return found
+
+
+def shape_complaints(path, text):
+    """What is wrong with a file's size, name or leftovers."""
+    found = []
+    lines = text.count("\n")
+    if lines > LINE_LIMIT:
+        found.append(f"{path}: {lines} lines, more than {LINE_LIMIT}: split it")
+    if LAZY_NAME.search(path.rsplit("/", 1)[-1]):
+        found.append(f"{path}: the name does not say what is in it")
+    for number, line in enumerate(text.splitlines(), 1):
+        if re.search(r"\b(TO" r"DO|FIX" r"ME)\b", line):
+            found.append(f"{path}:{number}: unfinished")
+    return found

@@ -1,0 +1,116 @@
+"""Who includes whom, third-party fences, sizes and names, on the whole tree; each rule also on a bad example."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+import rules
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+FOLDERS = ["include", "src", "cli", "bench", "bindings", "examples", "tests"]
+
+
+def tree(*endings):
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in endings and path.is_file():
+                yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+
+
+def test_includes():
+    complaints = [c for path, text in tree(".c", ".h") for c in rules.include_complaints(path, text)]
+    assert not complaints, "\n".join(complaints)
+
+
+def test_fences_do_not_leak():
+    complaints = rules.leak_complaints(dict(tree(".c", ".h")))
+    assert not complaints, "\n".join(complaints)
+
+
+def test_sizes_and_names():
+    complaints = [c for path, text in tree(".c", ".h", ".py", ".cmake") for c in rules.shape_complaints(path, text)]
+    assert not complaints, "\n".join(complaints)
+
+
+def test_every_layer_and_public_header_is_known():
+    folders = {p.name for p in (ROOT / "src").iterdir() if p.is_dir()}
+    assert folders == set(rules.LAYERS)
+    headers = {p.relative_to(ROOT / "include").as_posix() for p in (ROOT / "include/hooke").glob("*.h")}
+    assert headers == set(rules.PUBLIC)
+
+
+@pytest.mark.parametrize(
+    "path, line",
+    [
+        ("src/core/status.c", '#include "kernel/spring_loops.h"'),
+        ("src/core/status.c", '#include "hooke/system.h"'),
+        ("src/kernel/spring_loops.c", '#include "model/system.h"'),
+        ("src/model/system.c", '#include "integrate/method.h"'),
+        ("src/integrate/run.c", '#include "build/rope.h"'),
+        ("src/integrate/run.c", '#include "hooke/build.h"'),
+        ("src/build/rope.c", '#include "integrate/method.h"'),
+        ("src/measure/energy.c", '#include "io/scene.h"'),
+        ("src/measure/energy.c", '  #  include "hooke/io.h"'),
+        ("src/measure/energy.c", '#include "hooke.h"'),
+        ("src/measure/energy.c", '#include "energy.h"'),
+        ("src/measure/energy.c", '#include "../core/status.h"'),
+        ("src/kernel/spring_loops.c", '#include "kernel/body.c"'),
+        ("src/extra/new.c", '#include "core/status.h"'),
+        ("src/io/csv.c", "#include <jansson.h>"),
+        ("src/io/scene.h", "#include <jansson.h>"),
+        ("src/io/scene_json.c", "#include <hdf5.h>"),
+        ("src/io/trajectory_h5.c", "#include <jansson.h>"),
+        ("src/integrate/run.c", "#include <cvode/cvode.h>"),
+        ("src/measure/order.c", "#include <gsl/gsl_fit.h>"),
+        ("src/model/system.c", "#include <mpi.h>"),
+        ("src/model/system.c", "#include <cmocka.h>"),
+        ("include/hooke/io.h", "#include <hdf5.h>"),
+        ("include/hooke/base.h", "#include <stdbool.h>"),
+        ("include/hooke/base.h", '#include "core/status.h"'),
+        ("cli/main.c", '#include "core/status.h"'),
+        ("cli/main.c", "#include <jansson.h>"),
+        ("src/core/status.c", "#include <hooke.h>"),
+        ("tests/physics/test_order.c", '#include "model/system.h"'),
+    ],
+)
+def test_planted_include(path, line):
+    assert rules.include_complaints(path, "/* a */\n" + line + "\n")
+
+
+def test_planted_leak():
+    files = {"src/io/file_h5.h": "#include <hdf5.h>\n", "src/io/group_h5.c": '#include "io/file_h5.h"\n'}
+    assert rules.leak_complaints(files) == []
+    assert rules.leak_complaints(files | {"src/io/report.c": '#include "io/file_h5.h"\n'})
+
+
+@pytest.mark.parametrize(
+    "path, line",
+    [
+        ("src/io/scene_json_parts.c", "#include <jansson.h>"),
+        ("src/io/trajectory_h5.c", "#include <hdf5.h>"),
+        ("src/integrate/cvode_linear.c", "#include <sunlinsol/sunlinsol_spgmr.h>"),
+        ("src/measure/order_gsl.c", "#include <gsl/gsl_fit.h>"),
+        ("src/io/report.c", '#include "build/rope.h"'),
+        ("src/measure/energy.c", '#include "hooke/integrator.h"'),
+        ("src/core/status.c", '/* #include "io/scene.h" */'),
+        ("tests/unit/test_status.c", '#include "core/status.h"'),
+        ("cli/main.c", '#include "hooke.h"'),
+        ("cli/main.c", "#include <hooke.h>"),
+    ],
+)
+def test_allowed_include(path, line):
+    assert rules.include_complaints(path, line + "\n") == []
+
+
+@pytest.mark.parametrize(
+    "path, text",
+    [
+        ("src/model/system.c", "\n" * 801),
+        ("src/core/utils.c", "\n"),
+        ("src/core/string_helpers.h", "\n"),
+        ("src/core/status.c", "/* TO" "DO: later */\n"),
+    ],
+)
+def test_planted_shape(path, text):
+    assert rules.shape_complaints(path, text)

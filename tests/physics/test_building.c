@@ -1,0 +1,257 @@
+/* Calls that build a system refuse what makes no sense, name the culprit, and leave the system as it was. */
+#include "check.h"
+#include "small.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double place[] = {0, 0, 0, 1, 0, 0, 2, 0, 0};
+
+static hooke_system *three(void) {
+  return small_system(3, place, NULL, 1.0, 0);
+}
+
+static void test_particles(void **unused) {
+  (void)unused;
+  const double bad_place[] = {0, 0, 0, 1, NAN, 0}, bad_velocity[] = {0, 0, 0, 0, 0, INFINITY};
+  const double mass = 1.0, none = 0.0, negative[] = {1.0, -2.5}, masses[] = {1, 2, 3};
+  hooke_system *system = three();
+  check_status(hooke_system_add_particles(system, 2, bad_place, NULL, 1, &mass, NULL), HOOKE_BAD_VALUE);
+  check_message("position[1][1]");
+  check_message("nan");
+  check_status(hooke_system_add_particles(system, 2, place, bad_velocity, 1, &mass, NULL), HOOKE_BAD_VALUE);
+  check_message("velocity[1][2]");
+  check_status(hooke_system_add_particles(system, 2, place, NULL, 1, &none, NULL), HOOKE_BAD_VALUE);
+  check_message("mass");
+  check_message("> 0");
+  check_status(hooke_system_add_particles(system, 2, place, NULL, 2, negative, NULL), HOOKE_BAD_VALUE);
+  check_message("mass[1]");
+  check_message("-2.5");
+  check_status(hooke_system_add_particles(system, 2, place, NULL, 3, masses, NULL), HOOKE_BAD_VALUE);
+  check_message("3 masses");
+  check_status(hooke_system_add_particles(system, -1, place, NULL, 1, &mass, NULL), HOOKE_BAD_VALUE);
+  check_message("-1");
+  assert_int_equal(hooke_system_particle_count(system), 3);
+  hooke_system_destroy(system);
+}
+
+static hooke_options *spring_options(const char *name, double value) {
+  hooke_options *options = NULL;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
+  if (name != NULL) check_ok(hooke_options_set_number(options, name, value));
+  return options;
+}
+
+static void refuse_springs(int64_t count, const int64_t *ends, const hooke_options *options,
+                           const char *culprit, const char *value) {
+  hooke_system *system = three();
+  check_status(hooke_system_add_springs(system, "edges", count, ends, options), HOOKE_BAD_VALUE);
+  check_message(culprit);
+  check_message(value);
+  /* unchanged: it takes a good group and commits */
+  const int64_t good[] = {0, 2};
+  small_springs(system, 1, good, (struct springs){.stiffness = 1, .rest_length = -1});
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_spring_count(system), 1);
+  assert_int_equal(hooke_system_group_count(system), 1);
+  hooke_system_destroy(system);
+}
+
+static void test_springs(void **unused) {
+  (void)unused;
+  const int64_t outside[] = {0, 1, 1, 7}, below[] = {-1, 2}, same[] = {0, 1, 2, 2}, good[] = {0, 1, 1, 2};
+  const double three_values[] = {1, 2, 3}, with_zero[] = {1, 0};
+  hooke_options *options = spring_options(NULL, 0.0);
+  refuse_springs(2, outside, options, "between[1][1]", "7");
+  refuse_springs(1, below, options, "between[0][0]", "-1");
+  refuse_springs(2, same, options, "between[1]", "particle 2");
+  check_ok(hooke_options_set_numbers(options, "stiffness", 3, three_values));
+  refuse_springs(2, good, options, "stiffness", "3 values");
+  hooke_options_destroy(options);
+
+  options = spring_options("rest_length", 0.0);
+  refuse_springs(2, good, options, "rest_length", "strain");
+  check_ok(hooke_options_set_numbers(options, "rest_length", 2, with_zero));
+  refuse_springs(2, good, options, "rest_length[1]", "0");
+  hooke_options_destroy(options);
+
+  check_ok(hooke_spring_options_create(&options)); /* no stiffness */
+  refuse_springs(2, good, options, "stiffness", "");
+  hooke_options_destroy(options);
+}
+
+/* Ends at one place have no initial length for the strain law. */
+static void test_initial_length_of_nothing(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
+  const int64_t ends[] = {0, 1, 1, 2};
+  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
+  hooke_options *options = spring_options(NULL, 0.0);
+  check_status(hooke_system_add_springs(system, "edges", 2, ends, options), HOOKE_BAD_VALUE);
+  check_message("[1]");
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_system_add_springs(system, "edges", 2, ends, options));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static void test_spring_options(void **unused) {
+  (void)unused;
+  hooke_options *options = spring_options(NULL, 0.0);
+  const double bad[] = {1.0, -3.0};
+  check_status(hooke_options_set_number(options, "stiffness", -5.0), HOOKE_BAD_VALUE);
+  check_message("stiffness");
+  check_message("-5");
+  check_status(hooke_options_set_numbers(options, "damping", 2, bad), HOOKE_BAD_VALUE);
+  check_message("-3");
+  check_status(hooke_options_set_number(options, "rest_scale", 0.0), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_number(options, "stiffness", NAN), HOOKE_BAD_VALUE);
+  check_status(hooke_options_set_text(options, "law", "hooke"), HOOKE_BAD_VALUE);
+  check_message("strain");
+  check_message("length");
+  check_status(hooke_options_set_number(options, "stifness", 1.0), HOOKE_BAD_VALUE);
+  check_message("stifness");
+  check_close(hooke_options_number(options, "stiffness"), 10.0, 0.0); /* kept */
+  hooke_options_destroy(options);
+}
+
+static void test_pins_and_drives(void **unused) {
+  (void)unused;
+  const int64_t outside[] = {0, 3}, one = 1, two = 2, twice[] = {0, 0};
+  const double amplitude[] = {1, 0, 0}, lost[] = {1, NAN, 0}, time[] = {0, 1, 1}, moved[9] = {0};
+  hooke_system *system = three();
+  check_status(hooke_system_pin(system, 2, outside), HOOKE_BAD_VALUE);
+  check_message("pinned[1]");
+  check_message("3");
+  check_ok(hooke_system_pin(system, 1, &one));
+  check_ok(hooke_system_pin(system, 1, &one)); /* twice is allowed */
+  check_status(hooke_system_drive_harmonic(system, 1, &one, amplitude, 1.0, 0.0), HOOKE_BAD_VALUE);
+  check_message("particle 1");
+  check_message("pinned");
+  check_status(hooke_system_drive_harmonic(system, 2, twice, amplitude, 1.0, 0.0), HOOKE_BAD_VALUE);
+  check_message("particle 0");
+  check_status(hooke_system_drive_harmonic(system, 1, &two, lost, 1.0, 0.0), HOOKE_BAD_VALUE);
+  check_message("amplitude[1]");
+  check_status(hooke_system_drive_harmonic(system, 1, &two, amplitude, INFINITY, 0.0), HOOKE_BAD_VALUE);
+  check_message("frequency");
+  check_status(hooke_system_drive_table(system, 1, &two, 3, time, moved), HOOKE_BAD_VALUE);
+  check_message("time[2]");
+  check_status(hooke_system_drive_table(system, 1, &two, 1, time, moved), HOOKE_BAD_VALUE);
+  check_message("2 or more");
+  check_ok(hooke_system_drive_table(system, 1, &two, 2, time, moved));
+  check_status(hooke_system_drive_harmonic(system, 1, &two, amplitude, 1.0, 0.0), HOOKE_BAD_VALUE);
+  check_message("driven");
+  check_status(hooke_system_pin(system, 1, &two), HOOKE_BAD_VALUE);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_free_count(system), 1);
+  assert_true(hooke_system_inverse_mass(system)[0] == 1.0);
+  assert_true(hooke_system_inverse_mass(system)[1] == 0.0 && hooke_system_inverse_mass(system)[2] == 0.0);
+  hooke_system_destroy(system);
+}
+
+static void test_gravity_and_drag(void **unused) {
+  (void)unused;
+  const double gravity[] = {0, 0, -INFINITY};
+  hooke_system *system = three();
+  check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_VALUE);
+  check_message("gravity[2]");
+  check_status(hooke_system_set_drag(system, -0.5), HOOKE_BAD_VALUE);
+  check_message("-0.5");
+  check_status(hooke_system_set_drag(system, NAN), HOOKE_BAD_VALUE);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_force_count(system), 0);
+  hooke_system_destroy(system);
+}
+
+/* A pinned particle that was given a velocity is refused at commit; the system stays open. */
+static void test_moving_pin(void **unused) {
+  (void)unused;
+  const double v[] = {0, 0, 0, 0, 0.25, 0, 0, 0, 0};
+  const int64_t one = 1;
+  hooke_system *system = small_system(3, place, v, 1.0, 0);
+  check_ok(hooke_system_pin(system, 1, &one));
+  check_status(hooke_system_commit(system), HOOKE_BAD_VALUE);
+  check_message("particle 1");
+  check_message("0.25");
+  assert_int_equal(hooke_system_is_committed(system), 0);
+  check_ok(hooke_system_set_drag(system, 1.0)); /* still open */
+  hooke_system_destroy(system);
+}
+
+static void test_calls_out_of_order(void **unused) {
+  (void)unused;
+  const double gravity[] = {0, 0, 1}, mass = 1.0;
+  const int64_t ends[] = {0, 1}, one = 1;
+  double out[9];
+  hooke_state *state = NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_options *options = spring_options(NULL, 0.0), *run = NULL;
+  hooke_system *system = three();
+  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_set_number(run, "step", 0.1));
+  check_status(hooke_system_force(system, 0.0, place, place, out), HOOKE_BAD_CALL);
+  check_status(hooke_system_acceleration(system, 0.0, place, place, out), HOOKE_BAD_CALL);
+  check_status(hooke_state_create(system, &state), HOOKE_BAD_CALL);
+  check_status(hooke_integrator_create(system, run, &integrator), HOOKE_BAD_CALL);
+  assert_true(isnan(hooke_system_energy(system, place, place)));
+  assert_null(hooke_system_mass(system));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_system_commit(system), HOOKE_BAD_CALL);
+  check_status(hooke_system_add_particles(system, 1, place, NULL, 1, &mass, NULL), HOOKE_BAD_CALL);
+  check_status(hooke_system_add_springs(system, NULL, 1, ends, options), HOOKE_BAD_CALL);
+  check_status(hooke_system_pin(system, 1, &one), HOOKE_BAD_CALL);
+  check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_CALL);
+  check_status(hooke_system_set_drag(system, 1.0), HOOKE_BAD_CALL);
+  check_status(hooke_system_drive_harmonic(system, 1, &one, gravity, 1.0, 0.0), HOOKE_BAD_CALL);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+/* Groups keep their order, names and sizes; springs are numbered through them. */
+static void test_spring_numbers(void **unused) {
+  (void)unused;
+  const int64_t first[] = {2, 0}, second[] = {0, 1, 1, 2}, expected[] = {2, 0, 0, 1, 1, 2};
+  int64_t ends[6];
+  double kappa[3], gamma[3], rest[3];
+  hooke_system *system = three();
+  hooke_options *options = spring_options("damping", 0.5);
+  check_ok(hooke_system_add_springs(system, "long", 1, first, options));
+  check_ok(hooke_options_set_number(options, "rest_scale", 0.5));
+  check_ok(hooke_system_add_springs(system, NULL, 2, second, options));
+  check_status(hooke_system_spring_ends(system, ends), HOOKE_BAD_CALL);
+  check_ok(hooke_system_commit(system));
+  check_ok(hooke_system_spring_ends(system, ends));
+  check_ok(hooke_system_spring_material(system, kappa, gamma, rest));
+  assert_memory_equal(ends, expected, sizeof ends);
+  const double expected_kappa[] = {5, 20, 20}, expected_gamma[] = {0.25, 1, 1},
+               expected_rest[] = {2, 0.5, 0.5};
+  check_same_bits(3, kappa, expected_kappa);
+  check_same_bits(3, gamma, expected_gamma);
+  check_same_bits(3, rest, expected_rest);
+  assert_int_equal(hooke_system_group_count(system), 2);
+  assert_string_equal(hooke_system_group_name(system, 0), "long");
+  assert_string_equal(hooke_system_group_name(system, 1), "");
+  assert_null(hooke_system_group_name(system, 2));
+  assert_int_equal(hooke_system_group_size(system, 0), 1);
+  assert_int_equal(hooke_system_group_size(system, 1), 2);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_particles),
+      cmocka_unit_test(test_springs),
+      cmocka_unit_test(test_initial_length_of_nothing),
+      cmocka_unit_test(test_spring_options),
+      cmocka_unit_test(test_pins_and_drives),
+      cmocka_unit_test(test_gravity_and_drag),
+      cmocka_unit_test(test_moving_pin),
+      cmocka_unit_test(test_calls_out_of_order),
+      cmocka_unit_test(test_spring_numbers),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

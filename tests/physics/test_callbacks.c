@@ -1,0 +1,191 @@
+/* Force callbacks: their derivative, their stop value, and their place in the sum. */
+#include "check.h"
+#include "random_scene.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- cvode-bdf with the callback's derivative and without ---- */
+
+static void solve(int32_t with_product, double **q, int64_t *size, int64_t *calls) {
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = 99,
+                                                    .particles = 60,
+                                                    .springs = 150,
+                                                    .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT,
+                                                    .with_product = with_product},
+                      &scene);
+  *size = 3 * scene.canonical.particle_count;
+  *q = new_doubles(*size);
+  hooke_integrator *integrator = start_run(
+      scene.system, (struct run){.method = "cvode-bdf", .rtol = 1e-9, .atol = 1e-11, .duration = 0.5});
+  hooke_state *state = start_state(scene.system);
+  check_ok(hooke_integrator_run(integrator, state));
+  memcpy(*q, hooke_state_position(state), (size_t)*size * sizeof(double));
+  *calls = hooke_integrator_count(integrator, "force_evaluations");
+  assert_true(hooke_integrator_count(integrator, "derivative_products") > 0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  random_scene_destroy(&scene);
+}
+
+static void test_same_solution_with_product(void **unused) {
+  (void)unused;
+  if (hooke_method_is_built("cvode-bdf") != 1) skip();
+  double *with, *without, *start;
+  int64_t size, calls;
+  solve(1, &with, &size, &calls);
+  solve(0, &without, &size, &calls);
+  check_between(largest_difference(size, with, without) / largest(size, with), 0.0, 1e-6);
+  start = new_doubles(size);
+  assert_true(largest_difference(size, with, start) > 0.1);
+  free(with);
+  free(without);
+  free(start);
+}
+
+/* ---- a linear force, whose derivative is known: difference quotients have to find it ---- */
+
+struct linear {
+  int64_t force_calls, product_calls;
+};
+
+static int32_t linear_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct linear *linear = ctx;
+  (void)t;
+  linear->force_calls++;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] += -7.0 * q[(k + 1) % (3 * n)] - 0.3 * v[k];
+  return 0;
+}
+
+static int32_t linear_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                              const double *dv, double *out, void *ctx) {
+  struct linear *linear = ctx;
+  (void)q;
+  (void)v;
+  linear->product_calls++;
+  return linear_force(n, t, dq, dv, out, ctx);
+}
+
+static void test_difference_quotients(void **unused) {
+  (void)unused;
+  const double q[] = {1, -2, 3, 100, 0.5, -40}, v[] = {0, 1, 0, -3, 0, 5}, dq[] = {1, 2, -1, 0.5, 0, 3},
+               dv[] = {0.25, 0, -4, 1, 1, 1};
+  for (int with = 0; with < 2; with++) {
+    struct linear linear = {0, 0};
+    double out[6], expected[6] = {0};
+    hooke_system *system = small_system(2, q, v, 1.0, 0);
+    check_ok(hooke_system_set_force(system, linear_force, with ? linear_product : NULL, &linear));
+    check_ok(hooke_system_commit(system));
+    check_ok(hooke_system_derivative_product(system, 0.0, q, v, dq, dv, out));
+    assert_int_equal(linear.product_calls, with);
+    assert_true(linear.force_calls >= 1);
+    linear_force(2, 0.0, dq, dv, expected, &linear);
+    check_between(largest_difference(6, out, expected) / largest(6, expected), 0.0, with ? 1e-15 : 1e-7);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- the order of the sum, and what a callback is shown ---- */
+
+struct shown {
+  int64_t calls;
+  double t, q[6], v[6], force[6];
+};
+
+static int32_t look(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct shown *shown = ctx;
+  assert_int_equal(n, 2);
+  shown->calls++;
+  shown->t = t;
+  memcpy(shown->q, q, sizeof shown->q);
+  memcpy(shown->v, v, sizeof shown->v);
+  memcpy(shown->force, force, sizeof shown->force);
+  force[4] += 1.0;
+  return 0;
+}
+
+static void test_what_a_callback_sees(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 2, 0, 0}, v[] = {0, 1, 0, 0, 0, 3}, gravity[] = {0, 0, -10};
+  const int64_t ends[] = {0, 1};
+  struct shown shown = {0};
+  double a[6];
+  hooke_system *system = small_system(2, q, v, 2.0, 0);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 4, .rest_length = 1});
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_set_drag(system, 0.5));
+  check_ok(hooke_system_set_force(system, look, NULL, &shown));
+  check_ok(hooke_system_commit(system));
+  check_ok(hooke_system_acceleration(system, 0.75, q, v, a));
+  assert_int_equal(shown.calls, 1);
+  check_close(shown.t, 0.75, 0.0);
+  check_same_bits(6, shown.q, q);
+  check_same_bits(6, shown.v, v);
+  /* springs and drag are in, gravity is not */
+  const double before[] = {4, -0.5, 0, -4, 0, -1.5}, after[] = {2, -0.25, -10, -2, 0.5, -10.75};
+  check_same_bits(6, shown.force, before);
+  check_same_bits(6, a, after);
+  hooke_system_destroy(system);
+}
+
+/* ---- a callback that stops ---- */
+
+static int32_t stop_after(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n;
+  (void)q;
+  (void)v;
+  force[0] += 1.0;
+  return t > *(const double *)ctx ? 1234 : 0;
+}
+
+static void test_force_stops(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0};
+  double limit = 0.45;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (hooke_method_is_built(method) != 1) continue;
+    hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+    check_ok(hooke_system_set_force(system, stop_after, NULL, &limit));
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator =
+        start_run(system, (struct run){.method = method, .step = 0.125, .duration = 2.0, .every = 0.25});
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+    check_message("1234");
+    assert_int_equal(hooke_integrator_stop_value(integrator), 1234);
+    if (is_fixed_step(method))
+      check_close(hooke_state_time(state), 0.5, 0.0);
+    else
+      check_between(hooke_state_time(state), 0.0, 0.45);
+    /* x = t^2/2 under a unit force, whatever the method made of it */
+    const double t = hooke_state_time(state);
+    check_close(hooke_state_position(state)[0], t * t / 2.0, is_fixed_step(method) ? 0.125 * t : 1e-4);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+  limit = -1.0;
+  double force[3];
+  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  check_ok(hooke_system_set_force(system, stop_after, NULL, &limit));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
+  check_message("1234");
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_same_solution_with_product),
+      cmocka_unit_test(test_difference_quotients),
+      cmocka_unit_test(test_what_a_callback_sees),
+      cmocka_unit_test(test_force_stops),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+/* Comparisons: the figures of a row are what they say, methods stand in the right order, a diverged row
+ * stays. */
+#include "check.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static hooke_comparison *compare(const hooke_system *system, struct run run) {
+  hooke_comparison *comparison = NULL;
+  hooke_options *options = run_options(run);
+  const int32_t status = hooke_comparison_create(system, options, &comparison);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  return comparison;
+}
+
+static int64_t row_of(const hooke_comparison *comparison, const char *method) {
+  for (int64_t k = 0; k < hooke_comparison_row_count(comparison); k++) {
+    if (strcmp(hooke_comparison_text(comparison, k, "method"), method) == 0) return k;
+  }
+  check_failed("no row of %s", method);
+  return -1;
+}
+
+static double figure(const hooke_comparison *comparison, const char *method, const char *what) {
+  return hooke_comparison_number(comparison, row_of(comparison, method), what);
+}
+
+/* Root mean square over free particles of the distance to the 15-digit solution, of a run by itself. */
+static double true_error(const struct reference *reference, const hooke_system *system, struct run run) {
+  const struct reference_state *expected = NULL;
+  for (int64_t k = 0; k < reference->state_count; k++) {
+    if (fabs(reference->state[k].time - run.duration) < 1e-12) expected = &reference->state[k];
+  }
+  assert_non_null(expected);
+  const int64_t n = reference->particle_count;
+  double *q = new_doubles(3 * n), sum = 0.0, count = 0.0;
+  run_to_end(system, run, q, NULL);
+  for (int64_t p = 0; p < n; p++) {
+    if (hooke_system_inverse_mass(system)[p] == 0.0) continue;
+    for (int a = 0; a < 3; a++)
+      sum += pow(q[3 * p + a] - expected->position[3 * p + a], 2.0);
+    count += 1.0;
+  }
+  free(q);
+  return sqrt(sum / count);
+}
+
+static void errors_are_true_errors(void **unused) {
+  (void)unused;
+  const struct reference *reference = find_reference("six-particles");
+  hooke_system *system = build_reference(reference);
+  const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
+  hooke_comparison *comparison = compare(system, run);
+  check_ok(hooke_comparison_run(comparison));
+  assert_int_equal(hooke_comparison_row_count(comparison), hooke_method_count());
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    struct run alone = run;
+    alone.method = hooke_method_name(k);
+    const double expected = true_error(reference, system, alone);
+    const double found = figure(comparison, alone.method, "error_final");
+    check_between(found, 0.95 * expected, 1.05 * expected);
+    assert_string_equal(hooke_comparison_text(comparison, k, "status"), "finished");
+  }
+  /* every figure bounds those it is a maximum of */
+  const int64_t row = row_of(comparison, "forward-euler");
+  const double *series = hooke_comparison_series(comparison, row, "error");
+  double most = 0.0;
+  assert_int_equal(hooke_comparison_frame_count(comparison), 11);
+  for (int f = 0; f < 11; f++)
+    most = fmax(most, series[f]);
+  check_close(hooke_comparison_number(comparison, row, "error"), most, 0.0);
+  check_close(hooke_comparison_number(comparison, row, "error_final"), series[10], 0.0);
+  assert_true(hooke_comparison_number(comparison, row, "error_max") >= most);
+  check_close(series[0], 0.0, 0.0);
+  check_close(hooke_comparison_series(comparison, row, "time")[10], 1.0, 1e-15);
+  /* error control is closer than a first-order method at this step, and forward Euler adds energy */
+  assert_true(figure(comparison, "cvode-adams", "error") <
+              0.1 * figure(comparison, "symplectic-euler", "error"));
+  assert_true(hooke_comparison_series(comparison, row, "energy_drift")[10] > 0.0);
+  assert_int_equal((int)figure(comparison, "symplectic-euler", "force_evaluations"), 1000);
+  hooke_comparison_destroy(comparison);
+  hooke_system_destroy(system);
+}
+
+static void a_diverged_row_stays(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(100.0);
+  hooke_comparison *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5});
+  check_ok(hooke_comparison_add(comparison, "symplectic-euler"));
+  check_ok(hooke_comparison_add(comparison, "cvode-adams"));
+  check_ok(hooke_comparison_run(comparison));
+  assert_int_equal(hooke_comparison_row_count(comparison), 2);
+  assert_string_equal(hooke_comparison_text(comparison, 0, "status"), "diverged");
+  assert_true(isnan(hooke_comparison_number(comparison, 0, "error")));
+  assert_true(isnan(hooke_comparison_series(comparison, 0, "error")[10]));
+  assert_string_equal(hooke_comparison_text(comparison, 1, "status"), "finished");
+  check_between(hooke_comparison_number(comparison, 1, "error"), 0.0, 0.1);
+  check_status(hooke_comparison_run(comparison), HOOKE_BAD_CALL);
+  check_status(hooke_comparison_add(comparison, "forward-euler"), HOOKE_BAD_CALL);
+  hooke_comparison_destroy(comparison);
+  hooke_system_destroy(system);
+}
+
+static int32_t stop_at_half(double done, const char *what, void *ctx) {
+  (void)what;
+  *(double *)ctx = done;
+  return done >= 0.5 ? 7 : 0;
+}
+
+static void progress_goes_on_and_stops(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_comparison *comparison = compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1});
+  double done = -1.0;
+  hooke_comparison_on_progress(comparison, stop_at_half, &done);
+  check_status(hooke_comparison_run(comparison), HOOKE_STOPPED);
+  check_between(done, 0.5, 1.0);
+  const int64_t last = hooke_comparison_row_count(comparison) - 1;
+  assert_string_equal(hooke_comparison_text(comparison, 0, "status"), "finished");
+  assert_string_equal(hooke_comparison_text(comparison, last, "status"), "not run");
+  hooke_comparison_destroy(comparison);
+  hooke_system_destroy(system);
+}
+
+static void bad_requests(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_comparison *comparison = compare(system, (struct run){.step = 1e-3});
+  check_status(hooke_comparison_run(comparison), HOOKE_BAD_VALUE);
+  check_message("duration");
+  check_status(hooke_comparison_add(comparison, "no-such-method"), HOOKE_BAD_VALUE);
+  hooke_comparison_destroy(comparison);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(errors_are_true_errors),
+      cmocka_unit_test(a_diverged_row_stays),
+      cmocka_unit_test(progress_goes_on_and_stops),
+      cmocka_unit_test(bad_requests),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,227 @@
+/* Runs that blow up end as "diverged", at the time that the rule predicts, with the last good state kept. */
+#include "canonical.h"
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The rule, on the canonical steps: the first check (every `stride` steps and every 1000) at which a number is not
+ * finite or E - E(0) > 100 (T(0) + U_springs(0) + the largest |U_gravity - U_gravity(0)| so far + M g^2 h^2 / 2), the
+ * last being what gravity gives free particles at rest in one step. 0 if there is none. */
+struct verdict {
+  int64_t step, good; /* where it shows, and the check before */
+};
+
+static struct verdict predict(const hooke_system *system, const double *gravity, const char *method, double h,
+                              int64_t steps, int64_t stride) {
+  struct canonical canonical;
+  struct verdict verdict = {0, 0};
+  hooke_state *state = start_state(system);
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  canonical_create(system, &canonical);
+  canonical.gravity = gravity;
+  const double springs = hooke_system_spring_energy(system, q),
+               kinetic = hooke_system_kinetic_energy(system, v);
+  const double start = hooke_system_energy(system, q, v), weight = hooke_system_gravity_energy(system, q);
+  double swing = 0.0, mass = 0.0, square = 0.0;
+  for (int64_t p = 0; p < canonical.particle_count; p++) {
+    if (canonical.inverse_mass[p] != 0.0) mass += hooke_system_mass(system)[p];
+  }
+  for (int a = 0; a < 3 && gravity != NULL; a++)
+    square += gravity[a] * gravity[a];
+  const double scale = kinetic + springs + mass * square * h * h / 2.0;
+  for (int64_t k = 1; k <= steps && verdict.step == 0; k++) {
+    assert_true(canonical_step(&canonical, method, (double)(k - 1) * h, h, q, v));
+    if (k % stride != 0 && k % 1000 != 0) continue;
+    swing = fmax(swing, fabs(hooke_system_gravity_energy(system, q) - weight));
+    const double rise = hooke_system_energy(system, q, v) - start;
+    if (!isfinite(rise) || rise > 100.0 * (scale + swing))
+      verdict.step = k;
+    else
+      verdict.good = k;
+  }
+  canonical_destroy(&canonical);
+  hooke_state_destroy(state);
+  return verdict;
+}
+
+static void compare_with_rule(const hooke_system *system, const double *gravity, const char *method, double h,
+                              int64_t steps, int64_t stride) {
+  const struct verdict expected = predict(system, gravity, method, h, steps, stride);
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  hooke_integrator *integrator = start_run(
+      system,
+      (struct run){.method = method, .step = h, .duration = (double)steps * h, .every = (double)stride * h});
+  hooke_state *state = start_state(system);
+  const int32_t status = hooke_integrator_run(integrator, state);
+  if (expected.step == 0) {
+    assert_int_equal(status, HOOKE_OK);
+    assert_true(isnan(hooke_integrator_diverged_at(integrator)));
+  } else {
+    check_status(status, HOOKE_DIVERGED);
+    check_message("diverged");
+    check_close(hooke_integrator_diverged_at(integrator), (double)expected.step * h, 0.0);
+    check_close(hooke_state_time(state), (double)expected.good * h, 0.0);
+    const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+    for (int64_t k = 0; k < size; k++)
+      assert_true(isfinite(q[k]) && isfinite(v[k]));
+    if (expected.good > 0) { /* the state kept is the one of that time, to the bit */
+      double *same = new_doubles(size);
+      run_to_end(system, (struct run){.method = method, .step = h, .duration = (double)expected.good * h},
+                 same, NULL);
+      check_same_bits(size, q, same);
+      free(same);
+    }
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+static void test_step_above_the_limit(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  const struct verdict at_limit = predict(system, NULL, "symplectic-euler", 0.21, 2000, 1);
+  check_between((double)at_limit.step, 3.0, 30.0);
+  const int64_t strides[] = {1, 3, 7, 2000};
+  for (int k = 0; k < 4; k++) {
+    compare_with_rule(system, NULL, "symplectic-euler", 0.21, 2000, strides[k]); /* 2/omega is 0.2 */
+    compare_with_rule(system, NULL, "symplectic-euler", 0.19, 2000, strides[k]);
+    compare_with_rule(system, NULL, "symplectic-euler", 0.9, 2000,
+                      strides[k]); /* beyond every number in 1000 steps */
+    compare_with_rule(system, NULL, "forward-euler", 0.02, 2000, strides[k]);
+  }
+  assert_int_equal(predict(system, NULL, "symplectic-euler", 0.19, 2000, 1).step, 0);
+  hooke_system_destroy(system);
+}
+
+/* Between frames the check comes every 1000 steps. */
+static void test_check_every_thousand(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "forward-euler", .step = 0.01, .duration = 30.0, .every = 30.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  check_close(hooke_integrator_diverged_at(integrator), 10.0, 0.0);
+  check_close(hooke_state_time(state), 0.0, 0.0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* A long fall gains more than 100 times what springs and motion held at first: gravity's own swing allows for it. */
+static void test_falling_is_not_diverging(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 100, .rest_length = 0.999});
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(predict(system, gravity, "forward-euler", 1e-3, 3000, 10).step, 0);
+  compare_with_rule(system, gravity, "forward-euler", 1e-3, 3000, 10);
+  compare_with_rule(system, gravity, "symplectic-euler", 1e-3, 3000, 10);
+  compare_with_rule(system, gravity, "symplectic-euler", 0.2, 3000, 10); /* 2/omega is 0.141 */
+  hooke_system_destroy(system);
+}
+
+/* Forward Euler gives particles at rest a velocity before they have moved: nothing to compare it with yet, and still no
+ * divergence, at any step. */
+static void test_first_step_of_a_fall(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
+  const int64_t ends[] = {0, 1};
+  for (double h = 1.0; h > 1e-6; h /= 8.0) {
+    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    small_springs(system, 1, ends, (struct springs){.stiffness = 1, .rest_length = 1.0});
+    check_ok(hooke_system_set_gravity(system, gravity));
+    check_ok(hooke_system_commit(system));
+    compare_with_rule(system, gravity, "forward-euler", h, 1000, 1);
+    assert_int_equal(predict(system, gravity, "forward-euler", h, 1000, 1).step, 0);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- with a callback the energy proves nothing, numbers that are not finite do ---- */
+
+static int32_t push(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  const double *from = ctx;
+  (void)q;
+  (void)v;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] += t >= from[0] ? from[1] : 0.0;
+  return 0;
+}
+
+static int32_t run_pushed(double strength, double *diverged_at, double *end) {
+  const double q[] = {0, 0, 0};
+  double from[] = {0.5, strength};
+  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  check_ok(hooke_system_set_force(system, push, NULL, from));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.0625, .duration = 1.0, .every = 0.125});
+  hooke_state *state = start_state(system);
+  const int32_t status = hooke_integrator_run(integrator, state);
+  *diverged_at = hooke_integrator_diverged_at(integrator);
+  *end = hooke_state_time(state);
+  for (int k = 0; k < 3; k++)
+    assert_true(isfinite(hooke_state_position(state)[k]));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static void test_callbacks(void **unused) {
+  (void)unused;
+  double diverged_at, end;
+  assert_int_equal(run_pushed(1e9, &diverged_at, &end), HOOKE_OK);
+  assert_true(isnan(diverged_at));
+  check_close(end, 1.0, 0.0);
+  assert_int_equal(run_pushed(NAN, &diverged_at, &end), HOOKE_DIVERGED);
+  check_close(diverged_at, 0.625, 0.0); /* the step from 0.5 is the first wrong one; the next frame sees it */
+  check_close(end, 0.5, 0.0);
+  assert_int_equal(run_pushed(-INFINITY, &diverged_at, &end), HOOKE_DIVERGED);
+  check_close(diverged_at, 0.625, 0.0);
+}
+
+/* First-order problems have no energy either. */
+static int32_t explode(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)t;
+  (void)ctx;
+  for (int64_t k = 0; k < n; k++)
+    rate[k] = 1e10 * x[k];
+  return 0;
+}
+
+static void test_first_order(void **unused) {
+  (void)unused;
+  hooke_state *state = NULL;
+  check_ok(hooke_state_create_first_order(1, &state));
+  hooke_state_position(state)[0] = 1.0;
+  hooke_integrator *integrator = start_first_order(
+      1, explode, NULL,
+      (struct run){.method = "forward-euler", .step = 1.0, .duration = 100.0, .every = 1.0});
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  check_close(hooke_integrator_diverged_at(integrator), 31.0, 0.0); /* 1e310 is no number */
+  check_close(hooke_state_time(state), 30.0, 0.0);
+  check_between(hooke_state_position(state)[0], 9e299, 1.1e300);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_step_above_the_limit),
+      cmocka_unit_test(test_check_every_thousand),
+      cmocka_unit_test(test_falling_is_not_diverging),
+      cmocka_unit_test(test_first_step_of_a_fall),
+      cmocka_unit_test(test_callbacks),
+      cmocka_unit_test(test_first_order),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,169 @@
+/* Every method against solutions to 15 digits. */
+#include "check.h"
+#include "order.h"
+#include "reference.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- error-controlled methods: every reference state, at frames of one run ---- */
+
+struct visit {
+  const struct reference *reference;
+  const char *method;
+  int64_t seen;
+};
+
+static void compare_state(const struct visit *visit, const struct reference_state *expected,
+                          const hooke_state *state) {
+  hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
+  const int64_t size = 3 * visit->reference->particle_count;
+  const double error = largest_difference(size, hooke_state_position(seen), expected->position);
+  const double size_of_x = largest(size, expected->position);
+  if (error <= 1e-7 * size_of_x) return;
+  check_failed("%s by %s at t = %g s: the error %.3g m is above 1e-7 of %.3g m", visit->reference->name,
+               visit->method, expected->time, error, size_of_x);
+}
+
+static int32_t at_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct visit *visit = ctx;
+  (void)step;
+  for (int64_t k = 0; k < visit->reference->state_count; k++) {
+    const struct reference_state *expected = &visit->reference->state[k];
+    if (fabs(hooke_state_time(state) - expected->time) > 1e-9) continue;
+    compare_state(visit, expected, state);
+    visit->seen++;
+  }
+  return 0;
+}
+
+static void reach_references(const char *method) {
+  if (hooke_method_is_built(method) != 1) skip();
+  for (int k = 0; k < REFERENCE_COUNT; k++) {
+    struct visit visit = {&references[k], method, 0};
+    hooke_system *system = build_reference(&references[k]);
+    const double end = references[k].state[references[k].state_count - 1].time;
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = method, .rtol = 1e-10, .atol = 1e-12, .duration = end, .every = 0.05});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(visit.seen, references[k].state_count);
+    compare_state(&visit, &references[k].state[references[k].state_count - 1], state);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+static void test_adams(void **unused) {
+  (void)unused;
+  reach_references("cvode-adams");
+}
+
+static void test_bdf(void **unused) {
+  (void)unused;
+  reach_references("cvode-bdf");
+}
+
+/* ---- the energies of the states themselves ---- */
+
+static void test_energies(void **unused) {
+  (void)unused;
+  for (int k = 0; k < REFERENCE_COUNT; k++) {
+    hooke_system *system = build_reference(&references[k]);
+    for (int64_t s = 0; s < references[k].state_count; s++) {
+      const struct reference_state *state = &references[k].state[s];
+      const double scale = state->kinetic_energy + state->spring_energy + fabs(state->gravity_energy);
+      check_close(hooke_system_kinetic_energy(system, state->velocity), state->kinetic_energy, 1e-13 * scale);
+      check_close(hooke_system_gravity_energy(system, state->position), state->gravity_energy, 1e-13 * scale);
+      check_close(hooke_system_spring_energy(system, state->position), state->spring_energy, 1e-11 * scale);
+    }
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- order 1, over four halvings ---- */
+
+struct ladder {
+  const char *scene, *method;
+  double coarsest; /* in the range where the error is proportional to the step */
+  int64_t state;   /* which reference state */
+};
+
+static void climb(struct ladder ladder) {
+  const struct reference *reference = find_reference(ladder.scene);
+  const struct reference_state *expected = &reference->state[ladder.state];
+  const int64_t size = 3 * reference->particle_count;
+  hooke_system *system = build_reference(reference);
+  double *q = new_doubles(size), error[5];
+  double step = ladder.coarsest;
+  for (int k = 0; k < 5; k++, step /= 2.0) {
+    run_to_end(system, (struct run){.method = ladder.method, .step = step, .duration = expected->time}, q,
+               NULL);
+    error[k] = largest_difference(size, q, expected->position);
+  }
+  char what[128];
+  snprintf(what, sizeof what, "%s by %s from h = %g s", ladder.scene, ladder.method, ladder.coarsest);
+  check_order(what, 5, error, 0.9, 1.15);
+  free(q);
+  hooke_system_destroy(system);
+}
+
+static void test_order_of_forward_euler(void **unused) {
+  (void)unused;
+  const struct ladder ladders[] = {
+      {"oscillator", "forward-euler", 1e-3, 1},       {"six-particles", "forward-euler", 2.5e-3, 1},
+      {"elastic-pendulum", "forward-euler", 2e-5, 0}, {"rope-12", "forward-euler", 2e-5, 0},
+      {"chain-16", "forward-euler", 1e-3, 0},
+  };
+  for (size_t k = 0; k < sizeof ladders / sizeof ladders[0]; k++)
+    climb(ladders[k]);
+}
+
+static void test_order_of_symplectic_euler(void **unused) {
+  (void)unused;
+  const struct ladder ladders[] = {
+      {"oscillator", "symplectic-euler", 1e-3, 1},       {"six-particles", "symplectic-euler", 2.5e-3, 1},
+      {"elastic-pendulum", "symplectic-euler", 5e-4, 0}, {"rope-12", "symplectic-euler", 1e-4, 0},
+      {"chain-16", "symplectic-euler", 5e-3, 0},
+  };
+  for (size_t k = 0; k < sizeof ladders / sizeof ladders[0]; k++)
+    climb(ladders[k]);
+}
+
+/* ---- the errors that the two methods must have, to 6 digits ---- */
+
+static void test_known_errors(void **unused) {
+  (void)unused;
+  const struct reference *reference = find_reference("six-particles");
+  const struct reference_state *expected = &reference->state[1];
+  check_close(expected->time, 1.0, 0.0);
+  hooke_system *system = build_reference(reference);
+  double q[18];
+  for (int m = 0; m < REFERENCE_ERROR_COUNT; m++) {
+    for (int k = 0; k < 5; k++) {
+      const struct run run = {.method = reference_errors[m].method, .step = 1.0 / (50 << k), .duration = 1.0};
+      run_to_end(system, run, q, NULL);
+      const double error = largest_difference(18, q, expected->position),
+                   known = reference_errors[m].error[k];
+      check_between(error / known, 1.0 - 5e-7, 1.0 + 5e-7);
+    }
+  }
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_energies),
+      cmocka_unit_test(test_known_errors),
+      cmocka_unit_test(test_order_of_forward_euler),
+      cmocka_unit_test(test_order_of_symplectic_euler),
+      cmocka_unit_test(test_adams),
+      cmocka_unit_test(test_bdf),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,394 @@
+/* The run loop: frames, times, observers, energies and counts. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- frames ---- */
+
+struct frames {
+  double start, step;
+  int64_t stride; /* steps between frames */
+  int64_t seen;
+};
+
+static int32_t check_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct frames *frames = ctx;
+  const double t = hooke_state_time(state), expected = frames->start + (double)step * frames->step;
+  assert_int_equal(step, frames->seen * frames->stride);
+  check_same_bits(1, &t, &expected);
+  frames->seen++;
+  return 0;
+}
+
+static void test_frames(void **unused) {
+  (void)unused;
+  const struct {
+    double step, duration, every, start;
+    int64_t stride, count;
+  } cases[] = {
+      {0.01, 1.0, 0.05, 0.0, 5, 21},     {0.01, 1.0, 0.0, 0.0, 1, 101}, /* about duration/100 */
+      {0.3, 3.0, 0.0, 0.7, 1, 11},                                      /* at least one step */
+      {0.001, 1.234, 0.0, 0.1, 12, 103}, /* 12.34 steps, and a last piece that is no frame */
+      {0.1, 1.0, 0.3, 0.0, 3, 4},        {0.1, 0.7, 0.7, -3.3, 7, 2},
+  };
+  hooke_system *system = small_oscillator(1.0);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct frames frames = {cases[k].start, cases[k].step, cases[k].stride, 0};
+    hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler",
+                                                                  .step = cases[k].step,
+                                                                  .duration = cases[k].duration,
+                                                                  .every = cases[k].every});
+    hooke_state *state = start_state(system);
+    hooke_state_set_time(state, cases[k].start);
+    assert_int_equal(hooke_integrator_frame_count(integrator), cases[k].count);
+    check_close(hooke_options_number(hooke_integrator_options(integrator), "every"),
+                (double)cases[k].stride * cases[k].step, 1e-15);
+    check_ok(hooke_integrator_on_frame(integrator, check_frame, &frames));
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(frames.seen, cases[k].count);
+    const double steps = round(cases[k].duration / cases[k].step);
+    const double end = hooke_state_time(state), expected = cases[k].start + steps * cases[k].step;
+    check_same_bits(1, &end, &expected);
+    assert_int_equal(hooke_integrator_count(integrator, "steps"), (int64_t)steps);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+/* A million steps of 0.1: a running sum would be off by 1e-6 s. */
+static void test_time_does_not_drift(void **unused) {
+  (void)unused;
+  struct frames frames = {0.3, 0.1, 1000, 0};
+  hooke_system *system = small_oscillator(1.0);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 100000.0, .every = 100.0});
+  hooke_state *state = start_state(system);
+  hooke_state_set_time(state, 0.3);
+  check_ok(hooke_integrator_on_frame(integrator, check_frame, &frames));
+  check_ok(hooke_integrator_run(integrator, state));
+  assert_int_equal(frames.seen, 1001);
+  assert_true(hooke_state_time(state) == 0.3 + 1e6 * 0.1);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+static void refuse_run(struct run run, const char *culprit, const char *below, const char *above) {
+  hooke_system *system = small_oscillator(1.0);
+  hooke_options *options = run_options(run);
+  hooke_integrator *integrator = NULL;
+  check_status(hooke_integrator_create(system, options, &integrator), HOOKE_BAD_VALUE);
+  assert_null(integrator);
+  check_message(culprit);
+  check_message(below);
+  check_message(above);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static void test_steps_that_do_not_fit(void **unused) {
+  (void)unused;
+  const char *method = "symplectic-euler";
+  refuse_run((struct run){.method = method, .step = 0.3, .duration = 1.0}, "duration", "0.25",
+             "0.33333333333333331");
+  refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0, .every = 0.25}, "every",
+             "0.083333333333333", "0.125");
+  refuse_run((struct run){.method = method, .duration = 1.0}, "step", "missing", "step");
+  refuse_run((struct run){.method = "no-such-method", .step = 0.1}, "method", "no-such-method",
+             "symplectic-euler");
+  /* a multiple to 1e-9 relative is one */
+  hooke_system *system = small_oscillator(1.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = method, .step = 0.1, .duration = 1.0 + 5e-10, .every = 0.2});
+  assert_int_equal(hooke_integrator_frame_count(integrator), 6);
+  hooke_integrator_destroy(integrator);
+  refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0 + 3e-9}, "duration", "0.1", "step");
+  hooke_system_destroy(system);
+}
+
+static void test_run_needs_duration(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(1.0);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_BAD_VALUE);
+  check_message("duration");
+  check_close(hooke_state_time(state), 0.0, 0.0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* ---- observers ---- */
+
+struct watch {
+  int64_t calls, last_step, stop_at;
+  double last_time;
+};
+
+static int32_t count_steps(int64_t step, const hooke_state *state, void *ctx) {
+  struct watch *watch = ctx;
+  assert_true(step > watch->last_step);
+  watch->calls++;
+  watch->last_step = step;
+  watch->last_time = hooke_state_time(state);
+  return watch->stop_at > 0 && step >= watch->stop_at ? 7 : 0;
+}
+
+static void test_step_observer(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(1.0);
+  const int64_t strides[] = {1, 3, 10, 11};
+  for (int k = 0; k < 4; k++) {
+    struct watch watch = {0, 0, 0, 0.0};
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 3.2, .every = 0.4});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_on_step(integrator, strides[k], count_steps, &watch));
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(watch.calls, 32 / strides[k]);
+    assert_int_equal(watch.last_step, 32 / strides[k] * strides[k]);
+    check_ok(hooke_integrator_on_step(integrator, 1, NULL, NULL)); /* taken back */
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(watch.calls, 32 / strides[k]);
+    check_status(hooke_integrator_on_step(integrator, 0, count_steps, &watch), HOOKE_BAD_VALUE);
+    check_message("0");
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+static void test_observers_stop(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(1.0);
+  for (int on_frame = 0; on_frame < 2; on_frame++) {
+    struct watch watch = {0, -1, 8, 0.0};
+    double q[6];
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = "symplectic-euler", .step = 0.125, .duration = 10.0, .every = 0.5});
+    hooke_state *state = start_state(system);
+    if (on_frame)
+      check_ok(hooke_integrator_on_frame(integrator, count_steps, &watch));
+    else
+      check_ok(hooke_integrator_on_step(integrator, 2, count_steps, &watch));
+    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+    assert_int_equal(hooke_integrator_stop_value(integrator), 7);
+    assert_int_equal(watch.last_step, 8);
+    check_close(hooke_state_time(state), 1.0, 0.0);
+    run_to_end(system, (struct run){.method = "symplectic-euler", .step = 0.125, .duration = 1.0}, q, NULL);
+    check_same_bits(6, hooke_state_position(state), q);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+/* An error-controlled method reports its internal steps too: every one of them, whatever frames lie within. */
+static void test_step_observer_of_adaptive_methods(void **unused) {
+  (void)unused;
+  if (hooke_method_is_built("cvode-adams") != 1) skip();
+  hooke_system *system = small_oscillator(3.0);
+  struct watch watch = {0, 0, 0, 0.0};
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "cvode-adams", .duration = 2.0, .every = 0.1});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_on_step(integrator, 1, count_steps, &watch));
+  check_ok(hooke_integrator_run(integrator, state));
+  const int64_t steps = hooke_integrator_count(integrator, "steps");
+  check_between((double)steps, 50.0, 5000.0);
+  /* the last step may go beyond the end */
+  check_between((double)watch.calls, (double)(steps - 1), (double)steps);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+static void test_step_limit(void **unused) {
+  (void)unused;
+  if (hooke_method_is_built("cvode-adams") != 1) skip();
+  hooke_system *system = small_oscillator(3.0);
+  hooke_options *options = run_options((struct run){.method = "cvode-adams", .duration = 1000.0});
+  hooke_integrator *integrator = NULL;
+  check_ok(hooke_options_set_number(options, "max_steps", 40));
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_STEP_LIMIT);
+  check_message("40");
+  check_between((double)hooke_integrator_count(integrator, "steps"), 40.0, 40.0);
+  check_between(hooke_state_time(state), 1e-3, 100.0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+/* ---- stepping by hand ---- */
+
+static void test_steps_by_hand(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(2.0);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    double q[6], v[6];
+    hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 0.0625});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_step(integrator, state, 3));
+    check_ok(hooke_integrator_step(integrator, state, 0));
+    for (int k = 0; k < 13; k++)
+      check_ok(hooke_integrator_step(integrator, state, 1));
+    run_to_end(system, (struct run){.method = method, .step = 0.0625, .duration = 1.0}, q, v);
+    check_close(hooke_state_time(state), 1.0, 0.0);
+    check_same_bits(6, hooke_state_position(state), q);
+    check_same_bits(6, hooke_state_velocity(state), v);
+    /* a state that was changed in between is taken as it is */
+    hooke_state_position(state)[3] = 5.0;
+    hooke_state_velocity(state)[3] = 0.0;
+    check_ok(hooke_integrator_step(integrator, state, 1));
+    check_close(hooke_state_position(state)[3], 5.0, 0.1);
+    check_status(hooke_integrator_step(integrator, state, -1), HOOKE_BAD_VALUE);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+static void test_state_of_another_size(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(2.0);
+  hooke_state *state = NULL;
+  check_ok(hooke_state_create_first_order(5, &state));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0});
+  check_status(hooke_integrator_run(integrator, state), HOOKE_BAD_VALUE);
+  check_status(hooke_integrator_step(integrator, state, 1), HOOKE_BAD_VALUE);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* ---- energies ---- */
+
+struct energies {
+  const hooke_system *system;
+  double start, low, high, last;
+};
+
+static int32_t follow_energy(int64_t step, const hooke_state *state, void *ctx) {
+  struct energies *energies = ctx;
+  hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
+  const double e =
+      hooke_system_energy(energies->system, hooke_state_position(seen), hooke_state_velocity(seen));
+  if (step == 0) energies->start = energies->low = energies->high = e;
+  energies->low = fmin(energies->low, e);
+  energies->high = fmax(energies->high, e);
+  energies->last = e;
+  return 0;
+}
+
+static struct energies energies_of(const char *method, double omega, double h, double duration) {
+  hooke_system *system = small_oscillator(omega);
+  struct energies energies = {.system = system};
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = method, .step = h, .duration = duration, .every = h});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_on_frame(integrator, follow_energy, &energies));
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+  return energies;
+}
+
+/* Forward Euler multiplies the energy of an undamped oscillator by 1 + (omega h)^2 a step. Symplectic Euler keeps
+ * E - h omega^2 m q.v / 2, so that E stays within a share of about omega h / 2 of where it was. */
+static void test_energy(void **unused) {
+  (void)unused;
+  const double omega = 5.0, h = 0.002, steps = 10000.0, share = omega * h / 2.0;
+  const struct energies forward = energies_of("forward-euler", omega, h, h * 1000.0);
+  const double growth = pow(1.0 + omega * omega * h * h, 1000.0);
+  check_between(forward.last / forward.start / growth, 1.0 - 1e-11, 1.0 + 1e-11);
+  assert_true(forward.high == forward.last && forward.low == forward.start);
+
+  const struct energies symplectic = energies_of("symplectic-euler", omega, h, h * steps);
+  check_between(symplectic.high / symplectic.start, 1.0 + 0.3 * share, 1.0 + 2.1 * share);
+  check_between(symplectic.low / symplectic.start, 1.0 - 2.1 * share, 1.0 - 0.3 * share);
+  if (hooke_method_is_built("cvode-adams") != 1) return;
+  const struct energies adams = energies_of("cvode-adams", omega, h, h * steps);
+  assert_true(adams.high - adams.low < 0.1 * (symplectic.high - symplectic.low));
+}
+
+/* ---- counts ---- */
+
+static void test_counts(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(2.0);
+  const char *names[] = {"steps",
+                         "force_evaluations",
+                         "derivative_products",
+                         "nonlinear_iterations",
+                         "nonlinear_failures",
+                         "linear_iterations",
+                         "error_test_failures",
+                         "coincident_springs"};
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (hooke_method_is_built(method) != 1) continue;
+    hooke_integrator *integrator =
+        start_run(system, (struct run){.method = method, .step = 0.01, .duration = 1.0});
+    hooke_state *state = start_state(system);
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+      assert_int_equal(hooke_integrator_count(integrator, names[k]), 0);
+    }
+    assert_true(isnan(hooke_integrator_diverged_at(integrator)));
+    check_ok(hooke_integrator_run(integrator, state));
+    const int64_t steps = hooke_integrator_count(integrator, "steps");
+    const int64_t forces = hooke_integrator_count(integrator, "force_evaluations");
+    if (strstr(method, "-euler") != NULL) {
+      assert_int_equal(steps, 100);
+      assert_int_equal(forces, steps);
+    } else {
+      assert_true(steps > 10 && forces >= steps && forces < 100 * steps);
+    }
+    if (strcmp(method, "cvode-bdf") == 0) {
+      assert_true(hooke_integrator_count(integrator, "derivative_products") > 0);
+      assert_true(hooke_integrator_count(integrator, "linear_iterations") > 0);
+      assert_true(hooke_integrator_count(integrator, "nonlinear_iterations") > 0);
+    }
+    check_between((double)hooke_integrator_count(integrator, "memory_bytes"), 8.0 * 6.0 * 3.0, 1e6);
+    assert_int_equal(hooke_integrator_count(integrator, "apples"), -1);
+    check_between(hooke_integrator_wall_seconds(integrator), 1e-9, 60.0);
+    assert_true(isnan(hooke_integrator_diverged_at(integrator)));
+    assert_int_equal(hooke_integrator_stop_value(integrator), 0);
+    /* "since it was made": they add up */
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_true(hooke_integrator_count(integrator, "steps") > steps);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_frames),
+      cmocka_unit_test(test_time_does_not_drift),
+      cmocka_unit_test(test_steps_that_do_not_fit),
+      cmocka_unit_test(test_run_needs_duration),
+      cmocka_unit_test(test_step_observer),
+      cmocka_unit_test(test_observers_stop),
+      cmocka_unit_test(test_step_observer_of_adaptive_methods),
+      cmocka_unit_test(test_step_limit),
+      cmocka_unit_test(test_steps_by_hand),
+      cmocka_unit_test(test_state_of_another_size),
+      cmocka_unit_test(test_energy),
+      cmocka_unit_test(test_counts),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,133 @@
+/* Safe steps against sharp limits that were computed independently (spectrum of the linearised system:
+ * omega_max and the largest stable step of symplectic Euler, to 13 digits), and against runs. */
+#include "check.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double bound_of(const hooke_system *system, const char *method) {
+  hooke_state *state = start_state(system);
+  double bound = NAN;
+  const int32_t status = hooke_step_bound(system, method, hooke_state_position(state), &bound);
+  hooke_state_destroy(state);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  return bound;
+}
+
+/* 10 x 10 particles of 0.01 kg, 0.1 m apart, springs of 50 N and 0.02 N s, hung by two corners. */
+static hooke_system *build_cloth10(void) {
+  hooke_system *system;
+  hooke_options *options;
+  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {0.9, 0.0, 0.0, 0.0, 0.0, 0.9}, size[2] = {10.0, 10.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
+                              {"shear.stiffness", "shear.damping"},
+                              {"bend.stiffness", "bend.damping"}};
+  for (int k = 0; k < 3; k++) {
+    check_ok(hooke_options_set_number(options, family[k][0], 50.0));
+    check_ok(hooke_options_set_number(options, family[k][1], 0.02));
+  }
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+/* A bound is never above the limit, and a useful one is not far below it. */
+static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
+  (void)unused;
+  hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
+  check_between(bound_of(net6, "symplectic-euler"), 0.5 * 0.13162450213044632, 0.13162450213044632);
+  check_between(bound_of(cloth10, "symplectic-euler"), 0.8 * 0.003058102791710135, 0.003058102791710135);
+  hooke_system_destroy(net6);
+  hooke_system_destroy(cloth10);
+}
+
+static void forward_euler_needs_damping(void **unused) {
+  (void)unused;
+  hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
+  /* springs of net6 are stretched, and nothing damps motion across a stretched spring */
+  check_between(bound_of(net6, "forward-euler"), 0.0, 0.0);
+  /* flat and at rest, the limit is kd/ks for all modes alike */
+  check_close(bound_of(cloth10, "forward-euler"), 0.02 / 50.0, 1e-15);
+  hooke_system_destroy(net6);
+  hooke_system_destroy(cloth10);
+}
+
+/* One mass on an undamped spring to a pinned end: the bound is the limit, 2/omega, exactly. */
+static void one_spring_is_sharp(void **unused) {
+  (void)unused;
+  const double omega = 7.0;
+  hooke_system *system = small_oscillator(omega);
+  check_close(bound_of(system, "symplectic-euler"), 2.0 / omega, 1e-11);
+  check_between(bound_of(system, "forward-euler"), 0.0, 0.0);
+  assert_true(isinf(bound_of(system, "cvode-bdf")));
+  hooke_system_destroy(system);
+}
+
+/* The largest position reached in 3000 steps. */
+static double reach(const hooke_system *system, double step) {
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
+  hooke_state *state = start_state(system);
+  const int32_t status = hooke_integrator_step(integrator, state, 3000);
+  const double most =
+      status == HOOKE_DIVERGED ? INFINITY : largest(hooke_state_size(state), hooke_state_position(state));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return most;
+}
+
+static void runs_agree(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(7.0);
+  const double bound = bound_of(system, "symplectic-euler");
+  /* just below the limit the energy swings by 1/(1 - (h omega/2)^2), which must stay below what counts as
+   * divergence */
+  check_between(reach(system, 0.98 * bound), 0.0, 100.0);
+  assert_true(isinf(reach(system, 1.01 * bound)));
+  hooke_system_destroy(system);
+}
+
+static void nothing_to_bound(void **unused) {
+  (void)unused;
+  const double place[3] = {0.0, 0.0, 0.0};
+  hooke_system *falling = small_system(1, place, NULL, 1.0, 0), *open = NULL;
+  check_ok(hooke_system_set_drag(falling, 0.25));
+  check_ok(hooke_system_commit(falling));
+  /* x'' = -c x' alone: forward Euler holds up to 2 m/c, and so does symplectic Euler */
+  check_close(bound_of(falling, "forward-euler"), 8.0, 1e-12);
+  check_close(bound_of(falling, "symplectic-euler"), 8.0, 1e-10);
+  double bound;
+  check_status(hooke_step_bound(falling, "no-such-method", place, &bound), HOOKE_BAD_VALUE);
+  check_message("no-such-method");
+  hooke_system_destroy(falling);
+  check_ok(hooke_system_create(&open));
+  check_status(hooke_step_bound(open, "symplectic-euler", place, &bound), HOOKE_BAD_CALL);
+  hooke_system_destroy(open);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(symplectic_euler_is_bounded_from_both_sides),
+      cmocka_unit_test(forward_euler_needs_damping),
+      cmocka_unit_test(one_spring_is_sharp),
+      cmocka_unit_test(runs_agree),
+      cmocka_unit_test(nothing_to_bound),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

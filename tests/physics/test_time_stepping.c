@@ -1,0 +1,233 @@
+/* x' = a x: what each method does to one number, real or complex. */
+#include "check.h"
+#include "order.h"
+#include "run.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* a = real + i imaginary; x holds the real and the imaginary part. */
+struct rate {
+  double real, imaginary;
+  int64_t calls;
+};
+
+static int32_t multiply(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  struct rate *a = ctx;
+  (void)t;
+  a->calls++;
+  rate[0] = a->real * x[0] - (n > 1 ? a->imaginary * x[1] : 0.0);
+  if (n > 1) rate[1] = a->real * x[1] + a->imaginary * x[0];
+  return 0;
+}
+
+static hooke_state *start_at_one(int64_t size) {
+  hooke_state *state = NULL;
+  check_ok(hooke_state_create_first_order(size, &state));
+  assert_int_equal(hooke_state_size(state), size);
+  assert_null(hooke_state_velocity(state));
+  assert_true(hooke_state_position(state)[0] == 0.0);
+  hooke_state_position(state)[0] = 1.0;
+  return state;
+}
+
+static void test_real_factor(void **unused) {
+  (void)unused;
+  const double rates[] = {-1.0, -3.7, 0.25, -19.0, 2.0, 0.0};
+  const double h = 0.1;
+  for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
+    struct rate a = {rates[k], 0.0, 0};
+    hooke_integrator *integrator =
+        start_first_order(1, multiply, &a, (struct run){.method = "forward-euler", .step = h});
+    hooke_state *state = start_at_one(1);
+    const double factor = 1.0 + rates[k] * h;
+    for (int step = 0; step < 20; step++) {
+      const double before = hooke_state_position(state)[0];
+      check_ok(hooke_integrator_step(integrator, state, 1));
+      check_close(hooke_state_position(state)[0] / before, factor,
+                  4 * DBL_EPSILON * (1.0 + fabs(rates[k] * h)));
+    }
+    assert_int_equal(a.calls, 20);
+    assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 20);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+}
+
+static void test_complex_factor(void **unused) {
+  (void)unused;
+  struct rate a = {-0.8, 5.0, 0};
+  const double h = 0.05, real = 1.0 + a.real * h, imaginary = a.imaginary * h;
+  hooke_integrator *integrator =
+      start_first_order(2, multiply, &a, (struct run){.method = "forward-euler", .step = h});
+  hooke_state *state = start_at_one(2);
+  for (int step = 0; step < 50; step++) {
+    double *x = hooke_state_position(state);
+    const double expected[] = {real * x[0] - imaginary * x[1], real * x[1] + imaginary * x[0]};
+    const double size = hypot(x[0], x[1]);
+    check_ok(hooke_integrator_step(integrator, state, 1));
+    check_close(x[0], expected[0], 4 * DBL_EPSILON * size);
+    check_close(x[1], expected[1], 4 * DBL_EPSILON * size);
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+/* |x| after `steps` steps from 1. */
+static double size_after(struct rate a, double h, int64_t steps) {
+  hooke_integrator *integrator =
+      start_first_order(2, multiply, &a, (struct run){.method = "forward-euler", .step = h});
+  hooke_state *state = start_at_one(2);
+  check_ok(hooke_integrator_step(integrator, state, steps));
+  const double *x = hooke_state_position(state), size = hypot(x[0], x[1]);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return size;
+}
+
+/* Inside the circle |1 + a h| < 1 it decays, outside it grows, and by that factor a step. */
+static void test_stability_circle(void **unused) {
+  (void)unused;
+  const double h = 0.1;
+  for (int inside = 0; inside < 2; inside++) {
+    const double radius = inside ? 0.97 : 1.03;
+    for (int k = 0; k < 16; k++) {
+      const double angle = 0.3926990816987241548 * k;
+      const struct rate a = {(radius * cos(angle) - 1.0) / h, radius * sin(angle) / h, 0};
+      const double size = size_after(a, h, 100);
+      check_between(size / pow(radius, 100.0), 1.0 - 1e-12, 1.0 + 1e-12);
+      if (inside)
+        check_between(size, 0.0, 0.05);
+      else
+        check_between(size, 19.0, 20.0);
+    }
+  }
+}
+
+/* Imaginary a: the solution is a circle, forward Euler a spiral outward at every step, by sqrt(1 + (a h)^2). */
+static void test_spirals_outward(void **unused) {
+  (void)unused;
+  for (double h = 1.0; h > 1e-4; h /= 4.0) {
+    const struct rate a = {0.0, 2.0, 0};
+    double before = 1.0;
+    for (int64_t steps = 10; steps <= 100; steps += 30) {
+      const double size = size_after(a, h, steps);
+      assert_true(size > before);
+      check_between(size / pow(1.0 + 4.0 * h * h, 0.5 * (double)steps), 1.0 - 1e-12, 1.0 + 1e-12);
+      before = size;
+    }
+  }
+}
+
+/* ---- every method that takes first-order problems ---- */
+
+static double error_of(const char *method, double step, double rtol) {
+  struct rate a = {-0.5, 3.0, 0};
+  const int adaptive = hooke_method_is_adaptive(method) == 1;
+  const struct run run =
+      adaptive ? (struct run){.method = method, .rtol = rtol, .atol = rtol * 1e-2, .duration = 2.0}
+               : (struct run){.method = method, .step = step, .duration = 2.0};
+  hooke_integrator *integrator = start_first_order(2, multiply, &a, run);
+  hooke_state *state = start_at_one(2);
+  check_ok(hooke_integrator_run(integrator, state));
+  check_close(hooke_state_time(state), 2.0, 0.0);
+  const double *x = hooke_state_position(state), decay = exp(-1.0);
+  const double error = hypot(x[0] - decay * cos(6.0), x[1] - decay * sin(6.0));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return error;
+}
+
+static int32_t takes_first_order(const char *method) {
+  struct rate a = {-1.0, 0.0, 0};
+  hooke_integrator *integrator = NULL;
+  hooke_options *options = run_options((struct run){.method = method, .step = 0.1});
+  const int32_t status = hooke_integrator_create_first_order(1, multiply, &a, options, &integrator);
+  hooke_options_destroy(options);
+  if (status == HOOKE_OK)
+    hooke_integrator_destroy(integrator);
+  else
+    assert_null(integrator);
+  return status;
+}
+
+static void test_every_method(void **unused) {
+  (void)unused;
+  int64_t taken = 0;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    const int32_t status = takes_first_order(method);
+    if (hooke_method_is_built(method) != 1) {
+      assert_int_equal(status, HOOKE_NOT_BUILT);
+      check_message(method);
+      continue;
+    }
+    if (status == HOOKE_UNSUITED) {
+      check_message(method);
+      continue;
+    }
+    assert_int_equal(status, HOOKE_OK);
+    taken++;
+    if (hooke_method_is_adaptive(method) == 1) {
+      check_between(error_of(method, 0.0, 1e-4), 1e-9, 1e-2);
+      check_between(error_of(method, 0.0, 1e-10), 0.0, 1e-8);
+    } else {
+      double error[5];
+      for (int k = 0; k < 5; k++)
+        error[k] = error_of(method, 0.01 / (1 << k), 0.0);
+      for (int k = 0; k < 4; k++)
+        assert_true(error[k + 1] < 0.6 * error[k]); /* order 1 or better */
+      if (strcmp(method, "forward-euler") == 0) check_order(method, 5, error, 0.9, 1.15);
+    }
+  }
+  assert_true(taken >= 1);
+}
+
+static void test_symplectic_euler_refuses(void **unused) {
+  (void)unused;
+  assert_int_equal(takes_first_order("symplectic-euler"), HOOKE_UNSUITED);
+  check_message("symplectic-euler");
+  check_message("positions and velocities");
+}
+
+/* The callback's own value ends the run and comes out; the state is that of the last whole step. */
+static int32_t stop_late(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  multiply(n, t, x, rate, ctx);
+  return t > 0.45 ? 42 : 0;
+}
+
+static void test_rate_stops(void **unused) {
+  (void)unused;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (takes_first_order(method) != HOOKE_OK) continue;
+    struct rate a = {-1.0, 0.0, 0};
+    hooke_integrator *integrator =
+        start_first_order(1, stop_late, &a, (struct run){.method = method, .step = 0.1, .duration = 1.0});
+    hooke_state *state = start_at_one(1);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+    check_message("42");
+    assert_int_equal(hooke_integrator_stop_value(integrator), 42);
+    const double t = hooke_state_time(state), x = hooke_state_position(state)[0];
+    if (strcmp(method, "forward-euler") == 0) {
+      check_close(t, 0.5, 1e-15);
+      check_close(x, pow(0.9, 5.0), 1e-15);
+    } else {
+      check_between(t, 0.0, is_fixed_step(method) ? 0.5 + 1e-15 : 0.45);
+      check_close(x, exp(-t), is_fixed_step(method) ? 0.02 : 1e-4);
+    }
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_real_factor),      cmocka_unit_test(test_complex_factor),
+      cmocka_unit_test(test_stability_circle), cmocka_unit_test(test_spirals_outward),
+      cmocka_unit_test(test_every_method),     cmocka_unit_test(test_symplectic_euler_refuses),
+      cmocka_unit_test(test_rate_stops),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,37 @@
+/* The definition of the sums that every path of the library reproduces to the bit.
+ *
+ * Forces on a particle are added in this order: its springs in ascending spring number (added to the first end,
+ * subtracted from the second), drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
+ * are held (pinned or driven) have none. */
+#ifndef TESTS_SUPPORT_CANONICAL_H
+#define TESTS_SUPPORT_CANONICAL_H
+
+#include "hooke/system.h"
+
+struct canonical {
+  int64_t particle_count, spring_count;
+  int64_t *ends;                       /* 2 spring_count */
+  double *kappa, *gamma, *rest_length; /* spring_count */
+  unsigned char *pull_only;            /* spring_count */
+  double *inverse_mass;                /* particle_count */
+  const double *gravity;               /* NULL: none */
+  double drag;                         /* 0: none */
+  hooke_force *force;                  /* NULL: none */
+  void *ctx;
+};
+
+/* Numbers of a committed system. Springs of groups whose name begins with "pull" only pull; gravity, drag and callback
+ * are for the caller to fill in. */
+void canonical_create(const hooke_system *system, struct canonical *canonical);
+void canonical_destroy(struct canonical *canonical);
+
+/* Accelerations, 3 particle_count. */
+void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
+                            double *acceleration);
+
+/* One step of a fixed-step method from time t; held particles stay as they are. Returns 0 for a method that has no
+ * definition here. */
+int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double h, double *q,
+                       double *v);
+
+#endif

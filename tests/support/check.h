@@ -1,0 +1,47 @@
+/* Assertions with two-sided bounds and the library's own words. They fail the running cmocka test. */
+#ifndef TESTS_SUPPORT_CHECK_H
+#define TESTS_SUPPORT_CHECK_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "hooke.h"
+
+/* The call returned exactly this status; prints the library's message otherwise. */
+#define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)
+#define check_ok(call)             check_status((call), HOOKE_OK)
+
+/* low <= value <= high; a NaN fails. */
+#define check_between(value, low, high) check_between_at((value), (low), (high), #value, __FILE__, __LINE__)
+
+/* |value - expected| <= tolerance; a NaN fails. */
+#define check_close(value, expected, tolerance)                                                              \
+  check_close_at((value), (expected), (tolerance), #value, __FILE__, __LINE__)
+
+/* The last message of the library contains this text. */
+#define check_message(text) check_message_at((text), __FILE__, __LINE__)
+
+/* Two arrays are the same to the bit; names the first number that differs. */
+#define check_same_bits(count, found, expected)                                                              \
+  check_same_bits_at((count), (found), (expected), #found, __FILE__, __LINE__)
+
+void check_status_at(int32_t found, int32_t expected, const char *call, const char *file, int line);
+void check_between_at(double value, double low, double high, const char *what, const char *file, int line);
+void check_close_at(double value, double expected, double tolerance, const char *what, const char *file,
+                    int line);
+void check_message_at(const char *text, const char *file, int line);
+void check_same_bits_at(int64_t count, const double *found, const double *expected, const char *what,
+                        const char *file, int line);
+
+/* Fails the test with a message of its own. */
+__attribute__((format(printf, 1, 2))) void check_failed(const char *format, ...);
+
+/* Memory that fails the test when there is none; zeroed. Release it with free(). */
+double *new_doubles(int64_t count);
+void *new_block(int64_t count, int64_t size);
+
+#endif

@@ -1,0 +1,133 @@
+#include "law_scene.h"
+
+#include "check.h"
+#include "random.h"
+#include "random_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const struct law laws[LAW_COUNT] = {
+    {.name = "strain law", .law = "strain"},
+    {.name = "strain law, damped", .law = "strain", .damped = 1},
+    {.name = "length law", .law = "length"},
+    {.name = "length law, damped", .law = "length", .damped = 1},
+    {.name = "length law, no rest length", .law = "length", .zero_rest = 1, .damped = 1},
+    {.name = "strain law, pull only", .law = "strain", .pull_only = 1},
+    {.name = "strain law, pull only, damped", .law = "strain", .pull_only = 1, .damped = 1},
+    {.name = "length law, pull only, damped", .law = "length", .pull_only = 1, .damped = 1},
+    {.name = "gravity and drag", .law = "strain", .damped = 1, .gravity = 1, .drag = 1},
+    {.name = "callback", .law = "strain", .damped = 1, .callback = 1},
+    {.name = "callback with product", .law = "length", .damped = 1, .gravity = 1, .drag = 1, .callback = 2},
+};
+
+struct material {
+  double stiffness[LAW_SPRINGS], damping[LAW_SPRINGS], rest_length[LAW_SPRINGS];
+};
+
+/* A spring whose force has no corner near by. */
+static void draw_spring(struct random_source *source, const struct law *law, int64_t k,
+                        struct material *material, struct law_scene *scene) {
+  for (;;) {
+    const int64_t i = random_whole(source, 0, LAW_PARTICLES - 1);
+    const int64_t j = (i + random_whole(source, 1, LAW_PARTICLES - 1)) % LAW_PARTICLES;
+    const double rest = law->zero_rest ? 0.0 : random_between(source, 0.4, 1.5);
+    const double stiffness = random_between(source, 5.0, 30.0);
+    const double damping = law->damped ? random_between(source, 0.1, k % 3 == 0 ? 40.0 : 2.0) : 0.0;
+    double square = 0.0, along = 0.0;
+    for (int a = 0; a < 3; a++) {
+      const double d = scene->q[3 * i + a] - scene->q[3 * j + a];
+      square += d * d;
+      along += d * (scene->v[3 * i + a] - scene->v[3 * j + a]);
+    }
+    const double r = sqrt(square), divisor = strcmp(law->law, "strain") == 0 ? rest : 1.0;
+    const double kappa = stiffness / divisor, gamma = damping / divisor;
+    const double tension = kappa * (r - rest) + gamma * along / r;
+    if (r < 0.4 || fabs(r - rest) < 0.12) continue;
+    if (law->pull_only && fabs(tension) < 0.12 * kappa + 0.6 * gamma) continue;
+    scene->ends[2 * k] = i;
+    scene->ends[2 * k + 1] = j;
+    material->stiffness[k] = stiffness;
+    material->damping[k] = damping;
+    material->rest_length[k] = rest;
+    if (r <= rest)
+      scene->slack++;
+    else if (tension < 0.0)
+      scene->unloaded++;
+    else
+      scene->taut++;
+    return;
+  }
+}
+
+static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
+  hooke_options *options = NULL;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", law->law));
+  check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
+  if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
+  check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material->rest_length));
+  if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
+  check_ok(hooke_system_add_springs(scene->system, "springs", LAW_SPRINGS, scene->ends, options));
+  hooke_options_destroy(options);
+}
+
+void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
+  struct random_source source = {seed};
+  struct material material;
+  double mass[LAW_PARTICLES];
+  const int64_t last = LAW_PARTICLES - 1;
+  memset(scene, 0, sizeof *scene);
+  for (int k = 0; k < LAW_SIZE; k++) {
+    scene->q[k] = random_between(&source, -1.0, 1.0);
+    scene->v[k] = k / 3 == last ? 0.0 : random_between(&source, -2.0, 2.0);
+  }
+  for (int p = 0; p < LAW_PARTICLES; p++)
+    mass[p] = random_between(&source, 0.5, 2.0);
+  for (int64_t k = 0; k < LAW_SPRINGS; k++)
+    draw_spring(&source, law, k, &material, scene);
+  check_ok(hooke_system_create(&scene->system));
+  check_ok(hooke_system_add_particles(scene->system, LAW_PARTICLES, scene->q, scene->v, LAW_PARTICLES, mass,
+                                      NULL));
+  check_ok(hooke_system_pin(scene->system, 1, &last));
+  add_springs(law, &material, scene);
+  const double gravity[] = {0.3, -9.81, 1.7};
+  if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
+  if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));
+  if (law->callback) {
+    check_ok(hooke_system_set_force(scene->system, random_scene_force,
+                                    law->callback == 2 ? random_scene_force_product : NULL, NULL));
+  }
+  check_ok(hooke_system_commit(scene->system));
+}
+
+void law_scene_destroy(struct law_scene *scene) {
+  hooke_system_destroy(scene->system);
+  scene->system = NULL;
+}
+
+void differentiate(int64_t count, law_curve *curve, double h, void *ctx, double *derivative) {
+  enum { LEVELS = 4 };
+  double *table[LEVELS], *other = new_doubles(count);
+  for (int level = 0; level < LEVELS; level++) {
+    const double step = ldexp(h, -level);
+    table[level] = new_doubles(count);
+    curve(step, table[level], ctx);
+    curve(-step, other, ctx);
+    for (int64_t k = 0; k < count; k++)
+      table[level][k] = (table[level][k] - other[k]) / (2.0 * step);
+  }
+  for (int order = 1; order < LEVELS; order++) {
+    const double factor = ldexp(1.0, 2 * order);
+    for (int level = LEVELS - 1; level >= order; level--) {
+      double *fine = table[level], *coarse = table[level - 1];
+      for (int64_t k = 0; k < count; k++)
+        fine[k] += (fine[k] - coarse[k]) / (factor - 1.0);
+    }
+  }
+  memcpy(derivative, table[LEVELS - 1], (size_t)count * sizeof(double));
+  for (int level = 0; level < LEVELS; level++)
+    free(table[level]);
+  free(other);
+}

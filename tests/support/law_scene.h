@@ -1,0 +1,34 @@
+/* Small scenes, one a law or force, at points where the forces are smooth. */
+#ifndef TESTS_SUPPORT_LAW_SCENE_H
+#define TESTS_SUPPORT_LAW_SCENE_H
+
+#include "hooke/system.h"
+
+enum { LAW_PARTICLES = 12, LAW_SPRINGS = 24, LAW_SIZE = 3 * LAW_PARTICLES };
+
+struct law {
+  const char *name, *law;
+  int32_t zero_rest, damped, pull_only, gravity, drag;
+  int32_t callback; /* 1: without a product, 2: with one */
+};
+
+enum { LAW_COUNT = 11 };
+extern const struct law laws[LAW_COUNT];
+
+struct law_scene {
+  hooke_system *system; /* committed; the last particle is pinned */
+  double q[LAW_SIZE], v[LAW_SIZE];
+  int64_t ends[2 * LAW_SPRINGS];
+  int64_t slack, unloaded, taut; /* springs that only pull: short, long but pushed by damping, pulling */
+};
+
+/* Every point closer than 0.03 to (q, v) in each component is on the same side of every switch of a spring that only
+ * pulls. */
+void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene);
+void law_scene_destroy(struct law_scene *scene);
+
+/* Derivative at 0 of g(s) (count numbers), by central differences at h, h/2, h/4, h/8 extrapolated to order 8. */
+typedef void law_curve(double s, double *value, void *ctx);
+void differentiate(int64_t count, law_curve *curve, double h, void *ctx, double *derivative);
+
+#endif

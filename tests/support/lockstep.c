@@ -1,0 +1,76 @@
+#include "lockstep.h"
+
+#include "check.h"
+#include "run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* An observer that takes each step itself and compares. */
+struct companion {
+  const struct random_scene *scene;
+  const char *method;
+  double start, h;
+  double *q, *v;
+  int64_t steps;
+};
+
+static int32_t follow(int64_t step, const hooke_state *state, void *ctx) {
+  struct companion *companion = ctx;
+  hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
+  const double *q = hooke_state_position(seen), *v = hooke_state_velocity(seen);
+  const struct random_scene *scene = companion->scene;
+  const int64_t n = scene->canonical.particle_count;
+  companion->steps++;
+  assert_int_equal(step, companion->steps);
+  const double before = companion->start + (double)(step - 1) * companion->h;
+  if (!canonical_step(&scene->canonical, companion->method, before, companion->h, companion->q,
+                      companion->v)) {
+    check_failed("%s has no canonical step: add one to tests/support/canonical.c", companion->method);
+  }
+  for (int64_t k = 0; k < scene->driven_count; k++) {
+    memcpy(companion->q + 3 * scene->driven[k], q + 3 * scene->driven[k], 3 * sizeof(double));
+    memcpy(companion->v + 3 * scene->driven[k], v + 3 * scene->driven[k], 3 * sizeof(double));
+  }
+  const double time = hooke_state_time(state), expected_time = companion->start + (double)step * companion->h;
+  check_same_bits(1, &time, &expected_time);
+  check_same_bits(3 * n, q, companion->q);
+  check_same_bits(3 * n, v, companion->v);
+  return 0;
+}
+
+static hooke_state *state_at(const struct random_scene *scene, double start) {
+  hooke_state *state = start_state(scene->system);
+  hooke_state_set_time(state, start);
+  return state;
+}
+
+void check_lockstep(const struct random_scene *scene, const char *method, int32_t threads, double start,
+                    double step, int64_t steps) {
+  const int64_t n = scene->canonical.particle_count;
+  const size_t size = (size_t)(3 * n) * sizeof(double);
+  struct companion companion = {scene, method, start, step, new_doubles(3 * n), new_doubles(3 * n), 0};
+  const struct run run = {.method = method, .step = step, .threads = threads};
+  hooke_state *watched = state_at(scene, start), *alone = state_at(scene, start);
+  memcpy(companion.q, hooke_state_position(watched), size);
+  memcpy(companion.v, hooke_state_velocity(watched), size);
+
+  hooke_integrator *integrator = start_run(scene->system, run);
+  check_ok(hooke_integrator_on_step(integrator, 1, follow, &companion));
+  check_ok(hooke_integrator_step(integrator, watched, steps));
+  hooke_integrator_destroy(integrator);
+  assert_int_equal(companion.steps, steps);
+
+  integrator = start_run(scene->system, run);
+  check_ok(hooke_integrator_step(integrator, alone, steps));
+  hooke_integrator_destroy(integrator);
+
+  check_same_bits(3 * n, hooke_state_position(watched), companion.q);
+  check_same_bits(3 * n, hooke_state_velocity(watched), companion.v);
+  check_same_bits(3 * n, hooke_state_position(alone), companion.q);
+  check_same_bits(3 * n, hooke_state_velocity(alone), companion.v);
+  hooke_state_destroy(watched);
+  hooke_state_destroy(alone);
+  free(companion.q);
+  free(companion.v);
+}

@@ -1,0 +1,13 @@
+/* Steps of the library beside canonical steps. */
+#ifndef TESTS_SUPPORT_LOCKSTEP_H
+#define TESTS_SUPPORT_LOCKSTEP_H
+
+#include "random_scene.h"
+
+/* Fails unless `steps` steps of a fixed-step method from time `start` give the canonical positions, velocities and times
+ * to the bit, both seen after every step and all in one call. Driven particles are taken from the library; a scene that
+ * has some starts at 0, where hooke_state_create() puts them. */
+void check_lockstep(const struct random_scene *scene, const char *method, int32_t threads, double start,
+                    double step, int64_t steps);
+
+#endif

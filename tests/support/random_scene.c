@@ -1,0 +1,318 @@
+#include "random_scene.h"
+
+#include "check.h"
+#include "random.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int32_t random_scene_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)ctx;
+  for (int64_t p = 0; p < n; p++) {
+    const double *x = q + 3 * p, *u = v + 3 * p;
+    double *f = force + 3 * p;
+    /* two contributions to one component: order counts */
+    for (int a = 0; a < 3; a++)
+      f[a] -= 0.7 * x[a];
+    f[0] += 0.3 * t - 0.2 * u[1] * x[0];
+    f[1] += (0.1 * x[2]) * x[2];
+    f[2] -= 0.4 * u[2];
+  }
+  return 0;
+}
+
+int32_t random_scene_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                   const double *dv, double *out, void *ctx) {
+  (void)t;
+  (void)ctx;
+  for (int64_t p = 0; p < n; p++) {
+    const double *x = q + 3 * p, *u = v + 3 * p, *dx = dq + 3 * p, *du = dv + 3 * p;
+    double *f = out + 3 * p;
+    for (int a = 0; a < 3; a++)
+      f[a] -= 0.7 * dx[a];
+    f[0] -= 0.2 * (du[1] * x[0] + u[1] * dx[0]);
+    f[1] += 0.2 * x[2] * dx[2];
+    f[2] -= 0.4 * du[2];
+  }
+  return 0;
+}
+
+static int32_t wave(int64_t count, double t, double *q, double *v, void *ctx) {
+  (void)ctx;
+  for (int64_t k = 0; k < count; k++) {
+    q[3 * k] = 0.5 + t * (1.0 - t), v[3 * k] = 1.0 - 2.0 * t;
+    q[3 * k + 1] = 0.25 - 0.5 * t, v[3 * k + 1] = -0.5;
+    q[3 * k + 2] = t * t * t, v[3 * k + 2] = 3.0 * t * t;
+  }
+  return 0;
+}
+
+/* ---- particles ---- */
+
+static void add_particles(struct random_source *source, struct random_scene_request request, double *position,
+                          hooke_system *system) {
+  const int64_t n = request.particles;
+  double *velocity = new_doubles(3 * n), *mass = new_doubles(n);
+  const double side = 0.5 * cbrt((double)n) + 0.5;
+  for (int64_t p = 0; p < n; p++) {
+    const int copy = (request.features & SCENE_COINCIDENT) && p > 0 && random_whole(source, 0, 7) == 0;
+    for (int a = 0; a < 3; a++) {
+      position[3 * p + a] = copy ? position[3 * p - 3 + a] : random_between(source, -side, side);
+      velocity[3 * p + a] = p < 6 ? 0.0 : random_between(source, -1.0, 1.0); /* the first six may be held */
+    }
+    mass[p] = random_between(source, 0.5, 2.0);
+  }
+  const int64_t masses = random_whole(source, 0, 1) ? n : 1;
+  check_ok(hooke_system_add_particles(system, n, position, velocity, masses, mass, NULL));
+  free(velocity);
+  free(mass);
+}
+
+static void hold_particles(struct random_source *source, struct random_scene_request request,
+                           struct random_scene *scene) {
+  if (request.features & SCENE_PINNED) {
+    const int64_t pinned[] = {0, 2, 0};
+    check_ok(hooke_system_pin(scene->system, random_whole(source, 1, 3), pinned));
+  }
+  if (!(request.features & SCENE_DRIVEN)) return;
+  const double amplitude[] = {0.1, -0.2, 0.05}, time[] = {-0.001, 0.0025, 0.004, 0.02};
+  const double displacement[] = {0, 0, 0, 0.01, 0.02, -0.01, 0.015, -0.01, 0.0, 0.03, 0.01, 0.02};
+  const int64_t driven[] = {1, 3, 5};
+  const double frequency = random_between(source, 0.5, 30.0), phase = random_between(source, -4.0, 4.0);
+  check_ok(hooke_system_drive_harmonic(scene->system, 1, driven, amplitude, frequency, phase));
+  check_ok(hooke_system_drive_table(scene->system, 1, driven + 1, 4, time, displacement));
+  check_ok(hooke_system_drive_callback(scene->system, 1, driven + 2, wave, NULL));
+  scene->driven_count = 3;
+  memcpy(scene->driven, driven, sizeof driven);
+}
+
+/* ---- springs ---- */
+
+/* Runs of constant offset both ways, the same with particles descending, and pairs without order. */
+static void draw_ends(struct random_source *source, int64_t particles, int64_t count, int64_t *ends) {
+  int64_t done = 0;
+  while (done < count) {
+    const int64_t kind = random_whole(source, 0, 3);
+    int64_t length = random_whole(source, 1, random_whole(source, 0, 3) ? 12 : 700);
+    int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 2 : particles - 1);
+    if (offset > particles - 1) offset = particles - 1;
+    if (length > particles - offset) length = particles - offset;
+    if (length > count - done) length = count - done;
+    const int64_t start = random_whole(source, 0, particles - offset - length);
+    const int swap = (int)random_whole(source, 0, 1);
+    for (int64_t k = 0; k < length; k++) {
+      int64_t *pair = ends + 2 * (done + k);
+      int64_t low = kind == 1 ? start + length - 1 - k : start + k;
+      pair[0] = swap ? low + offset : low;
+      pair[1] = swap ? low : low + offset;
+      if (kind == 2) {
+        pair[0] = random_whole(source, 0, particles - 1);
+        pair[1] = (pair[0] + random_whole(source, 1, particles - 1)) % particles;
+      }
+    }
+    done += length;
+  }
+}
+
+/* What was asked for, spring by spring: the library has to hold just that. */
+struct wanted {
+  int64_t count; /* so far */
+  int64_t *ends;
+  double *kappa, *gamma, *rest_length;
+};
+
+/* One number for the group, or one a spring, some of them `low` itself; written out for every spring in `values`. */
+static void set_random(struct random_source *source, hooke_options *options, const char *name, int64_t count,
+                       double low, double high, double *values) {
+  const int64_t drawn = random_whole(source, 0, 1) ? count : 1;
+  for (int64_t k = 0; k < drawn; k++) {
+    values[k] = random_whole(source, 0, 3) ? random_between(source, low, high) : low;
+  }
+  check_ok(hooke_options_set_numbers(options, name, drawn, values));
+  for (int64_t k = drawn; k < count; k++)
+    values[k] = values[0];
+}
+
+static void set_rest_length(struct random_source *source, hooke_options *options, int64_t count,
+                            const int64_t *ends, const double *position, int length_law, int apart,
+                            double *rest) {
+  const double scale = random_whole(source, 0, 1) ? random_between(source, 0.8, 1.2) : 1.0;
+  if (random_whole(source, 0, 2) == 0 && (length_law || apart)) {
+    check_ok(hooke_options_set_text(options, "rest_length", "initial"));
+    for (int64_t k = 0; k < count; k++) {
+      const double *a = position + 3 * ends[2 * k], *b = position + 3 * ends[2 * k + 1];
+      const double d[] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+      rest[k] = sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
+    }
+  } else if (length_law && random_whole(source, 0, 1)) {
+    check_ok(hooke_options_set_number(options, "rest_length", 0.0));
+    memset(rest, 0, (size_t)count * sizeof(double));
+  } else {
+    set_random(source, options, "rest_length", count, 0.2, 1.5, rest);
+  }
+  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  for (int64_t k = 0; k < count; k++)
+    rest[k] *= scale;
+}
+
+static int ends_apart(int64_t count, const int64_t *ends, const double *position) {
+  for (int64_t k = 0; k < count; k++) {
+    if (memcmp(position + 3 * ends[2 * k], position + 3 * ends[2 * k + 1], 3 * sizeof(double)) == 0) return 0;
+  }
+  return 1;
+}
+
+static void add_group(struct random_source *source, struct random_scene_request request, int64_t count,
+                      const double *position, int64_t number, hooke_system *system, struct wanted *wanted) {
+  int64_t *ends = wanted->ends + 2 * wanted->count;
+  double *kappa = wanted->kappa + wanted->count, *gamma = wanted->gamma + wanted->count,
+         *rest = wanted->rest_length + wanted->count;
+  hooke_options *options = NULL;
+  char name[32];
+  const int length_law = (int)random_whole(source, 0, 1);
+  const int pulls = (request.features & SCENE_PULL_ONLY) && random_whole(source, 0, 1);
+  draw_ends(source, request.particles, count, ends);
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", length_law ? "length" : "strain"));
+  set_random(source, options, "stiffness", count, 0.0, 50.0, kappa);
+  if ((request.features & SCENE_DAMPING) && random_whole(source, 0, 3)) {
+    set_random(source, options, "damping", count, 0.0, 0.5, gamma);
+  }
+  set_rest_length(source, options, count, ends, position, length_law, ends_apart(count, ends, position),
+                  rest);
+  for (int64_t k = 0; k < count && !length_law; k++) {
+    kappa[k] /= rest[k];
+    gamma[k] /= rest[k];
+  }
+  if (pulls) check_ok(hooke_options_set_number(options, "compression", 0.0));
+  snprintf(name, sizeof name, "%s%lld", pulls ? "pull" : "group", (long long)number);
+  check_ok(hooke_system_add_springs(system, name, count, ends, options));
+  hooke_options_destroy(options);
+  wanted->count += count;
+}
+
+static void add_groups(struct random_source *source, struct random_scene_request request,
+                       const double *position, hooke_system *system, struct wanted *wanted) {
+  wanted->ends = new_block(2 * request.springs, (int64_t)sizeof(int64_t));
+  wanted->kappa = new_doubles(request.springs);
+  wanted->gamma = new_doubles(request.springs);
+  wanted->rest_length = new_doubles(request.springs);
+  for (int64_t number = 0; wanted->count < request.springs; number++) {
+    int64_t count = random_whole(source, 1, request.springs);
+    if (count > request.springs - wanted->count) count = request.springs - wanted->count;
+    add_group(source, request, count, position, number, system, wanted);
+  }
+}
+
+/* The springs of groups come first, whenever parts were added, and are what was asked for to the bit. */
+static void compare_wanted(const struct canonical *canonical, struct wanted *wanted) {
+  assert_true(canonical->spring_count >= wanted->count);
+  assert_memory_equal(canonical->ends, wanted->ends, (size_t)(2 * wanted->count) * sizeof(int64_t));
+  check_same_bits(wanted->count, canonical->kappa, wanted->kappa);
+  check_same_bits(wanted->count, canonical->gamma, wanted->gamma);
+  check_same_bits(wanted->count, canonical->rest_length, wanted->rest_length);
+  free(wanted->ends);
+  free(wanted->kappa);
+  free(wanted->gamma);
+  free(wanted->rest_length);
+}
+
+/* ---- parts ---- */
+
+static void set_family(struct random_source *source, hooke_options *options, const char *family,
+                       int32_t features) {
+  char name[64];
+  snprintf(name, sizeof name, "%s.stiffness", family);
+  check_ok(hooke_options_set_number(options, name, random_between(source, 5.0, 50.0)));
+  if (features & SCENE_DAMPING) {
+    snprintf(name, sizeof name, "%s.damping", family);
+    check_ok(hooke_options_set_number(options, name, random_between(source, 0.0, 0.2)));
+  }
+  if (features & SCENE_PULL_ONLY) {
+    snprintf(name, sizeof name, "%s.compression", family);
+    check_ok(hooke_options_set_number(options, name, 0.0));
+  }
+}
+
+static void add_part(struct random_source *source, struct random_scene_request request, const char *kind,
+                     hooke_system *system) {
+  hooke_options *options = NULL;
+  const int cloth = strcmp(kind, "cloth") == 0;
+  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
+  if (cloth) {
+    const double origin[] = {-1, 2, 0.5}, edges[] = {2, 0.1, 0, 0, 0.2, 3};
+    const double size[] = {(double)request.cloth[0], (double)request.cloth[1]};
+    check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
+    check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+    check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  } else {
+    const double from[] = {0, 1, 0}, to[] = {3, 1.5, -0.7};
+    check_ok(hooke_options_set_numbers(options, "from", 3, from));
+    check_ok(hooke_options_set_numbers(options, "to", 3, to));
+    check_ok(hooke_options_set_number(options, "segments", (double)request.rope));
+  }
+  const char *family[2][3] = {{"stretch", "bend", NULL}, {"structural", "shear", "bend"}};
+  for (int k = 0; k < 3 && family[cloth][k] != NULL; k++) {
+    if (k == 0 || random_whole(source, 0, 3)) set_family(source, options, family[cloth][k], request.features);
+  }
+  char name[32];
+  snprintf(name, sizeof name, "%s-%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind);
+  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+  hooke_options_destroy(options);
+}
+
+/* ---- the whole ---- */
+
+void random_scene_create(struct random_scene_request request, struct random_scene *scene) {
+  struct random_source source = {request.seed};
+  memset(scene, 0, sizeof *scene);
+  double *position = new_doubles(3 * request.particles);
+  check_ok(hooke_system_create(&scene->system));
+  add_particles(&source, request, position, scene->system);
+  hold_particles(&source, request, scene);
+  if (request.rope > 0) add_part(&source, request, "rope", scene->system);
+  if (request.cloth[0] > 0) add_part(&source, request, "cloth", scene->system);
+  struct wanted wanted = {0};
+  add_groups(&source, request, position, scene->system, &wanted);
+  free(position);
+  for (int a = 0; a < 3; a++)
+    scene->gravity[a] = random_between(&source, -10.0, 10.0);
+  const double drag = random_between(&source, 0.01, 0.5);
+  if (request.features & SCENE_GRAVITY) check_ok(hooke_system_set_gravity(scene->system, scene->gravity));
+  if (request.features & SCENE_DRAG) check_ok(hooke_system_set_drag(scene->system, drag));
+  if (request.features & SCENE_CALLBACK) {
+    check_ok(hooke_system_set_force(scene->system, random_scene_force,
+                                    request.with_product ? random_scene_force_product : NULL, NULL));
+  }
+  check_ok(hooke_system_commit(scene->system));
+  canonical_create(scene->system, &scene->canonical);
+  compare_wanted(&scene->canonical, &wanted);
+  scene->canonical.gravity = request.features & SCENE_GRAVITY ? scene->gravity : NULL;
+  scene->canonical.drag = request.features & SCENE_DRAG ? drag : 0.0;
+  scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;
+}
+
+void random_scene_destroy(struct random_scene *scene) {
+  canonical_destroy(&scene->canonical);
+  hooke_system_destroy(scene->system);
+  scene->system = NULL;
+}
+
+void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v) {
+  struct random_source source = {seed};
+  const double *w = scene->canonical.inverse_mass;
+  hooke_state *state = NULL;
+  check_ok(hooke_state_create(scene->system, &state));
+  const double *q0 = hooke_state_position(state), *v0 = hooke_state_velocity(state);
+  for (int64_t p = 0; p < scene->canonical.particle_count; p++) {
+    const int copy = p > 0 && w[p] != 0.0 && memcmp(q0 + 3 * p, q0 + 3 * p - 3, 3 * sizeof(double)) == 0;
+    for (int64_t k = 3 * p; k < 3 * p + 3; k++) {
+      q[k] = copy ? q[k - 3] : q0[k] + (w[p] != 0.0 ? random_between(&source, -0.2, 0.2) : 0.0);
+      v[k] = v0[k] + (w[p] != 0.0 ? random_between(&source, -0.2, 0.2) : 0.0);
+    }
+  }
+  hooke_state_destroy(state);
+}

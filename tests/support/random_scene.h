@@ -1,0 +1,50 @@
+/* Random valid systems, built through the public interface, with their canonical twin. */
+#ifndef TESTS_SUPPORT_RANDOM_SCENE_H
+#define TESTS_SUPPORT_RANDOM_SCENE_H
+
+#include "hooke.h"
+#include "canonical.h"
+
+/* What a scene may have; the rest is drawn from the seed. */
+enum {
+  SCENE_GRAVITY = 1,
+  SCENE_DRAG = 2,
+  SCENE_DAMPING = 4,
+  SCENE_PULL_ONLY = 8,
+  SCENE_PINNED = 16,
+  SCENE_DRIVEN = 32, /* up to three particles: harmonic, table, callback */
+  SCENE_CALLBACK = 64,
+  SCENE_COINCIDENT = 128, /* some particles at the same place */
+  SCENE_EVERYTHING = 255
+};
+
+struct random_scene_request {
+  uint64_t seed;
+  int64_t particles, springs;
+  int32_t features;
+  int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
+  int32_t rope;         /* segments of a rope that is added as a part; 0: none */
+  int32_t with_product; /* the callback brings its derivative */
+};
+
+struct random_scene {
+  hooke_system *system; /* committed */
+  struct canonical canonical;
+  int64_t driven_count;
+  int64_t driven[3];
+  double gravity[3];
+};
+
+void random_scene_create(struct random_scene_request request, struct random_scene *scene);
+void random_scene_destroy(struct random_scene *scene);
+
+/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, held particles stay. */
+void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v);
+
+/* The callback that scenes with SCENE_CALLBACK use: a pull to the origin, a push that grows with time, and a brake.
+ * It reads nothing but its arguments, so it may run in many threads. */
+int32_t random_scene_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
+int32_t random_scene_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                   const double *dv, double *out, void *ctx);
+
+#endif

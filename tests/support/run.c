@@ -1,0 +1,77 @@
+#include "run.h"
+
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+static void set_number(hooke_options *options, const char *name, double value) {
+  if (value != 0.0) check_ok(hooke_options_set_number(options, name, value));
+}
+
+hooke_options *run_options(struct run run) {
+  hooke_options *options = NULL;
+  check_ok(hooke_run_options_create(&options));
+  if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
+  set_number(options, "step", run.step);
+  set_number(options, "duration", run.duration);
+  set_number(options, "every", run.every);
+  set_number(options, "rtol", run.rtol);
+  set_number(options, "atol", run.atol);
+  set_number(options, "threads", run.threads);
+  return options;
+}
+
+hooke_integrator *start_run(const hooke_system *system, struct run run) {
+  hooke_integrator *integrator = NULL;
+  hooke_options *options = run_options(run);
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  hooke_options_destroy(options);
+  return integrator;
+}
+
+hooke_integrator *start_first_order(int64_t size, hooke_rate *rate, void *ctx, struct run run) {
+  hooke_integrator *integrator = NULL;
+  hooke_options *options = run_options(run);
+  check_ok(hooke_integrator_create_first_order(size, rate, ctx, options, &integrator));
+  hooke_options_destroy(options);
+  return integrator;
+}
+
+hooke_state *start_state(const hooke_system *system) {
+  hooke_state *state = NULL;
+  check_ok(hooke_state_create(system, &state));
+  return state;
+}
+
+void run_to_end(const hooke_system *system, struct run run, double *q, double *v) {
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_run(integrator, state));
+  const size_t size = (size_t)hooke_state_size(state) * sizeof(double);
+  if (q != NULL) memcpy(q, hooke_state_position(state), size);
+  if (v != NULL) memcpy(v, hooke_state_velocity(state), size);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+int32_t is_fixed_step(const char *method) {
+  return hooke_method_is_built(method) == 1 && hooke_method_is_adaptive(method) == 0;
+}
+
+double largest_difference(int64_t count, const double *a, const double *b) {
+  double most = 0.0;
+  for (int64_t k = 0; k < count; k++) {
+    const double difference = fabs(a[k] - b[k]);
+    if (!(difference <= most)) most = difference;
+  }
+  return most;
+}
+
+double largest(int64_t count, const double *a) {
+  double most = 0.0;
+  for (int64_t k = 0; k < count; k++) {
+    if (!(fabs(a[k]) <= most)) most = fabs(a[k]);
+  }
+  return most;
+}

@@ -1,0 +1,31 @@
+/* Short forms for making integrators. Every function fails the running test when the library refuses. */
+#ifndef TESTS_SUPPORT_RUN_H
+#define TESTS_SUPPORT_RUN_H
+
+#include "hooke.h"
+
+/* Options of a run; numbers that are 0 are left at their defaults. */
+struct run {
+  const char *method;
+  double step, duration, every;
+  double rtol, atol;
+  int32_t threads;
+};
+
+/* The caller destroys what these return. */
+hooke_options *run_options(struct run run);
+hooke_integrator *start_run(const hooke_system *system, struct run run);
+hooke_integrator *start_first_order(int64_t size, hooke_rate *rate, void *ctx, struct run run);
+hooke_state *start_state(const hooke_system *system);
+
+/* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
+void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
+
+/* 1 if this build has the method and it takes `step`. */
+int32_t is_fixed_step(const char *method);
+
+/* The largest |a - b| and |a| of two arrays. */
+double largest_difference(int64_t count, const double *a, const double *b);
+double largest(int64_t count, const double *a);
+
+#endif

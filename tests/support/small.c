@@ -1,0 +1,35 @@
+#include "small.h"
+
+#include "check.h"
+
+hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
+                           int32_t pin_first) {
+  hooke_system *system = NULL;
+  const int64_t first = 0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, count, position, velocity, 1, &mass, NULL));
+  if (pin_first) check_ok(hooke_system_pin(system, 1, &first));
+  return system;
+}
+
+void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs) {
+  hooke_options *options = NULL;
+  check_ok(hooke_spring_options_create(&options));
+  if (springs.law != NULL) check_ok(hooke_options_set_text(options, "law", springs.law));
+  check_ok(hooke_options_set_number(options, "stiffness", springs.stiffness));
+  check_ok(hooke_options_set_number(options, "damping", springs.damping));
+  if (springs.rest_length >= 0.0)
+    check_ok(hooke_options_set_number(options, "rest_length", springs.rest_length));
+  if (springs.pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
+  check_ok(hooke_system_add_springs(system, "springs", count, ends, options));
+  hooke_options_destroy(options);
+}
+
+hooke_system *small_oscillator(double omega) {
+  const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, position, velocity, 2.0, 1);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 2.0 * omega * omega});
+  check_ok(hooke_system_commit(system));
+  return system;
+}

@@ -1,0 +1,24 @@
+/* Small systems by hand, in a few lines. Every call fails the running test when the library refuses. */
+#ifndef TESTS_SUPPORT_SMALL_H
+#define TESTS_SUPPORT_SMALL_H
+
+#include "hooke/system.h"
+
+/* One group of springs that share a material. */
+struct springs {
+  const char *law; /* NULL: strain */
+  double stiffness, damping;
+  double rest_length; /* -1: initial */
+  int32_t pull_only;
+};
+
+/* An open system of `count` particles of one mass, particle 0 pinned if asked for. */
+hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
+                           int32_t pin_first);
+void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs);
+
+/* A committed mass on a spring of no length about the pinned origin: every coordinate is an oscillator of angular
+ * frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
+hooke_system *small_oscillator(double omega);
+
+#endif

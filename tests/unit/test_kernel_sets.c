@@ -1,0 +1,133 @@
+/* Every instruction set that this machine has gives the same bits, for every shape of run. */
+#include "check.h"
+#include "random.h"
+
+#include "kernel/spring_loops.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONGEST = 800, PARTICLES = 1000 };
+
+struct trial {
+  double q[3][PARTICLES], v[3][PARTICLES], f[3][PARTICLES];
+  int32_t head[LONGEST], tail[LONGEST];
+  double kappas[LONGEST], gammas[LONGEST], rest_lengths[LONGEST];
+  struct hooke_run run;
+};
+
+static void draw(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
+  memset(trial, 0, sizeof *trial);
+  for (int p = 0; p < PARTICLES; p++) {
+    const int copy =
+        p > 0 && random_whole(source, 0, 9) == 0; /* ends at one place, when they are neighbours */
+    for (int a = 0; a < 3; a++) {
+      trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
+      trial->v[a][p] = random_between(source, -1.0, 1.0);
+      trial->f[a][p] = random_between(source, -1.0, 1.0); /* forces that were there before */
+    }
+  }
+  for (int64_t k = 0; k < count; k++) {
+    trial->head[k] = (int32_t)random_whole(source, 0, PARTICLES - 1);
+    trial->tail[k] = (int32_t)((trial->head[k] + random_whole(source, 1, PARTICLES - 1)) % PARTICLES);
+    trial->kappas[k] = random_between(source, 0.0, 100.0);
+    trial->gammas[k] = random_between(source, 0.0, 10.0);
+    trial->rest_lengths[k] = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0;
+  }
+  struct hooke_run *run = &trial->run;
+  run->shape = shape;
+  run->count = count;
+  const int32_t distance =
+      (int32_t)random_whole(source, 1, random_whole(source, 0, 1) ? 3 : PARTICLES - count - 1);
+  run->offset = random_whole(source, 0, 1) ? distance : -distance;
+  run->start =
+      (int32_t)random_whole(source, 0, PARTICLES - count - distance) + (run->offset < 0 ? distance : 0);
+  run->head = trial->head;
+  run->tail = trial->tail;
+  run->kappas = trial->kappas;
+  run->gammas = trial->gammas;
+  run->rest_lengths = trial->rest_lengths;
+  run->kappa = random_between(source, 0.0, 100.0);
+  run->gamma = random_between(source, 0.0, 10.0);
+  run->rest_length = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0;
+}
+
+/* One spring at a time, as the definition has it. */
+static int64_t plain(const struct trial *trial, double f[3][PARTICLES]) {
+  const struct hooke_run *run = &trial->run;
+  int64_t lost = 0;
+  for (int64_t k = 0; k < run->count; k++) {
+    const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+    const int64_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
+    const double kappa = mixed ? run->kappas[k] : run->kappa, gamma = mixed ? run->gammas[k] : run->gamma;
+    const double l0 = mixed ? run->rest_lengths[k] : run->rest_length;
+    double d[3], u[3];
+    for (int a = 0; a < 3; a++)
+      d[a] = trial->q[a][i] - trial->q[a][j], u[a] = trial->v[a][i] - trial->v[a][j];
+    const double r = sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
+    const double ir = r > 0.0 ? 1.0 / r : 0.0;
+    double tension = kappa * (r - l0);
+    if (run->shape & HOOKE_RUN_DAMPED) tension += gamma * (((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]) * ir);
+    if ((run->shape & HOOKE_RUN_PULL_ONLY) && (r <= l0 || tension < 0.0)) tension = 0.0;
+    const double s = tension * ir;
+    for (int a = 0; a < 3; a++) {
+      f[a][i] += -s * d[a];
+      f[a][j] -= -s * d[a];
+    }
+    lost += r == 0.0 && l0 != 0.0;
+  }
+  return lost;
+}
+
+static void compare_sets(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
+  double expected[3][PARTICLES], found[3][PARTICLES];
+  draw(source, shape, count, trial);
+  memcpy(expected, trial->f, sizeof expected);
+  const int64_t lost = plain(trial, expected);
+  const struct hooke_spring_set *set;
+  for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
+    memcpy(found, trial->f, sizeof found);
+    const struct hooke_fields fields = {{trial->q[0], trial->q[1], trial->q[2]},
+                                        {trial->v[0], trial->v[1], trial->v[2]},
+                                        {found[0], found[1], found[2]}};
+    assert_non_null(set->loop[shape]);
+    assert_int_equal(set->loop[shape](&trial->run, &fields), lost);
+    for (int a = 0; a < 3; a++)
+      check_same_bits(PARTICLES, found[a], expected[a]);
+  }
+}
+
+static void test_sets_agree(void **unused) {
+  (void)unused;
+  struct random_source source = {4711};
+  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
+  const int64_t counts[] = {1,  2,  3,  4,  5,   7,   8,   9,   15,  16,  17,
+                            31, 63, 64, 65, 255, 256, 257, 511, 512, 513, 777};
+  for (int32_t shape = 0; shape < HOOKE_RUN_SHAPES; shape++) {
+    for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+      for (int round = 0; round < 4; round++)
+        compare_sets(&source, shape, counts[k], trial);
+    }
+  }
+  free(trial);
+}
+
+static void test_sets_have_names(void **unused) {
+  (void)unused;
+  int32_t count = 0;
+  while (hooke_spring_set(count) != NULL)
+    count++;
+  assert_true(count >= 1);
+  assert_null(hooke_spring_set(-1));
+  assert_string_equal(hooke_spring_set(count - 1)->name, "baseline");
+  assert_string_equal(hooke_spring_set(0)->name, hooke_kernel_instructions());
+  for (int32_t k = 0; k < count; k++)
+    print_message("instruction set: %s\n", hooke_spring_set(k)->name);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets_have_names),
+                                     cmocka_unit_test(test_sets_agree)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
