@@ -21,7 +21,7 @@ test: $(PRESETS:%=build-%)
 	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed=1; \
 	done; \
 	for preset in $(PRESETS); do \
-	  echo; echo "== $$preset"; sed -n '/ tests passed/,$$p' build/$$preset/tests.log; \
+	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
 	exit $$failed
 

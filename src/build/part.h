@@ -23,7 +23,26 @@ struct hooke_part_kind {
 extern const struct hooke_part_kind hooke_part_rope;
 extern const struct hooke_part_kind hooke_part_cloth;
 
-/* A family of springs, nested in the table of every kind. */
+/* Rows that kinds have in common: a point [m], the total mass, held particles, a family of springs. */
+#define HOOKE_PART_POINT(key, text)                                                                          \
+  {                                                                                                          \
+    .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
+    .doc = (text)                                                                                            \
+  }
+#define HOOKE_PART_MASS                                                                                      \
+  {                                                                                                          \
+    .name = "mass", .type = HOOKE_OPTION_NUMBER, .unit = "kg", .low = 0, .above_low = 1, .high = 1e300,      \
+    .required = 1, .doc = "total mass, shared equally"                                                       \
+  }
+#define HOOKE_PART_PINNED(names, text)                                                                       \
+  {                                                                                                          \
+    .name = "pinned", .type = HOOKE_OPTION_NUMBERS, .low = 0, .high = INT32_MAX, .whole = 1,                 \
+    .words = (names), .word_lists = 1, .doc = (text)                                                         \
+  }
+#define HOOKE_PART_FAMILY(key, text)                                                                         \
+  { .name = (key), .type = HOOKE_OPTION_FAMILY, .family = &hooke_part_family, .doc = (text) }
+
+/* Options of a family of springs, nested in the table of every kind. */
 extern const struct hooke_option_table hooke_part_family;
 
 /* Springs of one family and direction between the points of a grid: row by row, spring (r, c) joins r*stride

@@ -67,6 +67,12 @@ static void set_tolerance(const hooke_integrator *it, const struct hooke_cvode *
     tolerance[k] = it->rate || k < 3 * own->free_count ? position : velocity;
 }
 
+/* How far a linear solve goes, as a share of what Newton may leave. Along stiff springs a small residual is a large error,
+ * which costs steps, so this is below CVODE's 0.05; and where the Krylov space holds every unknown, accuracy is free. */
+static double linear_share(const hooke_integrator *it, const struct hooke_cvode *own) {
+  return !it->rate && 6 * own->free_count <= KRYLOV_VECTORS ? 1e-4 : 1e-2;
+}
+
 static int attach_solver(hooke_integrator *it, struct hooke_cvode *own) {
   if (!is_bdf(it)) {
     own->nonlinear = SUNNonlinSol_FixedPoint(own->y, 0, own->context);
@@ -74,7 +80,8 @@ static int attach_solver(hooke_integrator *it, struct hooke_cvode *own) {
   }
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, KRYLOV_VECTORS, own->context);
   if (own->linear == NULL) return CV_MEM_FAIL;
-  const int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
+  int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
+  if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, linear_share(it, own));
   if (flag != CV_SUCCESS || it->rate) return flag;
   return CVodeSetJacTimes(own->memory, hooke_cvode_product_setup, hooke_cvode_product);
 }

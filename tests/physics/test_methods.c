@@ -2,6 +2,7 @@
 #include "check.h"
 #include "reference.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,8 +99,42 @@ static void test_every_method_on_every_scene(void **unused) {
   }
 }
 
+/* A pendulum on a stiff, strongly damped rod. Newton with the right derivative strides over the fast mode once it has
+ * died out; the fixed-point iteration of cvode-adams cannot, and neither could Newton with a wrong derivative. */
+static void test_bdf_strides_over_damped_modes(void **unused) {
+  (void)unused;
+  if (hooke_method_is_built("cvode-bdf") != 1) skip();
+  const double position[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 1e4, .damping = 1e3, .rest_length = 1.0});
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_commit(system));
+  const char *methods[] = {"cvode-bdf", "cvode-adams"};
+  double steps[2], end[2][6];
+  for (int m = 0; m < 2; m++) {
+    hooke_integrator *integrator =
+        start_run(system, (struct run){.method = methods[m], .rtol = 1e-6, .atol = 1e-9, .duration = 2.0});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_run(integrator, state));
+    memcpy(end[m], hooke_state_position(state), sizeof end[m]);
+    steps[m] = (double)hooke_integrator_count(integrator, "steps");
+    if (m == 0) {
+      check_between((double)hooke_integrator_count(integrator, "nonlinear_failures"), 0.0, 0.1 * steps[0]);
+      check_between((double)hooke_integrator_count(integrator, "nonlinear_iterations"), steps[0],
+                    3.0 * steps[0]);
+    }
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  check_between(steps[0], 20.0, 0.3 * steps[1]);
+  check_between(largest_difference(6, end[0], end[1]), 0.0, 1e-4);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_table),
-                                     cmocka_unit_test(test_every_method_on_every_scene)};
+                                     cmocka_unit_test(test_every_method_on_every_scene),
+                                     cmocka_unit_test(test_bdf_strides_over_damped_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

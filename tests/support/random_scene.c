@@ -17,7 +17,7 @@ int32_t random_scene_force(int64_t n, double t, const double *q, const double *v
     for (int a = 0; a < 3; a++)
       f[a] -= 0.7 * x[a];
     f[0] += 0.3 * t - 0.2 * u[1] * x[0];
-    f[1] += (0.1 * x[2]) * x[2];
+    f[1] += ((0.1 * x[2]) * x[2]) * x[2];
     f[2] -= 0.4 * u[2];
   }
   return 0;
@@ -33,7 +33,7 @@ int32_t random_scene_force_product(int64_t n, double t, const double *q, const d
     for (int a = 0; a < 3; a++)
       f[a] -= 0.7 * dx[a];
     f[0] -= 0.2 * (du[1] * x[0] + u[1] * dx[0]);
-    f[1] += 0.2 * x[2] * dx[2];
+    f[1] += 0.3 * x[2] * x[2] * dx[2];
     f[2] -= 0.4 * du[2];
   }
   return 0;
