@@ -29,17 +29,9 @@ int32_t hooke_comparison_create(const hooke_system *system, const hooke_options 
 }
 
 static void release_room(hooke_comparison *c) {
-  for (int64_t k = 0; k < c->row_count; k++) {
-    hooke_free(c->row[k].error_at);
-    hooke_free(c->row[k].drift_at);
-    c->row[k].error_at = c->row[k].drift_at = NULL;
-  }
-  hooke_free(c->time);
-  hooke_free(c->energy);
-  hooke_free(c->position);
-  hooke_free(c->free);
-  c->time = c->energy = c->position = NULL;
-  c->free = NULL;
+  for (int64_t k = 0; k < c->row_count; k++)
+    hooke_trial_release(&c->row[k].trial);
+  hooke_frames_release(&c->frames);
   c->reference = NULL;
 }
 
@@ -103,16 +95,6 @@ static int32_t choose_reference(hooke_comparison *c, const double *q) {
   return HOOKE_OK;
 }
 
-static int32_t find_free_particles(hooke_comparison *c) {
-  c->free_count = 0;
-  c->free = hooke_new(hooke_system_free_count(c->system), sizeof *c->free);
-  if (c->free == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t p = 0; p < c->system->particle_count; p++) {
-    if (!c->system->held[p]) c->free[c->free_count++] = p;
-  }
-  return HOOKE_OK;
-}
-
 /* The schedule that all rows share: the one of a fixed-step method if the options have a step. */
 static int32_t read_schedule(hooke_comparison *c) {
   struct hooke_schedule schedule;
@@ -126,21 +108,15 @@ static int32_t read_schedule(hooke_comparison *c) {
     return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
   }
   c->frame_count = schedule.frames;
-  c->duration = schedule.duration;
   return HOOKE_OK;
 }
 
 static int32_t make_room(hooke_comparison *c) {
-  c->time = hooke_new(c->frame_count, sizeof(double));
-  c->energy = hooke_new(c->frame_count, sizeof(double));
-  c->position = hooke_new(c->frame_count, 3 * sizeof(double) * (size_t)(c->system->particle_count + 1));
-  if (c->time == NULL || c->energy == NULL || c->position == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < c->row_count; k++) {
-    c->row[k].error_at = hooke_new(c->frame_count, sizeof(double));
-    c->row[k].drift_at = hooke_new(c->frame_count, sizeof(double));
-    if (c->row[k].error_at == NULL || c->row[k].drift_at == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = hooke_frames_create(c->system, c->frame_count, &c->frames);
+  for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++) {
+    status = hooke_trial_create(&c->frames, &c->row[k].trial);
   }
-  return HOOKE_OK;
+  return status;
 }
 
 static int32_t add_all_methods(hooke_comparison *c) {
@@ -157,7 +133,6 @@ int32_t hooke_comparison_prepare(hooke_comparison *c) {
   hooke_state *state = NULL;
   if (status == HOOKE_OK) status = read_schedule(c);
   if (status == HOOKE_OK) status = hooke_state_create(c->system, &state);
-  if (status == HOOKE_OK) status = find_free_particles(c);
   if (status == HOOKE_OK) status = make_room(c);
   if (status == HOOKE_OK) status = choose_reference(c, hooke_state_position(state));
   hooke_state_destroy(state);
@@ -179,31 +154,12 @@ const char *hooke_comparison_text(const hooke_comparison *c, int64_t row, const 
   const struct hooke_comparison_row *r = row_at(c, row);
   if (r == NULL) return NULL;
   if (strcmp(what, "method") == 0) return r->method;
-  return strcmp(what, "status") == 0 ? (r->status ? r->status : "not run") : NULL;
+  return strcmp(what, "status") == 0 ? (r->trial.status ? r->trial.status : "not run") : NULL;
 }
 
 double hooke_comparison_number(const hooke_comparison *c, int64_t row, const char *what) {
   const struct hooke_comparison_row *r = row_at(c, row);
-  if (r == NULL || r->status == NULL) return NAN;
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {
-      {"step", r->step},
-      {"rtol", r->rtol},
-      {"atol", r->atol},
-      {"error", r->error},
-      {"error_max", r->error_max},
-      {"error_final", r->error_final},
-      {"energy_drift", r->energy_drift},
-      {"force_evaluations", r->force_evaluations},
-      {"steps", r->steps},
-      {"wall_seconds", r->wall_seconds},
-  };
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    if (strcmp(numbers[k].name, what) == 0) return numbers[k].value;
-  }
-  return NAN;
+  return r ? hooke_trial_number(&r->trial, what) : NAN;
 }
 
 const char *hooke_comparison_reference(const hooke_comparison *comparison) {
@@ -216,8 +172,8 @@ int64_t hooke_comparison_frame_count(const hooke_comparison *comparison) {
 
 const double *hooke_comparison_series(const hooke_comparison *c, int64_t row, const char *what) {
   const struct hooke_comparison_row *r = row_at(c, row);
-  if (strcmp(what, "time") == 0) return c->time;
+  if (strcmp(what, "time") == 0) return c->frames.time;
   if (r == NULL) return NULL;
-  if (strcmp(what, "error") == 0) return r->error_at;
-  return strcmp(what, "energy_drift") == 0 ? r->drift_at : NULL;
+  if (strcmp(what, "error") == 0) return r->trial.error_at;
+  return strcmp(what, "energy_drift") == 0 ? r->trial.drift_at : NULL;
 }
