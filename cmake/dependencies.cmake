@@ -44,14 +44,30 @@ function(hooke_find_library name)
   set(HOOKE_${NAME}_FOUND TRUE PARENT_SCOPE)
 endfunction()
 
+# Chart.js is no library to link but a file for the page of a report: the bundle for browsers (chart.umd.js from
+# version 4 on). Sets HOOKE_CHARTJS_FOUND, _FILE and _VERSION.
+function(hooke_find_chartjs)
+  set(HOOKE_CHARTJS_FOUND FALSE PARENT_SCOPE)
+  find_file(HOOKE_CHARTJS_FILE NAMES chart.min.js chart.umd.js
+    PATH_SUFFIXES share/javascript/chart.js share/nodejs/chart.js/dist)
+  mark_as_advanced(HOOKE_CHARTJS_FILE)
+  if(HOOKE_CHARTJS_FILE)
+    file(READ "${HOOKE_CHARTJS_FILE}" banner LIMIT 400)
+    if(banner MATCHES "Chart\\.js v([34]\\.[0-9.]+).*typeof exports")
+      set(HOOKE_CHARTJS_VERSION ${CMAKE_MATCH_1} PARENT_SCOPE)
+      set(HOOKE_CHARTJS_FOUND TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
+
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
 # looked up by name. One of them ("sundials", "gsl", "hdf5", "jansson") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
       HEADER cvode/cvode.h
-      LIBRARIES sundials_cvode sundials_nvecserial sundials_sunlinsolspgmr sundials_sunnonlinsolnewton
-                sundials_sunnonlinsolfixedpoint
+      LIBRARIES sundials_cvode sundials_arkode sundials_nvecserial sundials_sunlinsolspgmr
+                sundials_sunnonlinsolnewton sundials_sunnonlinsolfixedpoint
       OPTIONAL sundials_core # SUNDIALS 7
       VERSION sundials/sundials_config.h "SUNDIALS_VERSION \"([^\"]+)\"")
   elseif("${name}" STREQUAL "gsl")
@@ -70,5 +86,7 @@ macro(hooke_find name)
       HEADER jansson.h
       LIBRARIES jansson
       VERSION jansson.h "JANSSON_VERSION +\"([^\"]+)\"")
+  elseif("${name}" STREQUAL "chartjs")
+    hooke_find_chartjs()
   endif()
 endmacro()

@@ -9,7 +9,7 @@
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
  * `every` it is the multiple of `step` nearest to duration/100. Error-controlled methods interpolate frames
- * to their order. */
+ * to their order, or end a step at each. */
 #ifndef HOOKE_INTEGRATOR_H
 #define HOOKE_INTEGRATOR_H
 
@@ -27,7 +27,9 @@ typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, v
 /* Sees the state after `step` steps; may not change it. Return 0 to go on, anything else to stop the run. */
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
 
-/* ---- methods ---- */
+/* ---- methods ----
+ * Count and name go over the methods for everyday use. Two more are there to check references with, "rk8pd" (GSL) and
+ * "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a name know them too. */
 
 HOOKE_API int64_t hooke_method_count(void);
 /* Name of a method, "forward-euler"; NULL past the last. */

@@ -3,6 +3,7 @@
 
 #include "core/status.h"
 
+#include <stddef.h>
 #include <string.h>
 
 static int32_t keep_stop_value(hooke_integrator *it, int32_t status) {
@@ -11,8 +12,17 @@ static int32_t keep_stop_value(hooke_integrator *it, int32_t status) {
 }
 
 int32_t hooke_integrator_forces(hooke_integrator *it, double t) {
+  return hooke_integrator_forces_without(it, t, NULL);
+}
+
+int32_t hooke_integrator_forces_without(hooke_integrator *it, double t,
+                                        const struct hooke_force_row *left_out) {
   it->count.force_evaluations++;
-  return keep_stop_value(it, hooke_motion_forces(it->system, it->motion, t));
+  return keep_stop_value(it, hooke_motion_forces_without(it->system, it->motion, t, left_out));
+}
+
+double hooke_integrator_next_time(const hooke_integrator *it) {
+  return it->t0 + (double)(it->k + 1) * it->schedule.step;
 }
 
 int32_t hooke_integrator_drive(hooke_integrator *it, double t) {

@@ -28,6 +28,7 @@ static int32_t step(hooke_integrator *it) {
 const struct hooke_method hooke_forward_euler = {.name = "forward-euler",
                                                  .summary = "fixed step, order 1; unstable without damping",
                                                  .built = 1,
+                                                 .order = 1,
                                                  .first_order = 1,
                                                  .second_order = 1,
                                                  .begin = hooke_fixed_begin,

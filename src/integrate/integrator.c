@@ -24,7 +24,8 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   const struct hooke_method *method = hooke_method_find(name);
   if (method == NULL) return unknown_method(name);
   if (!method->built) {
-    return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs SUNDIALS, which this build is without", name);
+    return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
+                      method->needs);
   }
   hooke_integrator *it = hooke_new(1, sizeof *it);
   if (it == NULL) return HOOKE_NO_MEMORY;
@@ -77,11 +78,10 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->rate_ctx = ctx;
   it->size = size;
   if (!it->method->first_order) {
+    const char *why = it->method->no_first_order;
     status = hooke_fail(
-        HOOKE_UNSUITED, "method",
-        "%s steps positions and velocities apart, and x' = phi(t, x) has no such parts; take one of "
-        "the methods that do not, such as forward-euler",
-        it->method->name);
+        HOOKE_UNSUITED, "method", "%s %s; take one of the methods that do not, such as rk4", it->method->name,
+        why ? why : "steps positions and velocities apart, and x' = phi(t, x) has no such parts");
   }
   if (status == HOOKE_OK) status = hooke_state_create_first_order(size, &it->good);
   if (status == HOOKE_OK) {

@@ -42,8 +42,9 @@ struct hooke_integrator {
   void *own;    /* the method's scratch */
   int64_t own_memory;
 
-  double t0, t;                                    /* where the run began, and where it is */
-  int64_t k;                                       /* steps since t0 */
+  double t0, t; /* where the run began, and where it is */
+  double goal;  /* the time that the run loop wants next; a method that does not interpolate stops there */
+  int64_t k;    /* steps since t0 */
   hooke_state *good;                               /* the last state that passed the check */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
@@ -60,9 +61,14 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
 
 /* Forces at the motion's place and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
+/* The same without one force of the table. */
+int32_t hooke_integrator_forces_without(hooke_integrator *integrator, double t,
+                                        const struct hooke_force_row *left_out);
 /* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
 int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);
+/* Time at the end of the step that a fixed-step method is about to take. */
+double hooke_integrator_next_time(const hooke_integrator *integrator);
 /* slope = phi(t, x), counted. */
 int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
 

@@ -4,22 +4,29 @@
 #include <string.h>
 
 static const struct hooke_method *const table[] = {
-    &hooke_forward_euler,
-    &hooke_symplectic_euler,
-    &hooke_cvode_bdf,
-    &hooke_cvode_adams,
+    &hooke_forward_euler, &hooke_symplectic_euler, &hooke_verlet, &hooke_rk4,
+    &hooke_cvode_bdf,     &hooke_cvode_adams,      &hooke_rk8pd,  &hooke_arkode_esdirk,
 };
 
+enum { ROWS = sizeof table / sizeof table[0] };
+
 int64_t hooke_method_count(void) {
-  return (int64_t)(sizeof table / sizeof table[0]);
+  int64_t count = 0;
+  for (int64_t k = 0; k < ROWS; k++)
+    count += !table[k]->reference;
+  return count;
 }
 
 const char *hooke_method_name(int64_t method) {
-  return method >= 0 && method < hooke_method_count() ? table[method]->name : NULL;
+  if (method < 0) return NULL;
+  for (int64_t k = 0; k < ROWS; k++) {
+    if (!table[k]->reference && method-- == 0) return table[k]->name;
+  }
+  return NULL;
 }
 
 const struct hooke_method *hooke_method_find(const char *name) {
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
+  for (int64_t k = 0; k < ROWS; k++) {
     if (strcmp(table[k]->name, name) == 0) return table[k];
   }
   return NULL;

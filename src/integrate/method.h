@@ -7,9 +7,13 @@
 /* What a row says of itself, and how it is run. `create` and `destroy` may be NULL. All return a status. */
 struct hooke_method {
   const char *name, *summary;
-  int32_t built;                     /* 0: this build is without what it needs */
+  const char *needs;                 /* library that it needs, NULL: none */
+  int32_t built;                     /* 0: this build is without that */
+  int32_t reference;                 /* 1: there to check references with, left out of lists; found by name */
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
+  int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
+  const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
   /* takes up t, q and v */
@@ -20,8 +24,8 @@ struct hooke_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-extern const struct hooke_method hooke_forward_euler, hooke_symplectic_euler, hooke_cvode_bdf,
-    hooke_cvode_adams;
+extern const struct hooke_method hooke_forward_euler, hooke_symplectic_euler, hooke_verlet, hooke_rk4,
+    hooke_cvode_bdf, hooke_cvode_adams, hooke_rk8pd, hooke_arkode_esdirk;
 
 /* Row of this name, or NULL. */
 const struct hooke_method *hooke_method_find(const char *name);

@@ -55,7 +55,7 @@ static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
   const double begun = hooke_clock_seconds();
   for (int64_t s = 0; s < count && status == HOOKE_OK; s++) {
-    const double next = it->t0 + (double)(it->k + 1) * it->schedule.step;
+    const double next = hooke_integrator_next_time(it);
     status = hooke_integrator_drive(it, next);
     if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
@@ -128,17 +128,22 @@ static int32_t report_frame(hooke_integrator *it, hooke_state *state, double t) 
   return status == HOOKE_OK ? observe(it, &it->on_frame, state) : status;
 }
 
-/* Internal steps to the end of the run; frames 1, 2, ... are interpolated within the step that passes them.
- */
+static double next_goal(const hooke_integrator *it, const struct hooke_schedule *schedule, int64_t frame,
+                        double end) {
+  return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
+}
+
+/* Internal steps to the end of the run; frames 1, 2, ... are asked of the step that reaches or passes them. */
 static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const struct hooke_schedule *schedule) {
   const double end = it->t0 + schedule->duration, steps = hooke_options_number(it->options, "max_steps");
   const int64_t limit = isnan(steps) ? INT64_MAX : (int64_t)steps;
   int32_t status = HOOKE_OK;
   int64_t frame = 1;
   while (it->t < end && status == HOOKE_OK) {
+    it->goal = next_goal(it, schedule, frame, end);
     status = take_adaptive_step(it, state);
     while (status == HOOKE_OK && frame < schedule->frames) {
-      const double t = fmin(it->t0 + (double)frame * schedule->every, end);
+      const double t = next_goal(it, schedule, frame, end);
       if (t > it->t) break;
       status = report_frame(it, state, t);
       frame++;
@@ -177,6 +182,7 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
   if (status == HOOKE_OK && !goes_on(it, state)) status = begin(it, state);
   if (status != HOOKE_OK) return status;
   if (!it->method->adaptive) return run_fixed(it, state, it->k + steps, 0);
+  it->goal = INFINITY;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
     status = take_adaptive_step(it, state);
     if (status == HOOKE_OK) status = report_step(it, state, INT64_MAX);

@@ -57,8 +57,8 @@ static const struct hooke_option_row run_rows[] = {
      .low = 1,
      .high = 12,
      .whole = 1,
-     .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use; the highest if not "
-            "given"},
+     .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
+            "arkode-esdirk (3 to 5); the highest if not given"},
     {.name = "max_steps",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,

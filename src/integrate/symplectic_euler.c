@@ -22,6 +22,7 @@ const struct hooke_method hooke_symplectic_euler = {.name = "symplectic-euler",
                                                     .summary =
                                                         "fixed step, order 1; keeps undamped motion bounded",
                                                     .built = 1,
+                                                    .order = 1,
                                                     .second_order = 1,
                                                     .begin = hooke_fixed_begin,
                                                     .step = step,

@@ -67,7 +67,8 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
 
 int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
                                         const double *v, const double *dq, const double *dv, double *out) {
-  const struct hooke_point point = {t, q, v, dq, dv};
+  int32_t stop_value;
+  const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));

@@ -10,6 +10,7 @@
 struct hooke_point {
   double t;
   const double *q, *v, *dq, *dv;
+  int32_t *stop_value; /* receives what a callback that stopped returned */
 };
 
 /* Everything but `name` and `present` may be NULL: the force then has no such part. */

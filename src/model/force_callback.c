@@ -67,6 +67,7 @@ static int32_t add_difference(const hooke_system *system, const struct hooke_poi
   for (int64_t k = 0; k < size && value == 0; k++)
     out[k] += (ahead[k] - behind[k]) / (2.0 * step);
   hooke_free(q);
+  *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }
 
@@ -74,6 +75,7 @@ static int32_t add_product(const hooke_system *system, const struct hooke_point 
   if (system->force_product == NULL) return add_difference(system, point, out);
   const int32_t value = system->force_product(system->particle_count, point->t, point->q, point->v, point->dq,
                                               point->dv, out, system->force_ctx);
+  *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }
 

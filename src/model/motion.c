@@ -80,12 +80,33 @@ void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v)
   hooke_rows_from_components(motion->n, motion->v, v);
 }
 
+void hooke_motion_save(const struct hooke_motion *motion, double *place) {
+  const size_t bytes = (size_t)motion->n * sizeof(double);
+  for (int a = 0; a < 3; a++) {
+    memcpy(place + a * motion->n, motion->q[a], bytes);
+    memcpy(place + (3 + a) * motion->n, motion->v[a], bytes);
+  }
+}
+
+void hooke_motion_restore(struct hooke_motion *motion, const double *place) {
+  const size_t bytes = (size_t)motion->n * sizeof(double);
+  for (int a = 0; a < 3; a++) {
+    memcpy(motion->q[a], place + a * motion->n, bytes);
+    memcpy(motion->v[a], place + (3 + a) * motion->n, bytes);
+  }
+}
+
 int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t) {
+  return hooke_motion_forces_without(system, motion, t, NULL);
+}
+
+int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
+                                    const struct hooke_force_row *left_out) {
   for (int a = 0; a < 3; a++)
     memset(motion->f[a], 0, (size_t)motion->n * sizeof(double));
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hooke_force_row *row = system->force_row[k];
-    if (row->add == NULL) continue;
+    if (row->add == NULL || row == left_out) continue;
     const int32_t status = row->add(system, motion, t);
     if (status != HOOKE_OK) return status;
   }

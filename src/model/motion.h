@@ -5,6 +5,8 @@
 
 #include "model/system.h"
 
+struct hooke_force_row;
+
 struct hooke_motion {
   int64_t n;
   double *q[3], *v[3], *f[3]; /* n each, in one block */
@@ -23,12 +25,18 @@ void hooke_motion_destroy(struct hooke_motion *motion);
 void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, const double *q,
                        const double *v);
 void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v);
+/* Positions and velocities to and from `place`: 6 components of n each. */
+void hooke_motion_save(const struct hooke_motion *motion, double *place);
+void hooke_motion_restore(struct hooke_motion *motion, const double *place);
 void hooke_rows_from_components(int64_t n, double *const component[3], double *rows);
 void hooke_components_from_rows(int64_t n, const double *rows, double *const component[3]);
 
 /* f = the sum of all forces at time t, gravity left out: a = w f + g. HOOKE_STOPPED if a callback asked for
  * it. */
 int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t);
+/* The same without one force of the table. */
+int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
+                                    const struct hooke_force_row *left_out);
 
 /* Asks the drives where their particles are at time t; HOOKE_STOPPED if a callback asked for it. */
 int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t);

@@ -35,7 +35,9 @@ static void compare_scene(struct random_scene_request request) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
     /* a step that is no binary fraction: t0 + k h has to be rounded the same way */
-    check_lockstep(&scene, method, request.seed % 2 ? 2 : 1, start, 0.0009765, 10);
+    /* the fourth power of a step far too large overflows within ten steps, which Euler's first does not */
+    const double step = strcmp(method, "rk4") == 0 ? 0.00009765 : 0.0009765;
+    check_lockstep(&scene, method, request.seed % 2 ? 2 : 1, start, step, 10);
   }
   random_scene_destroy(&scene);
 }

@@ -22,6 +22,7 @@ PUBLIC = {
     "hooke/build.h": "build",
     "hooke/integrator.h": "integrate",
     "hooke/measure.h": "measure",
+    "hooke/study.h": "measure",
     "hooke/io.h": "io",
 }
 
@@ -29,8 +30,9 @@ PUBLIC = {
 FENCES = [
     (r"jansson\.h", r"src/io/scene_json\w*\.[ch]"),
     (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]"),
-    (r"(cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*", r"src/integrate/cvode\w*\.[ch]"),
-    (r"gsl/.*", r"src/measure/\w+_gsl\.[ch]"),
+    (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
+     r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
+    (r"gsl/.*", r"src/(integrate|measure)/\w+_gsl\.[ch]"),
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
 ]
 
@@ -39,7 +41,7 @@ STANDARD = set(
     "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl libgen pthread sched strings termios unistd "
-    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/wait "
+    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
     "getopt immintrin".split()
 )
 

@@ -159,8 +159,10 @@ static void test_force_stops(void **unused) {
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("1234");
     assert_int_equal(hooke_integrator_stop_value(integrator), 1234);
+    /* the first force beyond 0.45 s is that of a step from 0.5 s, or, for methods that look ahead, to 0.5 s */
+    const double last = strcmp(method, "verlet") == 0 || strcmp(method, "rk4") == 0 ? 0.375 : 0.5;
     if (is_fixed_step(method))
-      check_close(hooke_state_time(state), 0.5, 0.0);
+      check_close(hooke_state_time(state), last, 0.0);
     else
       check_between(hooke_state_time(state), 0.0, 0.45);
     /* x = t^2/2 under a unit force, whatever the method made of it */

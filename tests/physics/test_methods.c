@@ -85,7 +85,8 @@ static void test_every_method_on_every_scene(void **unused) {
         coarse = error_of(reference, system, (struct run){.method = method, .step = step});
         fine = error_of(reference, system, (struct run){.method = method, .step = step / 2.0});
         if (strstr(method, "-euler") != NULL) best_fixed = fmin(best_fixed, fine);
-        if (!(fine < 0.6 * coarse && fine < 1e-2)) {
+        /* down at rounding no step makes it better */
+        if (!((fine < 0.6 * coarse || coarse < 1e-13) && fine < 1e-2)) {
           check_failed("%s by %s: errors %g at %g s, %g at half of it", reference->name, method, coarse, step,
                        fine);
         }

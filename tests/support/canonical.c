@@ -3,6 +3,7 @@
 
 #include "check.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,16 +43,22 @@ void canonical_destroy(struct canonical *canonical) {
   memset(canonical, 0, sizeof *canonical);
 }
 
+/* Whether a spring that only pulls does so is seen at the velocities `seen`. */
+static double rate_of(int64_t i, int64_t j, double dx, double dy, double dz, double ir, const double *v) {
+  const double vx = v[3 * i] - v[3 * j], vy = v[3 * i + 1] - v[3 * j + 1], vz = v[3 * i + 2] - v[3 * j + 2];
+  return ((vx * dx + vy * dy) + vz * dz) * ir;
+}
+
 static void add_spring(const struct canonical *canonical, int64_t k, const double *q, const double *v,
-                       double *force) {
+                       const double *seen, double *force) {
   const int64_t i = canonical->ends[2 * k], j = canonical->ends[2 * k + 1];
   const double kappa = canonical->kappa[k], gamma = canonical->gamma[k], l0 = canonical->rest_length[k];
   const double dx = q[3 * i] - q[3 * j], dy = q[3 * i + 1] - q[3 * j + 1], dz = q[3 * i + 2] - q[3 * j + 2];
-  const double vx = v[3 * i] - v[3 * j], vy = v[3 * i + 1] - v[3 * j + 1], vz = v[3 * i + 2] - v[3 * j + 2];
   const double r = sqrt((dx * dx + dy * dy) + dz * dz);
   const double ir = r > 0.0 ? 1.0 / r : 0.0;
-  double tension = kappa * (r - l0) + gamma * (((vx * dx + vy * dy) + vz * dz) * ir);
-  if (canonical->pull_only[k] && (r <= l0 || tension < 0.0)) tension = 0.0;
+  double tension = kappa * (r - l0) + gamma * rate_of(i, j, dx, dy, dz, ir, v);
+  const double tension_seen = kappa * (r - l0) + gamma * rate_of(i, j, dx, dy, dz, ir, seen);
+  if (canonical->pull_only[k] && (r <= l0 || tension_seen < 0.0)) tension = 0.0;
   const double s = tension * ir;
   const double fx = -s * dx, fy = -s * dy, fz = -s * dz;
   force[3 * i] += fx;
@@ -62,21 +69,22 @@ static void add_spring(const struct canonical *canonical, int64_t k, const doubl
   force[3 * j + 2] -= fz;
 }
 
-void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
-                            double *acceleration) {
+/* Damping at v, with springs that only pull and the callback at `seen`. */
+static void accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
+                       const double *seen, double *acceleration) {
   const int64_t n = canonical->particle_count;
   const double *w = canonical->inverse_mass;
   double *force = acceleration;
   memset(force, 0, (size_t)(3 * n) * sizeof(double));
   for (int64_t k = 0; k < canonical->spring_count; k++)
-    add_spring(canonical, k, q, v, force);
+    add_spring(canonical, k, q, v, seen, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
         force[3 * p + a] -= canonical->drag * v[3 * p + a];
     }
   }
-  if (canonical->force != NULL) assert_int_equal(canonical->force(n, t, q, v, force, canonical->ctx), 0);
+  if (canonical->force != NULL) assert_int_equal(canonical->force(n, t, q, seen, force, canonical->ctx), 0);
   for (int64_t p = 0; p < n; p++) {
     for (int a = 0; a < 3; a++) {
       double *f = &force[3 * p + a];
@@ -87,24 +95,176 @@ void canonical_acceleration(const struct canonical *canonical, double t, const d
   }
 }
 
-int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double h, double *q,
-                       double *v) {
-  const int64_t n = canonical->particle_count;
-  const double *w = canonical->inverse_mass;
-  const int forward = strcmp(method, "forward-euler") == 0;
-  if (!forward && strcmp(method, "symplectic-euler") != 0) return 0;
-  double *a = new_doubles(3 * n);
+void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
+                            double *acceleration) {
+  accelerate(canonical, t, q, v, v, acceleration);
+}
+
+/* ---- steps ---- */
+
+static void place(const struct canonical *canonical, double t, double *q, double *v) {
+  if (canonical->place != NULL) canonical->place(t, q, v, canonical->place_ctx);
+}
+
+static int is_free(const struct canonical *canonical, int64_t k) {
+  return canonical->inverse_mass[k / 3] != 0.0;
+}
+
+static void forward_euler(const struct canonical *canonical, double t, double h, double *q, double *v,
+                          double *a) {
   canonical_acceleration(canonical, t, q, v, a);
-  for (int64_t k = 0; k < 3 * n; k++) {
-    if (w[k / 3] == 0.0) continue;
-    if (forward) {
-      q[k] += h * v[k];
-      v[k] += h * a[k];
-    } else {
-      v[k] += h * a[k];
-      q[k] += h * v[k];
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    if (!is_free(canonical, k)) continue;
+    q[k] += h * v[k];
+    v[k] += h * a[k];
+  }
+}
+
+static void symplectic_euler(const struct canonical *canonical, double t, double h, double *q, double *v,
+                             double *a) {
+  canonical_acceleration(canonical, t, q, v, a);
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    if (!is_free(canonical, k)) continue;
+    v[k] += h * a[k];
+    q[k] += h * v[k];
+  }
+}
+
+/* The first kick and the drift of a Verlet step: v is the velocity half-way. */
+static void verlet_drift(const struct canonical *canonical, double t, double h, double *q, double *v,
+                         double *a) {
+  canonical_acceleration(canonical, t, q, v, a);
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    if (!is_free(canonical, k)) continue;
+    v[k] += h / 2.0 * a[k];
+    q[k] += h * v[k];
+  }
+}
+
+/* Without spring damping, and with drag at the new velocity. */
+static void verlet(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
+                   double *a) {
+  struct canonical without_drag = *canonical;
+  without_drag.drag = 0.0;
+  verlet_drift(canonical, t, h, q, v, a);
+  place(canonical, end, q, v);
+  canonical_acceleration(&without_drag, end, q, v, a);
+  const double brake = h / 2.0 * canonical->drag;
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    if (!is_free(canonical, k)) continue;
+    v[k] += h / 2.0 * a[k];
+    if (canonical->drag != 0.0) v[k] /= 1.0 + brake * canonical->inverse_mass[k / 3];
+  }
+}
+
+static void rk4(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
+                double *a) {
+  const int64_t size = 3 * canonical->particle_count;
+  const double time[4] = {t, t + h / 2.0, t + h / 2.0, end}, ahead[4] = {0.0, h / 2.0, h / 2.0, h};
+  double *speed[4], *rate[4];
+  double *stage_q = new_doubles(size), *stage_v = new_doubles(size);
+  memcpy(stage_q, q, (size_t)size * sizeof(double));
+  memcpy(stage_v, v, (size_t)size * sizeof(double));
+  for (int s = 0; s < 4; s++) {
+    speed[s] = new_doubles(size);
+    rate[s] = new_doubles(size);
+    for (int64_t k = 0; k < size && s > 0; k++) {
+      if (!is_free(canonical, k)) continue;
+      stage_q[k] = q[k] + ahead[s] * speed[s - 1][k];
+      stage_v[k] = v[k] + ahead[s] * rate[s - 1][k];
+    }
+    if (s > 0) place(canonical, time[s], stage_q, stage_v);
+    memcpy(speed[s], stage_v, (size_t)size * sizeof(double));
+    canonical_acceleration(canonical, time[s], stage_q, stage_v, a);
+    memcpy(rate[s], a, (size_t)size * sizeof(double));
+  }
+  for (int64_t k = 0; k < size; k++) {
+    if (!is_free(canonical, k)) continue;
+    q[k] += h / 6.0 * (((speed[0][k] + 2.0 * speed[1][k]) + 2.0 * speed[2][k]) + speed[3][k]);
+    v[k] += h / 6.0 * (((rate[0][k] + 2.0 * rate[1][k]) + 2.0 * rate[2][k]) + rate[3][k]);
+  }
+  for (int s = 0; s < 4; s++) {
+    free(speed[s]);
+    free(rate[s]);
+  }
+  free(stage_q);
+  free(stage_v);
+}
+
+static int is_damped(const struct canonical *canonical) {
+  for (int64_t k = 0; k < canonical->spring_count; k++) {
+    if (canonical->gamma[k] != 0.0) return 1;
+  }
+  return 0;
+}
+
+int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
+                       double *q, double *v) {
+  if (strcmp(method, "backward-euler") == 0) return CANONICAL_SOLVED;
+  if (strcmp(method, "verlet") == 0 && is_damped(canonical)) return CANONICAL_SOLVED;
+  int32_t result = CANONICAL_STEPPED;
+  double *a = new_doubles(3 * canonical->particle_count);
+  if (strcmp(method, "forward-euler") == 0)
+    forward_euler(canonical, t, h, q, v, a);
+  else if (strcmp(method, "symplectic-euler") == 0)
+    symplectic_euler(canonical, t, h, q, v, a);
+  else if (strcmp(method, "verlet") == 0)
+    verlet(canonical, t, end, h, q, v, a);
+  else if (strcmp(method, "rk4") == 0)
+    rk4(canonical, t, end, h, q, v, a);
+  else
+    result = CANONICAL_UNKNOWN;
+  if (result == CANONICAL_STEPPED) place(canonical, end, q, v);
+  free(a);
+  return result;
+}
+
+/* What 100 roundings of positions and velocities make of the change of a velocity in one step. */
+static double rounding(const struct canonical *canonical, double h, const double *q, const double *v) {
+  double extent = 0.0, speed = 0.0, stiffness = 0.0, damping = canonical->drag;
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    extent = fmax(extent, fabs(q[k]));
+    speed = fmax(speed, fabs(v[k]));
+  }
+  double lightest = 0.0;
+  for (int64_t p = 0; p < canonical->particle_count; p++)
+    lightest = fmax(lightest, canonical->inverse_mass[p]);
+  for (int64_t k = 0; k < canonical->spring_count; k++) {
+    stiffness = fmax(stiffness, canonical->kappa[k]);
+    damping = fmax(damping, canonical->gamma[k]);
+  }
+  return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
+}
+
+double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
+                        const double *q0, const double *v0, const double *q1, const double *v1) {
+  const int64_t size = 3 * canonical->particle_count;
+  const int kicks = strcmp(method, "verlet") == 0; /* else backward Euler */
+  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
+  memcpy(q, q0, (size_t)size * sizeof(double));
+  memcpy(v, v0, (size_t)size * sizeof(double));
+  double change = 0.0, defect = 0.0;
+  if (kicks) {
+    verlet_drift(canonical, t, h, q, v, a);
+  } else {
+    for (int64_t k = 0; k < size; k++) {
+      if (is_free(canonical, k)) q[k] += h * v1[k];
     }
   }
+  double *seen = new_doubles(size);
+  memcpy(seen, kicks ? v : v1, (size_t)size * sizeof(double));
+  place(canonical, end, q, seen);
+  accelerate(canonical, end, q, v1, seen, a);
+  for (int64_t k = 0; k < size; k++) {
+    if (memcmp(&q[k], &q1[k], sizeof q[k]) != 0) defect = INFINITY;
+    if (!is_free(canonical, k)) continue;
+    const double wrong = v1[k] - (v[k] + (kicks ? h / 2.0 : h) * a[k]);
+    if (!(fabs(wrong) <= defect)) defect = fabs(wrong);
+    change = fmax(change, fabs(v1[k] - v0[k]));
+  }
+  free(q);
+  free(v);
   free(a);
-  return 1;
+  free(seen);
+  return defect / (1e-9 * change + rounding(canonical, h, q1, v1));
 }

@@ -18,6 +18,9 @@ struct canonical {
   double drag;                         /* 0: none */
   hooke_force *force;                  /* NULL: none */
   void *ctx;
+  /* puts driven particles where they are at time t; NULL: there are none */
+  void (*place)(double t, double *q, double *v, void *place_ctx);
+  void *place_ctx;
 };
 
 /* Numbers of a committed system. Springs of groups whose name begins with "pull" only pull; gravity, drag and callback
@@ -29,9 +32,17 @@ void canonical_destroy(struct canonical *canonical);
 void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
                             double *acceleration);
 
-/* One step of a fixed-step method from time t; held particles stay as they are. Returns 0 for a method that has no
- * definition here. */
-int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double h, double *q,
-                       double *v);
+/* One step of a fixed-step method from time t to `end`, h long but for rounding; pinned particles stay as they are. */
+enum { CANONICAL_UNKNOWN, CANONICAL_STEPPED, CANONICAL_SOLVED };
+/* CANONICAL_UNKNOWN for a method that has no definition here, CANONICAL_SOLVED, with q and v untouched, for one whose step
+ * is the solution of equations and no sum. */
+int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
+                       double *q, double *v);
+
+/* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity, over 1e-9 of
+ * the largest change of one and what a few roundings of the numbers in the equations make of it. Infinity unless
+ * positions follow from the velocities to the bit. */
+double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
+                        const double *q0, const double *v0, const double *q1, const double *v1);
 
 #endif

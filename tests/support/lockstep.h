@@ -5,8 +5,9 @@
 #include "random_scene.h"
 
 /* Fails unless `steps` steps of a fixed-step method from time `start` give the canonical positions, velocities and times
- * to the bit, both seen after every step and all in one call. Driven particles are taken from the library; a scene that
- * has some starts at 0, where hooke_state_create() puts them. */
+ * to the bit, seen after every step, all in one call, and one by one. Where a step is the solution of equations they have
+ * to hold after every step, and the bits to be the same in each of these ways. A scene with driven particles starts at 0,
+ * where hooke_state_create() puts them. */
 void check_lockstep(const struct random_scene *scene, const char *method, int32_t threads, double start,
                     double step, int64_t steps);
 

@@ -2,6 +2,7 @@
 
 #include "check.h"
 #include "random.h"
+#include "run.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -266,6 +267,18 @@ static void add_part(struct random_source *source, struct random_scene_request r
 
 /* ---- the whole ---- */
 
+static void place_driven(double t, double *q, double *v, void *ctx) {
+  const struct random_scene *scene = ctx;
+  hooke_state_set_time(scene->driven_state, t);
+  check_ok(hooke_integrator_step(scene->driver, scene->driven_state, 0));
+  const double *from_q = hooke_state_position(scene->driven_state);
+  const double *from_v = hooke_state_velocity(scene->driven_state);
+  for (int64_t k = 0; k < scene->driven_count; k++) {
+    memcpy(q + 3 * scene->driven[k], from_q + 3 * scene->driven[k], 3 * sizeof(double));
+    memcpy(v + 3 * scene->driven[k], from_v + 3 * scene->driven[k], 3 * sizeof(double));
+  }
+}
+
 void random_scene_create(struct random_scene_request request, struct random_scene *scene) {
   struct random_source source = {request.seed};
   memset(scene, 0, sizeof *scene);
@@ -293,10 +306,17 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   scene->canonical.gravity = request.features & SCENE_GRAVITY ? scene->gravity : NULL;
   scene->canonical.drag = request.features & SCENE_DRAG ? drag : 0.0;
   scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;
+  if (scene->driven_count == 0) return;
+  scene->driver = start_run(scene->system, (struct run){.method = "forward-euler", .step = 1.0});
+  scene->driven_state = start_state(scene->system);
+  scene->canonical.place = place_driven;
+  scene->canonical.place_ctx = scene;
 }
 
 void random_scene_destroy(struct random_scene *scene) {
   canonical_destroy(&scene->canonical);
+  hooke_integrator_destroy(scene->driver);
+  hooke_state_destroy(scene->driven_state);
   hooke_system_destroy(scene->system);
   scene->system = NULL;
 }

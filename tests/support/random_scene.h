@@ -32,6 +32,9 @@ struct random_scene {
   struct canonical canonical;
   int64_t driven_count;
   int64_t driven[3];
+  hooke_integrator
+      *driver; /* of any method: it puts driven particles where they are at the time of a state */
+  hooke_state *driven_state;
   double gravity[3];
 };
 

@@ -1,0 +1,37 @@
+/* Krylov iterations for A x = b, from x = 0, with products of A alone. A is expected to be near the identity: whoever
+ * calls has scaled it. The norm is the plain one. */
+#ifndef HOOKE_INTEGRATE_KRYLOV_H
+#define HOOKE_INTEGRATE_KRYLOV_H
+
+#include <stdint.h>
+
+/* out = A x, `size` numbers each; a status. */
+struct hooke_operator {
+  int64_t size;
+  int32_t (*apply)(void *ctx, const double *x, double *out);
+  void *ctx;
+};
+
+/* Vectors of scratch that each of the two needs. */
+enum {
+  HOOKE_SYMMETRIC_VECTORS = 3,
+  HOOKE_GENERAL_SWEEP = 4,
+  HOOKE_GENERAL_VECTORS = 2 * HOOKE_GENERAL_SWEEP + 3
+};
+
+struct hooke_solution {
+  int32_t converged;
+  int64_t iterations;
+  double residual; /* relative to b */
+};
+
+/* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that did not
+ * converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come out in x. */
+int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, double tolerance,
+                              int64_t limit, double *scratch, double *x, struct hooke_solution *solution);
+
+/* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. */
+int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
+                            double *scratch, double *x, struct hooke_solution *solution);
+
+#endif

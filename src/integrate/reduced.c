@@ -1,0 +1,232 @@
+#include "integrate/reduced.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/vector_loops.h"
+#include "model/force.h"
+
+#include <math.h>
+#include <string.h>
+#include <stdlib.h>
+
+/* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
+enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
+
+static int is_own(const struct hooke_force_row *row) {
+  return row == &hooke_force_springs || row == &hooke_force_drag;
+}
+
+static double *part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
+int32_t hooke_reduced_create(hooke_integrator *it, int32_t symmetric, struct hooke_reduced *reduced) {
+  const hooke_system *system = it->system;
+  const int64_t n = system->particle_count, m = system->springs.count;
+  const int64_t vectors = symmetric ? HOOKE_SYMMETRIC_VECTORS : HOOKE_GENERAL_VECTORS;
+  const int64_t numbers = (symmetric ? 3 : 7) * m + 16 * n + 3 * n * vectors + (symmetric ? 0 : 15 * n);
+  double *block = hooke_new(numbers, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += numbers * (int64_t)sizeof(double);
+  *reduced = (struct hooke_reduced){.integrator = it, .symmetric = symmetric};
+  for (int32_t k = 0; k < system->force_row_count && !symmetric; k++)
+    reduced->rows_needed |= !is_own(system->force_row[k]) && system->force_row[k]->add_product;
+  reduced->diagonal = part(&block, n);
+  for (int a = 0; a < 3; a++)
+    reduced->tangent.u[a] = reduced->tangent.e[a] = part(&block, m);
+  for (int a = 0; a < 3 && !symmetric; a++)
+    reduced->tangent.e[a] = part(&block, m);
+  if (!symmetric) reduced->tangent.b = part(&block, m);
+  reduced->factor = part(&block, 6 * n);
+  reduced->right = part(&block, 3 * n);
+  reduced->unknown = part(&block, 3 * n);
+  reduced->place = part(&block, 3 * n);
+  reduced->krylov = part(&block, 3 * n * vectors);
+  if (!symmetric) reduced->rows = part(&block, 15 * n);
+  return HOOKE_OK;
+}
+
+void hooke_reduced_release(struct hooke_reduced *reduced) {
+  hooke_free(reduced->diagonal);
+  memset(reduced, 0, sizeof *reduced);
+}
+
+/* ---- the place of the derivatives ---- */
+
+/* The inverse Cholesky factor of a block xx, yy, zz, xy, xz, yz, in its place: 11, 22, 33, 21, 31, 32. */
+static void factorise(int64_t n, int64_t p, double *block) {
+  double *const b[6] = {block + p,         block + n + p,     block + 2 * n + p,
+                        block + 3 * n + p, block + 4 * n + p, block + 5 * n + p};
+  const double l11 = sqrt(*b[0]), l21 = *b[3] / l11, l31 = *b[4] / l11;
+  const double l22 = sqrt(*b[1] - l21 * l21), l32 = (*b[5] - l31 * l21) / l22;
+  const double l33 = sqrt((*b[2] - l31 * l31) - l32 * l32);
+  const double w11 = 1.0 / l11, w22 = 1.0 / l22, w33 = 1.0 / l33;
+  *b[0] = w11;
+  *b[1] = w22;
+  *b[2] = w33;
+  *b[3] = -l21 * w11 * w22;
+  *b[4] = (l21 * l32 - l31 * l22) * w11 * w22 * w33;
+  *b[5] = -l32 * w22 * w33;
+}
+
+static void fill_diagonal(struct hooke_reduced *reduced) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count;
+  const double brake = reduced->beta * system->drag;
+  double *const block[6] = {reduced->factor,         reduced->factor + n,     reduced->factor + 2 * n,
+                            reduced->factor + 3 * n, reduced->factor + 4 * n, reduced->factor + 5 * n};
+  for (int64_t p = 0; p < n; p++) {
+    reduced->diagonal[p] = system->mass[p] + brake;
+    for (int c = 0; c < 6; c++)
+      block[c][p] = c < 3 ? reduced->diagonal[p] : 0.0;
+  }
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_diagonal(run, &reduced->tangent, block);
+  }
+  for (int64_t p = 0; p < n; p++)
+    factorise(n, p, reduced->factor);
+  for (int64_t k = 0; k < system->held_count; k++) {
+    for (int c = 0; c < 6; c++)
+      block[c][system->held_particle[k]] = 0.0;
+  }
+}
+
+void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, double beta) {
+  const hooke_system *system = reduced->integrator->system;
+  const struct hooke_motion *motion = reduced->integrator->motion;
+  reduced->projected = 0;
+  reduced->t = t;
+  reduced->alpha = alpha;
+  reduced->beta = beta;
+  struct hooke_fields fields;
+  for (int a = 0; a < 3; a++) {
+    fields.q[a] = motion->q[a];
+    fields.v[a] = motion->v[a];
+  }
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
+  }
+  fill_diagonal(reduced);
+  if (reduced->rows) hooke_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
+}
+
+/* ---- products ---- */
+
+/* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our own. */
+static int32_t multiply_rows(struct hooke_reduced *reduced, int all) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t size = it->size;
+  double *rows = reduced->rows, *out = rows + 4 * size;
+  int32_t stop_value = 0;
+  const struct hooke_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
+                                    rows + 3 * size, &stop_value};
+  memset(out, 0, (size_t)size * sizeof(double));
+  for (int32_t k = 0; k < it->system->force_row_count; k++) {
+    const struct hooke_force_row *row = it->system->force_row[k];
+    if (row->add_product == NULL || (!all && is_own(row))) continue;
+    const int32_t status = row->add_product(it->system, &point, out);
+    if (status == HOOKE_STOPPED) it->stop_value = stop_value;
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}
+
+static void rows_from_vector(int64_t n, double factor, const double *x, double *rows) {
+  for (int64_t p = 0; p < n; p++) {
+    for (int a = 0; a < 3; a++)
+      rows[3 * p + a] = factor * x[a * n + p];
+  }
+}
+
+int32_t hooke_reduced_change(struct hooke_reduced *reduced, const double *dq, const double *dv, double *out) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t n = it->system->particle_count, size = it->size;
+  rows_from_vector(n, 1.0, dq, reduced->rows + 2 * size);
+  rows_from_vector(n, 1.0, dv, reduced->rows + 3 * size);
+  it->count.derivative_products++;
+  const int32_t status = multiply_rows(reduced, 1);
+  double *const component[3] = {out, out + n, out + 2 * n};
+  hooke_components_from_rows(n, reduced->rows + 4 * size, component);
+  return status;
+}
+
+/* y -= what forces of the other kinds change by under alpha x, beta x. */
+static int32_t subtract_others(struct hooke_reduced *reduced, const double *x, double *y) {
+  const int64_t n = reduced->integrator->system->particle_count, size = reduced->integrator->size;
+  rows_from_vector(n, reduced->alpha, x, reduced->rows + 2 * size);
+  rows_from_vector(n, reduced->beta, x, reduced->rows + 3 * size);
+  const int32_t status = multiply_rows(reduced, 0);
+  for (int64_t p = 0; p < n; p++) {
+    for (int a = 0; a < 3; a++)
+      y[a * n + p] -= reduced->rows[4 * size + 3 * p + a];
+  }
+  return status;
+}
+
+static int32_t apply(void *ctx, const double *unknown, double *out) {
+  struct hooke_reduced *reduced = ctx;
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count;
+  double *x = reduced->place;
+  reduced->integrator->count.derivative_products++;
+  hooke_apply_factor_transposed(n, reduced->factor, unknown, x);
+  hooke_apply_diagonal(n, reduced->diagonal, x, out);
+  const double *const from[3] = {x, x + n, x + 2 * n};
+  double *const to[3] = {out, out + n, out + 2 * n};
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_product(run, &reduced->tangent, from, to);
+  }
+  const int32_t status =
+      reduced->rows_needed && !reduced->projected ? subtract_others(reduced, x, out) : HOOKE_OK;
+  hooke_apply_factor(n, reduced->factor, out);
+  return status;
+}
+
+static int32_t solve(struct hooke_reduced *reduced, int symmetric, const double *b, double tolerance,
+                     double *x, struct hooke_solution *solution) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t n = it->system->particle_count, size = it->size, share = size / SIZE_SHARE + SPARE_ITERATIONS;
+  const int64_t limit = share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
+  const struct hooke_operator a = {size, apply, reduced};
+  memcpy(reduced->right, b, (size_t)size * sizeof(double));
+  hooke_apply_factor(n, reduced->factor, reduced->right);
+  const int32_t status = (symmetric ? hooke_solve_symmetric : hooke_solve_general)(
+      &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+  it->count.linear_iterations += solution->iterations;
+  hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  return status;
+}
+
+int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
+                            struct hooke_solution *solution) {
+  return solve(reduced, reduced->symmetric, b, tolerance, x, solution);
+}
+
+void hooke_reduced_solve_positive(struct hooke_reduced *reduced, const double *b, double tolerance,
+                                  double *x) {
+  const struct hooke_springs *springs = &reduced->integrator->system->springs;
+  struct hooke_solution solution;
+  if (getenv("PROJ")) {
+    for (int64_t k = 0; k < springs->run_count; k++)
+      hooke_tangent_project(&springs->run[k], &reduced->tangent);
+    reduced->projected = 1;
+  }
+  solve(reduced, 1, b, tolerance, x, &solution);
+}
+
+int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution) {
+  const hooke_integrator *it = reduced->integrator;
+  return hooke_fail(
+      HOOKE_SOLVER_FAILED, NULL,
+      "%s could not solve the linear equations of the step from t = %.17g s: the residual is %.3g of the "
+      "right-hand side after %lld iterations; take a smaller step",
+      it->method->name, it->t, solution->residual, (long long)solution->iterations);
+}

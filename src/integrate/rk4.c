@@ -1,0 +1,114 @@
+/* The classical Runge-Kutta method (Kutta 1901), order 4: four rates a step, at t, twice at t + h/2, and at t + h.
+ * Pinned and driven particles are held in every stage. */
+#include "core/memory.h"
+#include "core/status.h"
+#include "integrate/integrator.h"
+#include "kernel/step_loops.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Where the step began, and the sum of the rates: of x, or of q and v, each 3 components of n. */
+struct rk4 {
+  double *start, *sum;
+};
+
+static int32_t create(hooke_integrator *it) {
+  struct rk4 *own = hooke_new(1, sizeof *own);
+  if (own == NULL) return HOOKE_NO_MEMORY;
+  it->own = own;
+  const int64_t size = (it->rate ? 1 : 2) * it->size;
+  own->start = hooke_new(2 * size, sizeof(double));
+  if (own->start == NULL) return HOOKE_NO_MEMORY;
+  own->sum = own->start + size;
+  it->own_memory += 2 * size * (int64_t)sizeof(double);
+  return HOOKE_OK;
+}
+
+static void destroy(hooke_integrator *it) {
+  struct rk4 *own = it->own;
+  hooke_free(own->start);
+  hooke_free(own);
+  it->own = NULL;
+}
+
+/* x from the rate at stage 0, 1, 2 or 3, on to the next stage or the end of the step. */
+static void move(int stage, int64_t n, double h, const double *rate, const double *start, double *sum,
+                 double *x) {
+  if (stage == 0)
+    hooke_first_stage(n, h / 2.0, rate, sum, x);
+  else if (stage < 3)
+    hooke_middle_stage(n, stage == 1 ? h / 2.0 : h, rate, start, sum, x);
+  else
+    hooke_last_stage(n, h / 6.0, rate, start, sum, x);
+}
+
+static double stage_time(const hooke_integrator *it, int stage) {
+  return stage == 0 ? it->t : stage < 3 ? it->t + it->schedule.step / 2.0 : hooke_integrator_next_time(it);
+}
+
+static int32_t step_rate(hooke_integrator *it) {
+  struct rk4 *own = it->own;
+  memcpy(own->start, it->x, (size_t)it->size * sizeof(double));
+  for (int stage = 0; stage < 4; stage++) {
+    const int32_t status = hooke_integrator_rate(it, stage_time(it, stage), it->x, it->slope);
+    if (status != HOOKE_OK) {
+      memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
+      return status;
+    }
+    move(stage, it->size, it->schedule.step, it->slope, own->start, own->sum, it->x);
+  }
+  return HOOKE_OK;
+}
+
+/* Velocities are the rate of positions, and have to be read before they move on. */
+static void move_motion(hooke_integrator *it, int stage) {
+  const struct rk4 *own = it->own;
+  const hooke_system *system = it->system;
+  struct hooke_motion *m = it->motion;
+  const double h = it->schedule.step;
+  const int64_t n = m->n;
+  for (int a = 0; a < 3; a++) {
+    const int64_t q = a * n, v = (3 + a) * n;
+    hooke_acceleration(n, system->inverse_mass, system->has_gravity ? &system->gravity[a] : NULL, m->f[a]);
+    move(stage, n, h, m->v[a], own->start + q, own->sum + q, m->q[a]);
+    move(stage, n, h, m->f[a], own->start + v, own->sum + v, m->v[a]);
+  }
+}
+
+/* Held particles at the time of a stage; the second stage in the middle of the step finds the drives where the first
+ * one left them. */
+static int32_t hold(hooke_integrator *it, int stage) {
+  if (it->system->held_count == 0 || stage == 0) return HOOKE_OK;
+  if (stage != 2) return hooke_integrator_hold(it, stage_time(it, stage));
+  hooke_motion_hold(it->system, it->motion);
+  return HOOKE_OK;
+}
+
+static int32_t step(hooke_integrator *it) {
+  if (it->rate) return step_rate(it);
+  struct rk4 *own = it->own;
+  hooke_motion_save(it->motion, own->start);
+  for (int stage = 0; stage < 4; stage++) {
+    int32_t status = hold(it, stage);
+    if (status == HOOKE_OK) status = hooke_integrator_forces(it, stage_time(it, stage));
+    if (status != HOOKE_OK) {
+      hooke_motion_restore(it->motion, own->start);
+      return status;
+    }
+    move_motion(it, stage);
+  }
+  return HOOKE_OK;
+}
+
+const struct hooke_method hooke_rk4 = {.name = "rk4",
+                                       .summary = "fixed step, order 4, four force evaluations a step",
+                                       .built = 1,
+                                       .order = 4,
+                                       .first_order = 1,
+                                       .second_order = 1,
+                                       .create = create,
+                                       .destroy = destroy,
+                                       .begin = hooke_fixed_begin,
+                                       .step = step,
+                                       .store = hooke_fixed_store};

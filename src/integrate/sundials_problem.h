@@ -1,0 +1,50 @@
+/* What the methods of SUNDIALS share: vectors, tolerances, the problem as callbacks, GMRES, counts. */
+#ifndef HOOKE_INTEGRATE_SUNDIALS_PROBLEM_H
+#define HOOKE_INTEGRATE_SUNDIALS_PROBLEM_H
+
+#include "integrate/unknowns.h"
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_nonlinearsolver.h>
+
+/* Krylov vectors kept; stiff scenes need more than the default of 5. */
+enum { HOOKE_KRYLOV_VECTORS = 30 };
+
+struct hooke_sundials {
+  struct hooke_unknowns unknowns;
+  SUNContext context;
+  void *memory; /* the solver's own; its method frees it */
+  N_Vector y, tolerance;
+  SUNLinearSolver linear;
+  SUNNonlinearSolver nonlinear;
+  struct hooke_counts before; /* counts when the solver's own were last set to zero */
+  char message[512];          /* the solver's last complaint */
+};
+
+/* Makes integrator->own with context, vectors and tolerances. `implicit`: with GMRES and room for products of the
+ * derivative; `vectors`: how many the solver keeps besides, for the count of memory. HOOKE_NO_MEMORY. */
+int32_t hooke_sundials_create(hooke_integrator *integrator, int32_t implicit, int64_t vectors);
+/* All but `memory`, which goes first. */
+void hooke_sundials_release(hooke_integrator *integrator);
+
+/* max_order of the options, `highest` if not given. HOOKE_BAD_VALUE. */
+int32_t hooke_sundials_order(const hooke_integrator *integrator, int lowest, int highest, int *order);
+/* How far a linear solve goes, as a share of what Newton may leave. */
+double hooke_sundials_linear_share(const hooke_integrator *integrator);
+
+/* Takes up a state for a solver that starts anew; adds the counts it has since; takes its new time, and fails where
+ * that has not moved. `solver` is its name for messages. */
+void hooke_sundials_load(hooke_integrator *integrator, const hooke_state *state);
+void hooke_sundials_count(hooke_integrator *integrator, struct hooke_counts since);
+int32_t hooke_sundials_advance(hooke_integrator *integrator, const char *solver, int flag, double reached);
+
+/* Callbacks; the context is the integrator, that of the message its `own`. */
+int hooke_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx);
+int hooke_sundials_product_setup(realtype t, N_Vector y, N_Vector slope, void *ctx);
+int hooke_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vector y, N_Vector slope,
+                           void *ctx, N_Vector scratch);
+void hooke_sundials_message(int code, const char *module, const char *function, char *message, void *ctx);
+
+#endif

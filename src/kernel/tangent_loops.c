@@ -1,0 +1,202 @@
+/* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises whatever the ends are, sums
+ * in spring order afterwards. */
+#include "kernel/tangent_loops.h"
+
+#include "kernel/spring_body.h"
+
+#include <stddef.h>
+
+enum { BLOCK = 256 };
+
+#if defined(__clang__)
+#define VECTORISE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define VECTORISE _Pragma("GCC ivdep")
+#endif
+
+/* ---- filling ---- */
+
+HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *fields, const double alpha,
+                       const double beta, const struct hooke_tangent *tangent, const int axial) {
+  const double *const *q = fields->q, *const *v = fields->v;
+  const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  const int pull = run->shape & HOOKE_RUN_PULL_ONLY;
+  for (ptrdiff_t k = 0; k < run->count; k++) {
+    const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
+    const double kappa = mixed ? run->kappas[k] : run->kappa, gamma = mixed ? run->gammas[k] : run->gamma;
+    const double rest_length = mixed ? run->rest_lengths[k] : run->rest_length;
+    const double d[3] = {q[0][i] - q[0][j], q[1][i] - q[1][j], q[2][i] - q[2][j]};
+    const double w[3] = {v[0][i] - v[0][j], v[1][i] - v[1][j], v[2][i] - v[2][j]};
+    const double r = hooke_spring_length(d[0], d[1], d[2]), ir = hooke_spring_inverse_length(r);
+    const double rate = ((w[0] * d[0] + w[1] * d[1]) + w[2] * d[2]) * ir;
+    const double tension = kappa * (r - rest_length) + gamma * rate;
+    const double taut = pull && ((r <= rest_length) | (tension < 0.0)) ? 0.0 : 1.0;
+    const ptrdiff_t s = run->first + k;
+    if (axial) {
+      const double size = taut * sqrt(beta * gamma) * ir;
+      for (int a = 0; a < 3; a++)
+        tangent->u[a][s] = size * d[a];
+      continue;
+    }
+    const double isotropic = rest_length == 0.0 && !pull ? kappa : 0.0;
+    const double b = r == 0.0 ? alpha * isotropic : alpha * taut * tension * ir;
+    const double along = taut * (alpha * kappa + beta * gamma) - b, turning = taut * alpha * gamma * ir;
+    for (int a = 0; a < 3; a++) {
+      const double u = d[a] * ir;
+      tangent->u[a][s] = u;
+      tangent->e[a][s] = along * u + turning * (w[a] - rate * u);
+    }
+    tangent->b[s] = b;
+  }
+}
+
+void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
+                        double beta, const struct hooke_tangent *tangent) {
+  if (tangent->b)
+    fill(run, fields, alpha, beta, tangent, 0);
+  else
+    fill(run, fields, 0.0, beta, tangent, 1);
+}
+
+/* ---- products ---- */
+
+struct block {
+  double x[BLOCK], y[BLOCK], z[BLOCK];
+};
+
+/* Arrays of a run, in locals that no store can change. */
+struct numbers {
+  const double *ux, *uy, *uz, *ex, *ey, *ez, *b;
+  const int32_t *head, *tail; /* NULL: spring k joins k and k + offset */
+  ptrdiff_t offset;
+};
+
+HOOKE_INLINE struct numbers numbers_of(const struct hooke_run *run, const struct hooke_tangent *t,
+                                       int64_t done, int axial) {
+  const int64_t s = run->first + done;
+  struct numbers numbers = {.ux = t->u[0] + s, .uy = t->u[1] + s, .uz = t->u[2] + s, .offset = run->offset};
+  if (!axial) {
+    numbers.ex = t->e[0] + s;
+    numbers.ey = t->e[1] + s;
+    numbers.ez = t->e[2] + s;
+    numbers.b = t->b + s;
+  }
+  if (run->shape & HOOKE_RUN_INDEXED) {
+    numbers.head = run->head + done;
+    numbers.tail = run->tail + done;
+  }
+  return numbers;
+}
+
+HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *restrict bz,
+                             const double *restrict x, const double *restrict y, const double *restrict z,
+                             const struct numbers s, const ptrdiff_t count, const int indexed,
+                             const int axial) {
+  VECTORISE
+  for (ptrdiff_t k = 0; k < count; k++) {
+    const ptrdiff_t i = indexed ? s.head[k] : k, j = indexed ? s.tail[k] : k + s.offset;
+    const double dx = x[i] - x[j], dy = y[i] - y[j], dz = z[i] - z[j];
+    if (axial) {
+      const double along = (s.ux[k] * dx + s.uy[k] * dy) + s.uz[k] * dz;
+      bx[k] = along * s.ux[k];
+      by[k] = along * s.uy[k];
+      bz[k] = along * s.uz[k];
+    } else {
+      const double along = (s.ex[k] * dx + s.ey[k] * dy) + s.ez[k] * dz;
+      bx[k] = along * s.ux[k] + s.b[k] * dx;
+      by[k] = along * s.uy[k] + s.b[k] * dy;
+      bz[k] = along * s.uz[k] + s.b[k] * dz;
+    }
+  }
+}
+
+HOOKE_INLINE void add_to_ends(double *out, const double *restrict b, ptrdiff_t i, ptrdiff_t j,
+                              ptrdiff_t count) {
+  double *restrict first = out + i;
+  for (ptrdiff_t k = 0; k < count; k++)
+    first[k] += b[k];
+  double *restrict second = out + j;
+  for (ptrdiff_t k = 0; k < count; k++)
+    second[k] -= b[k];
+}
+
+HOOKE_INLINE void multiply(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                           const double *const x[3], double *const out[3], const int indexed,
+                           const int axial) {
+  struct block b;
+  for (int64_t done = 0; done < run->count; done += BLOCK) {
+    const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
+    const struct numbers s = numbers_of(run, tangent, done, axial);
+    const ptrdiff_t i = indexed ? 0 : run->start + done, j = i + run->offset;
+    fill_block(b.x, b.y, b.z, x[0] + i, x[1] + i, x[2] + i, s, count, indexed, axial);
+    if (!indexed) {
+      add_to_ends(out[0], b.x, i, j, count);
+      add_to_ends(out[1], b.y, i, j, count);
+      add_to_ends(out[2], b.z, i, j, count);
+      continue;
+    }
+    for (ptrdiff_t k = 0; k < count; k++) {
+      const ptrdiff_t head = s.head[k], tail = s.tail[k];
+      out[0][head] += b.x[k];
+      out[1][head] += b.y[k];
+      out[2][head] += b.z[k];
+      out[0][tail] -= b.x[k];
+      out[1][tail] -= b.y[k];
+      out[2][tail] -= b.z[k];
+    }
+  }
+}
+
+void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                           const double *const x[3], double *const out[3]) {
+  const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = tangent->b == NULL;
+  if (indexed && axial)
+    multiply(run, tangent, x, out, 1, 1);
+  else if (indexed)
+    multiply(run, tangent, x, out, 1, 0);
+  else if (axial)
+    multiply(run, tangent, x, out, 0, 1);
+  else
+    multiply(run, tangent, x, out, 0, 0);
+}
+
+/* ---- the part that is symmetric and not negative ---- */
+
+/* Its size along and across spring s. */
+HOOKE_INLINE double along_spring(const struct hooke_tangent *t, ptrdiff_t s) {
+  return ((t->e[0][s] * t->u[0][s] + t->e[1][s] * t->u[1][s]) + t->e[2][s] * t->u[2][s]) + t->b[s];
+}
+
+HOOKE_INLINE double across_spring(const struct hooke_tangent *t, ptrdiff_t s) {
+  return t->b[s] > 0.0 ? t->b[s] : 0.0;
+}
+
+void hooke_tangent_project(const struct hooke_run *run, const struct hooke_tangent *tangent) {
+  for (ptrdiff_t s = run->first; s < run->first + run->count; s++) {
+    const double across = across_spring(tangent, s), rest = along_spring(tangent, s) - across;
+    for (int a = 0; a < 3; a++)
+      tangent->e[a][s] = rest * tangent->u[a][s];
+    tangent->b[s] = across;
+  }
+}
+
+void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *t,
+                            double *const block[6]) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = t->b == NULL;
+  for (ptrdiff_t k = 0; k < run->count; k++) {
+    const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
+    const ptrdiff_t s = run->first + k;
+    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
+    double along = 1.0, across = 0.0;
+    if (!axial) {
+      across = across_spring(t, s);
+      along = along_spring(t, s) - across;
+    }
+    for (int c = 0; c < 6; c++) {
+      const double value = along * u[row[c]] * u[column[c]] + (c < 3 ? across : 0.0);
+      block[c][i] += value;
+      block[c][j] += value;
+    }
+  }
+}

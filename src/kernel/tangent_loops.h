@@ -1,0 +1,33 @@
+/* The 3x3 blocks of -alpha df/dq - beta df/dv along springs, kept spring by spring for products.
+ *
+ * A spring gives B = u e^T + b I to its two ends, in the pattern (B, -B; -B, B), with u its direction and
+ *   b = alpha T/r,   e = (alpha kappa + beta gamma - b) u + alpha gamma (v - (v.u) u)/r
+ * for the tension T = kappa (r - l0) + gamma v.u; nothing where it is slack or has no direction, and b = alpha kappa,
+ * e = 0 where its length and rest length are 0. With alpha = 0 all of it is g g^T, g = sqrt(beta gamma) u. */
+#ifndef HOOKE_KERNEL_TANGENT_LOOPS_H
+#define HOOKE_KERNEL_TANGENT_LOOPS_H
+
+#include "kernel/spring_loops.h"
+
+/* By spring number. With alpha = 0, u is g, e is the same arrays, and b is NULL. */
+struct hooke_tangent {
+  double *u[3], *e[3], *b;
+};
+
+/* At the positions and velocities of `fields`. */
+void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
+                        double beta, const struct hooke_tangent *tangent);
+
+/* out += the blocks times x; x, y and z apart. */
+void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                           const double *const x[3], double *const out[3]);
+
+/* Leaves of every B its part that is symmetric and not negative, as below. */
+void hooke_tangent_project(const struct hooke_run *run, const struct hooke_tangent *tangent);
+
+/* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal block of
+ * either end: xx, yy, zz, xy, xz, yz. */
+void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                            double *const block[6]);
+
+#endif
