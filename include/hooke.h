@@ -7,6 +7,7 @@
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop
  *   measure.h     step bounds and comparisons
+ *   study.h       the trade of error against cost, orders, recommendation
  *   io.h          scene files and trajectories */
 #ifndef HOOKE_H
 #define HOOKE_H
@@ -18,6 +19,7 @@
 #include "hooke/state.h"
 #include "hooke/integrator.h"
 #include "hooke/measure.h"
+#include "hooke/study.h"
 #include "hooke/io.h"
 
 #endif

@@ -34,6 +34,8 @@ static int32_t run_reference(hooke_comparison *c) {
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", 1e-10);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", 1e-12);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
+  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
+  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
   c->runs_begun++;
   if (status == HOOKE_OK) status = hooke_frames_run(&c->frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);

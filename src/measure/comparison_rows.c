@@ -4,7 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/node_blocks.h"
+#include "measure/reference.h"
 
 #include <math.h>
 #include <string.h>
@@ -80,21 +80,6 @@ void hooke_comparison_on_frame(hooke_comparison *comparison, hooke_comparison_fr
 
 /* ---- preparing ---- */
 
-/* Where damping is faster than the fastest oscillation, fast motion dies out and an implicit method strides
- * over it; where it is not, every method has to follow the oscillation, and Adams does so at the lower cost.
- */
-static int32_t choose_reference(hooke_comparison *c, const double *q) {
-  struct hooke_node_blocks blocks;
-  const int32_t status = hooke_node_blocks_create(c->system, q, &blocks);
-  c->reference = "cvode-adams";
-  if (status == HOOKE_NOT_BUILT) return HOOKE_OK;
-  if (status != HOOKE_OK) return status;
-  if (hooke_node_blocks_damping_rate(&blocks) > 2.0 * hooke_node_blocks_frequency(&blocks))
-    c->reference = "cvode-bdf";
-  hooke_node_blocks_release(&blocks);
-  return HOOKE_OK;
-}
-
 /* The schedule that all rows share: the one of a fixed-step method if the options have a step. */
 static int32_t read_schedule(hooke_comparison *c) {
   struct hooke_schedule schedule;
@@ -134,7 +119,8 @@ int32_t hooke_comparison_prepare(hooke_comparison *c) {
   if (status == HOOKE_OK) status = read_schedule(c);
   if (status == HOOKE_OK) status = hooke_state_create(c->system, &state);
   if (status == HOOKE_OK) status = make_room(c);
-  if (status == HOOKE_OK) status = choose_reference(c, hooke_state_position(state));
+  if (status == HOOKE_OK)
+    status = hooke_reference_method(c->system, hooke_state_position(state), &c->reference);
   hooke_state_destroy(state);
   if (status != HOOKE_OK) release_room(c);
   return status;

@@ -23,12 +23,28 @@ static double forward_euler(const struct hooke_node_blocks *blocks) {
   return fmin(fmax(by_springs, by_drag), 2.0 / rate);
 }
 
+/* Damping is implicit, so the limit is that of the undamped modes. */
+static double verlet(const struct hooke_node_blocks *blocks) {
+  const double frequency = hooke_node_blocks_frequency(blocks);
+  return frequency > 0.0 ? 2.0 / frequency : INFINITY;
+}
+
+/* The half disc of this radius in the left half plane lies within |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1; an eigenvalue is
+ * at most omega where it oscillates, and at most c where it does not. */
+static double rk4(const struct hooke_node_blocks *blocks) {
+  const double frequency = hooke_node_blocks_frequency(blocks), rate = hooke_node_blocks_damping_rate(blocks);
+  const double fastest = fmax(frequency, rate);
+  return fastest > 0.0 ? 2.6156 / fastest : INFINITY;
+}
+
 static const struct {
   const char *method;
   double (*bound)(const struct hooke_node_blocks *blocks);
 } rules[] = {
     {"forward-euler", forward_euler},
     {"symplectic-euler", hooke_node_blocks_step},
+    {"verlet", verlet},
+    {"rk4", rk4},
 };
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {

@@ -110,6 +110,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   int32_t status = hooke_integrator_create(system, options, integrator);
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
+    if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);

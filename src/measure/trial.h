@@ -6,10 +6,12 @@
 #include "hooke/measure.h"
 #include "measure/frames.h"
 
-/* Who wants to hear of a run under way; either function may be NULL, anything but 0 from it stops the run. */
+/* Who wants to hear of a run under way; any function may be NULL. Anything but 0 from the first two stops the run; the
+ * third may change the initial state. */
 struct hooke_listener {
   int32_t (*on_progress)(double share, void *ctx);
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
+  void (*on_start)(hooke_state *state, void *ctx);
   void *ctx;
 };
 

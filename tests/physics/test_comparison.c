@@ -62,14 +62,19 @@ static void errors_are_true_errors(void **unused) {
   hooke_comparison *comparison = compare(system, run);
   check_ok(hooke_comparison_run(comparison));
   assert_int_equal(hooke_comparison_row_count(comparison), hooke_method_count());
+  int64_t judged = 0;
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct run alone = run;
     alone.method = hooke_method_name(k);
     const double expected = true_error(reference, system, alone);
     const double found = figure(comparison, alone.method, "error_final");
-    check_between(found, 0.95 * expected, 1.05 * expected);
     assert_string_equal(hooke_comparison_text(comparison, k, "status"), "finished");
+    /* the reference itself is off by about its tolerance, 1e-10 */
+    if (expected < 1e-8) continue;
+    judged++;
+    check_between(found, 0.95 * expected, 1.05 * expected);
   }
+  check_between((double)judged, 4.0, (double)hooke_method_count());
   /* every figure bounds those it is a maximum of */
   const int64_t row = row_of(comparison, "forward-euler");
   const double *series = hooke_comparison_series(comparison, row, "error");

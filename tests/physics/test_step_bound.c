@@ -54,6 +54,8 @@ static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
   hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   check_between(bound_of(net6, "symplectic-euler"), 0.5 * 0.13162450213044632, 0.13162450213044632);
   check_between(bound_of(cloth10, "symplectic-euler"), 0.8 * 0.003058102791710135, 0.003058102791710135);
+  check_between(bound_of(cloth10, "verlet"), 0.8 * 0.0034348908160279894, 0.0034348908160279894);
+  check_between(bound_of(cloth10, "rk4"), 0.5 * 0.005078523465343316, 0.005078523465343316);
   hooke_system_destroy(net6);
   hooke_system_destroy(cloth10);
 }
@@ -75,6 +77,8 @@ static void one_spring_is_sharp(void **unused) {
   const double omega = 7.0;
   hooke_system *system = small_oscillator(omega);
   check_close(bound_of(system, "symplectic-euler"), 2.0 / omega, 1e-11);
+  check_close(bound_of(system, "verlet"), 2.0 / omega, 1e-12);
+  check_between(bound_of(system, "rk4"), 2.6 / omega, 2.8284 / omega);
   check_between(bound_of(system, "forward-euler"), 0.0, 0.0);
   assert_true(isinf(bound_of(system, "cvode-bdf")));
   hooke_system_destroy(system);

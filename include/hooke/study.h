@@ -1,0 +1,88 @@
+/* hooke/study.h - how accurate each method is for what it costs, on one scene, and which one to take.
+ *
+ * A study makes a reference that checks itself, runs every method over a ladder of steps or tolerances, measures error
+ * and cost of each run, fits orders, and recommends. It belongs to one thread at a time. Needs SUNDIALS and GSL.
+ *
+ * Options of a study (hooke_study_options_create): methods (names separated by commas; all that the build has if not
+ * given), points (rows a method, >= 6), steps [s] and tolerances (ladders of one's own), want [m], budget [s]. */
+#ifndef HOOKE_STUDY_H
+#define HOOKE_STUDY_H
+
+#include "measure.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_study hooke_study;
+
+/* Options of a study, for the caller to set and destroy. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_study_options_create(hooke_options **options);
+
+/* A study of a committed system, which must outlive it. `run` (options of a run) gives duration, every, and what
+ * methods take besides steps and tolerances; `options` may be NULL. Both are copied.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
+                                     const hooke_options *options, hooke_study **study);
+HOOKE_API void hooke_study_destroy(hooke_study *study);
+
+HOOKE_API void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx);
+
+/* Makes the reference, runs the ladders, fits the orders and, if `want` is set, recommends. Runs that diverge stay as
+ * rows. When the budget is spent, rows not begun are left out and hooke_study_figure("budget_spent") is 1. HOOKE_STOPPED
+ * keeps what is done so far. HOOKE_BAD_VALUE without a duration. */
+HOOKE_API int32_t hooke_study_run(hooke_study *study);
+
+/* ---- the reference ---- */
+
+/* "method" and "check": the two integrators that made it, which share only the force. */
+HOOKE_API const char *hooke_study_reference(const hooke_study *study, const char *what);
+
+/* "agreement": twice the largest root mean square distance between the two over the frames that are trusted [m]: they may
+ * be off in the same direction. No error below it means anything, and none within ten times of it much. "trusted_until":
+ * time up to which they agree to the wanted digits [s]; errors are judged up to there. "growth": the factor by which a
+ * small displacement of the start grows, at most. "duration" [s], "frames" (those that are judged), "budget_spent" (0 or
+ * 1). NaN for another word. */
+HOOKE_API double hooke_study_figure(const hooke_study *study, const char *what);
+
+/* ---- rows: a method with one step or tolerance each, the coarsest first ---- */
+
+HOOKE_API int64_t hooke_study_row_count(const hooke_study *study);
+/* "method", "status" ("finished", "diverged", "stopped", "failed"); NULL if there is no such row. */
+HOOKE_API const char *hooke_study_text(const hooke_study *study, int64_t row, const char *what);
+/* The numbers of hooke_comparison_number(), over the frames that are trusted, and "wall_median" [s] ("wall_seconds" is the
+ * least of "repeats" runs), "linear_iterations", "near_floor" (1: the error is within ten times of the agreement), "timed_alone" (0: other rows ran
+ * beside it, so its time may be too long). */
+HOOKE_API double hooke_study_number(const hooke_study *study, int64_t row, const char *what);
+/* "time", "error", "energy_drift" over frames, as hooke_comparison_series(). */
+HOOKE_API int64_t hooke_study_frame_count(const hooke_study *study);
+HOOKE_API const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what);
+
+/* ---- orders of the fixed-step methods ---- */
+
+/* "order", its 95 % interval "low" and "high" by least squares of log error on log step over the finest rows that stand
+ * clear of the floor, and "theory"; NaN where there are fewer than three such rows, or for an error-controlled method. */
+HOOKE_API double hooke_study_order(const hooke_study *study, const char *method, const char *what);
+/* Why the order may not be that of the theory on this scene; "" where it is. */
+HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const char *method);
+
+/* ---- the recommendation ---- */
+
+/* Finds the cheapest step or tolerance whose error is at most `want` [m] by running it; may be called again with another
+ * want. HOOKE_OK also when nothing meets it; hooke_study_recommendation_text("note") then says what is in the way. */
+HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
+/* "method" (that of the closest row if nothing meets the want), "note" ("" if the want is met); NULL before any. */
+HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
+/* "met" (0 or 1), "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"; NaN where it does not apply. */
+HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
+
+/* Picks a method and its step or tolerance for the error `want` [m] at the end of a run, from a quick study of the first
+ * tenth of it, and sets them in `run`. A guess, not a proof: a study of the whole run is one. `progress` may be NULL.
+ * HOOKE_BAD_VALUE if nothing meets the want. */
+HOOKE_API int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
+                                   hooke_progress *progress, void *ctx);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

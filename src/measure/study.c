@@ -1,0 +1,186 @@
+/* A study: a reference that checks itself, ladders of every method, orders, a recommendation. */
+#include "measure/study.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The reference may take this share of a budget. */
+static const double REFERENCE_SHARE = 0.4;
+
+static const struct hooke_option_row study_rows[] = {
+    {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
+    {.name = "points",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 6,
+     .high = 40,
+     .whole = 1,
+     .fallback = "6",
+     .doc = "steps or tolerances for each method"},
+    {.name = "steps",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .min_count = 1,
+     .doc =
+         "steps of the fixed-step methods, coarse to fine; from the safe step down by halves if not given"},
+    {.name = "tolerances",
+     .type = HOOKE_OPTION_NUMBERS,
+     .low = 1e-14,
+     .high = 0.1,
+     .min_count = 1,
+     .doc = "rtol of the error-controlled methods, coarse to fine; from 1e-3 down by tenths if not given"},
+    {.name = "want",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "m",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "error that one can live with, for a recommendation"},
+    {.name = "budget",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "time that the study may take; no limit if not given"},
+};
+
+static const struct hooke_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
+
+int32_t hooke_study_options_create(hooke_options **options) {
+  return hooke_options_create(&study_table, options);
+}
+
+/* ---- making ---- */
+
+static int32_t add_method(hooke_study *study, const char *name, size_t length) {
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    const char *known = hooke_method_name(k);
+    if (strlen(known) != length || strncmp(known, name, length) != 0) continue;
+    if (!hooke_method_is_built(known)) {
+      return hooke_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", known);
+    }
+    if (study->method_count == HOOKE_STUDY_METHODS) {
+      return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
+    }
+    study->method[study->method_count++] = known;
+    return HOOKE_OK;
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, name);
+}
+
+static int32_t add_methods(hooke_study *study) {
+  int32_t status = HOOKE_OK;
+  const char *names = hooke_options_text(study->options, "methods");
+  if (names[0] == '\0') {
+    for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
+      const char *name = hooke_method_name(k);
+      if (hooke_method_is_built(name)) status = add_method(study, name, strlen(name));
+    }
+    return status;
+  }
+  while (status == HOOKE_OK && *names) {
+    const size_t length = strcspn(names, ", ");
+    if (length > 0) status = add_method(study, names, length);
+    names += length + strspn(names + length, ", ");
+  }
+  return status;
+}
+
+static int32_t read_times(hooke_study *study) {
+  study->duration = hooke_options_number(study->run, "duration");
+  study->every = hooke_options_number(study->run, "every");
+  if (isnan(study->duration)) {
+    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  }
+  if (isnan(study->every)) study->every = study->duration / 100.0;
+  study->budget = hooke_options_number(study->options, "budget");
+  if (isnan(study->budget)) study->budget = INFINITY;
+  return hooke_options_set_number(study->run, "every", study->every);
+}
+
+int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
+                           hooke_study **out) {
+  if (!hooke_system_is_committed(system)) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL,
+                      "the system is not committed yet; call hooke_system_commit() first");
+  }
+  if (!hooke_method_is_built("cvode-adams") || hooke_build_fact("gsl")[0] == '\0') {
+    return hooke_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS and GSL, which this build is without");
+  }
+  hooke_study *study = hooke_new(1, sizeof *study);
+  if (study == NULL) return HOOKE_NO_MEMORY;
+  study->system = system;
+  int32_t status = hooke_options_copy(run, &study->run);
+  if (status == HOOKE_OK) {
+    status =
+        options ? hooke_options_copy(options, &study->options) : hooke_study_options_create(&study->options);
+  }
+  if (status == HOOKE_OK) status = add_methods(study);
+  if (status == HOOKE_OK) status = read_times(study);
+  if (status == HOOKE_OK) status = hooke_study_check_ladder(study);
+  if (status == HOOKE_OK)
+    *out = study;
+  else
+    hooke_study_destroy(study);
+  return status;
+}
+
+void hooke_study_destroy(hooke_study *study) {
+  if (study == NULL) return;
+  for (int64_t k = 0; k < study->row_count; k++)
+    hooke_trial_release(&study->row[k].trial);
+  hooke_reference_release(&study->reference);
+  hooke_options_destroy(study->run);
+  hooke_options_destroy(study->options);
+  hooke_free(study->row);
+  hooke_free(study);
+}
+
+void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx) {
+  study->progress = progress;
+  study->progress_ctx = ctx;
+}
+
+static int compare_rows(const void *a, const void *b) {
+  const struct hooke_study_row *x = a, *y = b;
+  if (x->method != y->method) return (x->method > y->method) - (x->method < y->method);
+  return (x->value < y->value) - (x->value > y->value);
+}
+
+static int32_t make_reference(hooke_study *study) {
+  const struct hooke_listener listener = {.on_progress = hooke_study_tell, .ctx = study};
+  const double want = hooke_options_number(study->options, "want");
+  const struct hooke_reference_request request = {
+      .run = study->run,
+      .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
+      .digits = isnan(want) ? NAN : want / 10.0,
+      .budget = REFERENCE_SHARE * study->budget,
+      .listener = &listener};
+  study->under_way = "reference";
+  return hooke_reference_create(study->system, &request, &study->reference);
+}
+
+int32_t hooke_study_run(hooke_study *study) {
+  if (study->reference.frames.count > 0) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
+  }
+  study->begun = hooke_clock_seconds();
+  int32_t status = make_reference(study);
+  if (status == HOOKE_OK) status = hooke_study_run_ladders(study);
+  if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
+  for (int32_t m = 0; m < study->method_count; m++)
+    hooke_study_fit_order(study, m);
+  const double want = hooke_options_number(study->options, "want");
+  if (status == HOOKE_OK && !isnan(want)) status = hooke_study_recommend(study, want);
+  return status;
+}

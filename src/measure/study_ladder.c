@@ -1,0 +1,109 @@
+/* Ladders: steps from the safe bound down by halves, tolerances by tenths. */
+#include "measure/study.h"
+
+#include "core/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { COARSEST_EXPONENT = 3 }; /* rtol 1e-3 */
+
+int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method) {
+  return hooke_method_is_adaptive(study->method[method]);
+}
+
+static int32_t points_of(const hooke_study *study) {
+  return (int32_t)hooke_options_number(study->options, "points");
+}
+
+double hooke_study_fitting_step(const hooke_study *study, double step) {
+  return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
+}
+
+/* A step that is stable for certain; where no step is, the one that symplectic Euler would take, for a start. */
+static double safe_step(const hooke_study *study, const char *method) {
+  double bound = NAN;
+  const double *q = study->reference.frames.position;
+  if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK) bound = NAN;
+  if (bound == 0.0 && hooke_step_bound(study->system, "symplectic-euler", q, &bound) != HOOKE_OK) bound = NAN;
+  return isnan(bound) || isinf(bound) || bound <= 0.0 ? study->unit : bound;
+}
+
+/* From twice the safe step, which may still be stable, since the bound is not sharp. */
+static double fixed_ladder(const hooke_study *study, int32_t method, int32_t k) {
+  const double safe =
+      hooke_study_fitting_step(study, fmin(study->unit, safe_step(study, study->method[method])));
+  const double start =
+      safe < study->unit ? hooke_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
+  const int32_t above = start > safe;
+  if (k >= points_of(study) + above) return NAN;
+  return k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
+}
+
+static double given(const hooke_options *options, const char *name, int32_t k) {
+  const int64_t count = hooke_options_number_count(options, name);
+  return k < count ? hooke_options_numbers(options, name)[k] : NAN;
+}
+
+double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
+  const int32_t adaptive = hooke_study_is_adaptive(study, method);
+  const char *own = adaptive ? "tolerances" : "steps";
+  if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
+  if (!adaptive) return fixed_ladder(study, method, k);
+  /* a quotient of whole numbers is the nearest number to a power of ten, a product of powers is not */
+  return k < points_of(study) ? 1.0 / pow(10.0, (double)(COARSEST_EXPONENT + k)) : NAN;
+}
+
+/* ---- checking ---- */
+
+static int32_t is_whole(double ratio) {
+  return fabs(ratio - round(ratio)) <= 1e-9 * ratio && round(ratio) >= 1.0;
+}
+
+/* The largest step that divides both times, for times that have one not too small. */
+static int32_t find_unit(hooke_study *study) {
+  for (int32_t parts = 1; parts <= 10000; parts++) {
+    study->unit = study->every / (double)parts;
+    if (is_whole(study->duration / study->unit)) return HOOKE_OK;
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, "every",
+                    "%.17g s and duration %.17g s have no step in common; take a part of the duration",
+                    study->every, study->duration);
+}
+
+static int32_t check_list(const hooke_options *options, const char *name) {
+  const int64_t count = hooke_options_number_count(options, name);
+  const double *value = hooke_options_numbers(options, name);
+  for (int64_t k = 1; k < count; k++) {
+    if (value[k] < value[k - 1]) continue;
+    char place[64];
+    snprintf(place, sizeof place, "%s[%lld]", name, (long long)k);
+    return hooke_fail(HOOKE_BAD_VALUE, place, "%g is not below %g; a ladder goes from coarse to fine",
+                      value[k], value[k - 1]);
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_steps(const hooke_study *study) {
+  const int64_t count = hooke_options_number_count(study->options, "steps");
+  for (int64_t k = 0; k < count; k++) {
+    const double step = hooke_options_numbers(study->options, "steps")[k];
+    if (is_whole(study->every / step) && is_whole(study->duration / step)) continue;
+    char place[64];
+    snprintf(place, sizeof place, "steps[%lld]", (long long)k);
+    return hooke_fail(
+        HOOKE_BAD_VALUE, place,
+        "every %.17g s and duration %.17g s are not whole multiples of %.17g s; a step near it that fits "
+        "is %.17g",
+        study->every, study->duration, step, hooke_study_fitting_step(study, step));
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_study_check_ladder(hooke_study *study) {
+  int32_t status = find_unit(study);
+  if (status == HOOKE_OK) status = check_list(study->options, "steps");
+  if (status == HOOKE_OK) status = check_steps(study);
+  return status == HOOKE_OK ? check_list(study->options, "tolerances") : status;
+}

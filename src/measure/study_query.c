@@ -1,0 +1,118 @@
+/* Reading a study. */
+#include "measure/study.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static const struct hooke_study_row *row_at(const hooke_study *study, int64_t row) {
+  return row >= 0 && row < study->row_count ? &study->row[row] : NULL;
+}
+
+const char *hooke_study_reference(const hooke_study *study, const char *what) {
+  if (study->reference.method == NULL) return "";
+  if (strcmp(what, "method") == 0) return study->reference.method;
+  return strcmp(what, "check") == 0 ? study->reference.check : NULL;
+}
+
+double hooke_study_figure(const hooke_study *study, const char *what) {
+  const struct hooke_reference *r = &study->reference;
+  const int made = r->frames.count > 0;
+  const struct {
+    const char *name;
+    double value;
+  } figures[] = {
+      {"agreement", made ? r->agreement : NAN},    {"trusted_until", made ? r->trusted_until : NAN},
+      {"growth", made ? r->growth : NAN},          {"duration", study->duration},
+      {"frames", made ? (double)r->trusted : NAN}, {"budget_spent", (double)study->budget_spent},
+  };
+  for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++) {
+    if (strcmp(figures[k].name, what) == 0) return figures[k].value;
+  }
+  return NAN;
+}
+
+int64_t hooke_study_row_count(const hooke_study *study) {
+  return study->row_count;
+}
+
+const char *hooke_study_text(const hooke_study *study, int64_t row, const char *what) {
+  const struct hooke_study_row *r = row_at(study, row);
+  if (r == NULL) return NULL;
+  if (strcmp(what, "method") == 0) return study->method[r->method];
+  return strcmp(what, "status") == 0 ? r->trial.status : NULL;
+}
+
+double hooke_study_number(const hooke_study *study, int64_t row, const char *what) {
+  const struct hooke_study_row *r = row_at(study, row);
+  if (r == NULL) return NAN;
+  if (strcmp(what, "wall_median") == 0) return r->wall_median;
+  if (strcmp(what, "repeats") == 0) return (double)r->repeats;
+  if (strcmp(what, "timed_alone") == 0) return (double)r->timed_alone;
+  if (strcmp(what, "near_floor") == 0) return r->trial.error <= 10.0 * study->reference.agreement ? 1.0 : 0.0;
+  return hooke_trial_number(&r->trial, what);
+}
+
+int64_t hooke_study_frame_count(const hooke_study *study) {
+  return study->reference.trusted;
+}
+
+const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what) {
+  const struct hooke_study_row *r = row_at(study, row);
+  if (strcmp(what, "time") == 0) return study->reference.frames.time;
+  if (r == NULL) return NULL;
+  if (strcmp(what, "error") == 0) return r->trial.error_at;
+  return strcmp(what, "energy_drift") == 0 ? r->trial.drift_at : NULL;
+}
+
+static int32_t method_index(const hooke_study *study, const char *method) {
+  for (int32_t m = 0; m < study->method_count; m++) {
+    if (strcmp(study->method[m], method) == 0) return m;
+  }
+  return -1;
+}
+
+double hooke_study_order(const hooke_study *study, const char *method, const char *what) {
+  const int32_t m = method_index(study, method);
+  if (m < 0 || study->reference.frames.count == 0) return NAN;
+  const struct hooke_study_order *order = &study->order[m];
+  if (strcmp(what, "order") == 0) return order->order;
+  if (strcmp(what, "low") == 0) return order->low;
+  if (strcmp(what, "high") == 0) return order->high;
+  return strcmp(what, "theory") == 0 ? order->theory : NAN;
+}
+
+const char *hooke_study_order_note(const hooke_study *study, const char *method) {
+  const int32_t m = method_index(study, method);
+  return m < 0 ? "" : study->order[m].note;
+}
+
+const char *hooke_study_recommendation_text(const hooke_study *study, const char *what) {
+  const struct hooke_study_recommendation *r = &study->recommendation;
+  if (!r->made) return NULL;
+  if (strcmp(what, "method") == 0) return r->method >= 0 ? study->method[r->method] : NULL;
+  return strcmp(what, "note") == 0 ? r->note : NULL;
+}
+
+double hooke_study_recommendation_number(const hooke_study *study, const char *what) {
+  const struct hooke_study_recommendation *r = &study->recommendation;
+  if (!r->made) return NAN;
+  const int adaptive = r->method >= 0 && hooke_study_is_adaptive(study, r->method);
+  const struct {
+    const char *name;
+    double value;
+  } numbers[] = {
+      {"met", (double)r->met},
+      {"want", r->want},
+      {"step", adaptive ? NAN : r->value},
+      {"rtol", adaptive ? r->value : NAN},
+      {"atol", adaptive ? r->atol : NAN},
+      {"error", r->error},
+      {"wall_seconds", r->wall_seconds},
+      {"force_evaluations", r->force_evaluations},
+  };
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    if (strcmp(numbers[k].name, what) == 0) return numbers[k].value;
+  }
+  return NAN;
+}

@@ -1,0 +1,169 @@
+/* The ladders of a study, level by level; on several threads the rows of a level run side by side. */
+#include "measure/study.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <time.h>
+
+/* Seconds that the next row of a method is going to take: the last one's, scaled by the steps. */
+static double predict_seconds(const hooke_study *study, int32_t method, double value) {
+  for (int64_t k = study->row_count - 1; k >= 0; k--) {
+    const struct hooke_study_row *row = &study->row[k];
+    if (row->method != method) continue;
+    const double growth = hooke_study_is_adaptive(study, method) ? 1.6 : row->value / value;
+    return row->trial.wall_seconds * growth;
+  }
+  return 0.0;
+}
+
+static double seconds_ahead(const hooke_study *study, int32_t level) {
+  double sum = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    for (int32_t k = level; !isnan(hooke_study_ladder(study, m, k)); k++) {
+      sum += predict_seconds(study, m, hooke_study_ladder(study, m, k));
+    }
+  }
+  return sum;
+}
+
+/* ---- the rows of a level ---- */
+
+struct job {
+  int32_t method;
+  double value;
+  struct hooke_study_row row;
+  int32_t status;
+  char message[512]; /* messages belong to the thread that failed */
+};
+
+struct level {
+  hooke_study *study;
+  int32_t count;
+  struct job job[HOOKE_STUDY_METHODS];
+  atomic_int next, stop, running;
+};
+
+static int32_t asked_to_stop(double share, void *ctx) {
+  (void)share;
+  return atomic_load(&((struct level *)ctx)->stop);
+}
+
+static void *work(void *ctx) {
+  struct level *level = ctx;
+  const struct hooke_listener listener = {.on_progress = asked_to_stop, .ctx = level};
+  for (int32_t k; (k = atomic_fetch_add(&level->next, 1)) < level->count && !atomic_load(&level->stop);) {
+    struct job *job = &level->job[k];
+    job->status = hooke_study_run_row(level->study, job->method, job->value, &listener, &job->row);
+    job->row.timed_alone = 0;
+    if (job->status != HOOKE_OK) snprintf(job->message, sizeof job->message, "%s", hooke_last_error());
+  }
+  atomic_fetch_sub(&level->running, 1);
+  return NULL;
+}
+
+/* Side by side first, for the errors; then short rows once more, alone, for their times. The caller's thread works too, or
+ * listens: progress is told from it alone. */
+static int32_t run_side_by_side(struct level *level, int32_t threads) {
+  pthread_t thread[HOOKE_STUDY_METHODS];
+  int32_t started = 0;
+  atomic_store(&level->running, 0);
+  for (int32_t k = 0; k < threads && k < level->count; k++) {
+    atomic_fetch_add(&level->running, 1);
+    if (pthread_create(&thread[k], NULL, work, level) != 0) {
+      atomic_fetch_sub(&level->running, 1);
+      break;
+    }
+    started++;
+  }
+  if (started == 0) {
+    atomic_fetch_add(&level->running, 1);
+    work(level);
+  }
+  level->study->under_way = "rows side by side";
+  while (atomic_load(&level->running) > 0) {
+    const struct timespec moment = {0, 20000000};
+    nanosleep(&moment, NULL);
+    if (hooke_study_tell(0.0, level->study) != 0) atomic_store(&level->stop, 1);
+  }
+  for (int32_t k = 0; k < started; k++)
+    pthread_join(thread[k], NULL);
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
+    struct job *job = &level->job[k];
+    if (job->status != HOOKE_OK)
+      status = hooke_fail(job->status, NULL, "%s", job->message);
+    else if (job->row.trial.status)
+      status = hooke_study_time_row(level->study, &job->row);
+  }
+  return status;
+}
+
+static int32_t run_one_by_one(struct level *level) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
+    struct job *job = &level->job[k];
+    status = hooke_study_measure(level->study, job->method, job->value, &job->row);
+    level->study->work_ahead -= job->row.trial.wall_seconds;
+  }
+  return status;
+}
+
+/* Rows that ran, even the one that was stopped, stay. */
+static int32_t keep_rows(struct level *level) {
+  hooke_study *study = level->study;
+  int32_t status = HOOKE_OK;
+  if (study->row_count + level->count > study->row_capacity) {
+    const int64_t capacity = 2 * study->row_capacity + 64;
+    status = hooke_grow((void **)&study->row, study->row_count, capacity, sizeof *study->row);
+    if (status == HOOKE_OK) study->row_capacity = capacity;
+  }
+  for (int32_t k = 0; k < level->count; k++) {
+    struct job *job = &level->job[k];
+    if (status == HOOKE_OK && job->row.trial.status)
+      study->row[study->row_count++] = job->row;
+    else
+      hooke_trial_release(&job->row.trial);
+  }
+  return status;
+}
+
+/* The rows of a level that the budget still allows. */
+static void plan_level(hooke_study *study, int32_t number, struct level *level) {
+  double ahead = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    const double value = hooke_study_ladder(study, m, number);
+    if (isnan(value)) continue;
+    const double spent = hooke_clock_seconds() - study->begun, next = predict_seconds(study, m, value);
+    if (spent + ahead + next > study->budget) {
+      study->budget_spent = 1;
+      continue;
+    }
+    ahead += next;
+    level->job[level->count++] = (struct job){.method = m, .value = value};
+  }
+}
+
+int32_t hooke_study_run_ladders(hooke_study *study) {
+  const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
+  int32_t status = HOOKE_OK;
+  struct level *level = hooke_new(1, sizeof *level);
+  if (level == NULL) return HOOKE_NO_MEMORY;
+  for (int32_t number = 0; status == HOOKE_OK; number++) {
+    *level = (struct level){.study = study};
+    study->work_ahead = seconds_ahead(study, number);
+    plan_level(study, number, level);
+    if (level->count == 0) break;
+    status = threads > 1 ? run_side_by_side(level, threads) : run_one_by_one(level);
+    const int32_t kept = keep_rows(level);
+    if (status == HOOKE_OK) status = kept;
+  }
+  hooke_free(level);
+  return status;
+}

@@ -1,0 +1,318 @@
+/* Studies: the reference knows what it knows, rows have true errors, orders are those of the theory, a recommendation has
+ * been seen to hold, and chaos gets no false reference. */
+#include "check.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A study of `methods` (NULL: all) over `duration`; skips the test in builds that cannot make one. */
+static hooke_study *start_study(const hooke_system *system, const char *methods, double duration,
+                                double every, double want) {
+  hooke_study *study = NULL;
+  hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
+  check_ok(hooke_study_options_create(&options));
+  if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
+  if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
+  const int32_t status = hooke_study_create(system, run, options, &study);
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  return study;
+}
+
+/* ---- rows against 15 digits ---- */
+
+/* Root mean square over free particles of the distance between a run's end and the solution. */
+static double true_error(const struct reference *reference, const struct reference_state *expected,
+                         const hooke_system *system, struct run run) {
+  const int64_t n = reference->particle_count;
+  double *q = new_doubles(3 * n), sum = 0.0, count = 0.0;
+  run_to_end(system, run, q, NULL);
+  for (int64_t p = 0; p < n; p++) {
+    if (hooke_system_inverse_mass(system)[p] == 0.0) continue;
+    for (int a = 0; a < 3; a++)
+      sum += pow(q[3 * p + a] - expected->position[3 * p + a], 2.0);
+    count += 1.0;
+  }
+  free(q);
+  return sqrt(sum / count);
+}
+
+static void check_rows(const struct reference *reference, const struct reference_state *expected,
+                       const hooke_system *system, const hooke_study *study, double every) {
+  const double agreement = hooke_study_figure(study, "agreement");
+  int64_t judged = 0;
+  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
+    const double found = hooke_study_number(study, k, "error_final");
+    if (isnan(found) || found <= 10.0 * agreement) continue;
+    const double step = hooke_study_number(study, k, "step"), rtol = hooke_study_number(study, k, "rtol");
+    const struct run run = {.method = hooke_study_text(study, k, "method"),
+                            .step = isnan(step) ? 0.0 : step,
+                            .rtol = isnan(rtol) ? 0.0 : rtol,
+                            .atol = isnan(rtol) ? 0.0 : hooke_study_number(study, k, "atol"),
+                            .duration = expected->time,
+                            .every = every};
+    const double error = true_error(reference, expected, system, run);
+    if (!(found >= 0.95 * error && found <= 1.05 * error)) {
+      check_failed("%s at %g s, %s step %g rtol %g: error_final %.4g m, truly %.4g m", reference->name,
+                   expected->time, run.method, step, rtol, found, error);
+    }
+    judged++;
+  }
+  assert_true(judged >= 8);
+}
+
+static void errors_are_true(void **unused) {
+  (void)unused;
+  for (int r = 0; r < REFERENCE_COUNT; r++) {
+    for (int64_t s = 0; s < references[r].state_count; s++) {
+      const struct reference_state *expected = &references[r].state[s];
+      hooke_system *system = build_reference(&references[r]);
+      const double every = expected->time / 20.0;
+      hooke_study *study = start_study(system, NULL, expected->time, every, 0.0);
+      check_ok(hooke_study_run(study));
+      check_close(hooke_study_figure(study, "trusted_until"), expected->time, 1e-12);
+      check_rows(&references[r], expected, system, study, every);
+      hooke_study_destroy(study);
+      hooke_system_destroy(system);
+    }
+  }
+}
+
+/* The agreement says how far the reference is from the truth, within a factor. */
+static void agreement_is_honest(void **unused) {
+  (void)unused;
+  for (int r = 0; r < REFERENCE_COUNT; r++) {
+    hooke_system *system = build_reference(&references[r]);
+    hooke_study *study = start_study(system, "cvode-adams", references[r].state[0].time, 0.0, 0.0);
+    check_ok(hooke_study_run(study));
+    assert_string_not_equal(hooke_study_reference(study, "method"), hooke_study_reference(study, "check"));
+    check_between(hooke_study_figure(study, "agreement"), 1e-16, 1e-7);
+    check_between(hooke_study_figure(study, "growth"), 0.1, 20.0);
+    hooke_study_destroy(study);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- orders ---- */
+
+static void orders_are_those_of_the_theory(void **unused) {
+  (void)unused;
+  const char *smooth[] = {"six-particles", "oscillator"};
+  for (int r = 0; r < 2; r++) {
+    hooke_system *system = build_reference(find_reference(smooth[r]));
+    hooke_study *study = start_study(system, NULL, 1.0, 0.05, 0.0);
+    check_ok(hooke_study_run(study));
+    for (int64_t m = 0; m < hooke_method_count(); m++) {
+      const char *method = hooke_method_name(m);
+      if (!is_fixed_step(method)) {
+        assert_true(isnan(hooke_study_order(study, method, "order")));
+        continue;
+      }
+      const double order = hooke_study_order(study, method, "order");
+      const double theory = hooke_study_order(study, method, "theory");
+      check_between(theory, 1.0, 4.0);
+      check_between(order, theory - 0.15, theory + 0.25);
+      check_between(order, hooke_study_order(study, method, "low"), hooke_study_order(study, method, "high"));
+      assert_string_equal(hooke_study_order_note(study, method), "");
+    }
+    hooke_study_destroy(study);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- ladders ---- */
+
+static void ladders_go_from_coarse_to_fine(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("oscillator"));
+  hooke_study *study = start_study(system, NULL, 1.0, 0.1, 0.0);
+  check_ok(hooke_study_run(study));
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    int64_t rows = 0;
+    double last = INFINITY;
+    for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
+      if (strcmp(hooke_study_text(study, k, "method"), hooke_method_name(m)) != 0) continue;
+      const double step = hooke_study_number(study, k, "step"), rtol = hooke_study_number(study, k, "rtol");
+      const double value = isnan(step) ? rtol : step;
+      assert_true(value < last);
+      last = value;
+      rows++;
+      /* frames are whole numbers of steps */
+      if (!isnan(step)) check_close(0.1 / step, round(0.1 / step), 1e-6);
+      check_between(hooke_study_number(study, k, "repeats"), 1.0, 9.0);
+      check_between(hooke_study_number(study, k, "wall_median"), hooke_study_number(study, k, "wall_seconds"),
+                    10.0);
+    }
+    check_between((double)rows, 6.0, 7.0);
+  }
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+static void bad_requests(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("oscillator"));
+  hooke_options *run = run_options((struct run){.step = 0.01}), *options;
+  hooke_study *study = NULL;
+  check_ok(hooke_study_options_create(&options));
+  const int32_t status = hooke_study_create(system, run, options, &study);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_options_destroy(run);
+    hooke_options_destroy(options);
+    hooke_system_destroy(system);
+    skip();
+  }
+  check_status(status, HOOKE_BAD_VALUE);
+  check_message("duration");
+  check_ok(hooke_options_set_number(run, "duration", 1.0));
+  check_ok(hooke_options_set_text(options, "methods", "forward-euler,nothing"));
+  check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+  check_message("nothing");
+  check_ok(hooke_options_unset(options, "methods"));
+  check_ok(hooke_options_set_text(options, "steps", "0.01,0.02"));
+  check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+  check_message("steps[1]");
+  check_status(hooke_options_set_number(options, "points", 5.0), HOOKE_BAD_VALUE);
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+/* ---- the recommendation ---- */
+
+static void recommendations_hold(void **unused) {
+  (void)unused;
+  const struct reference *reference = find_reference("six-particles");
+  const struct reference_state *expected = NULL;
+  for (int64_t s = 0; s < reference->state_count; s++) {
+    if (reference->state[s].time == 1.0) expected = &reference->state[s];
+  }
+  assert_non_null(expected);
+  hooke_system *system = build_reference(reference);
+  hooke_study *study = start_study(system, NULL, 1.0, 0.05, 1e-2);
+  check_status(hooke_study_recommend(study, 1e-3), HOOKE_BAD_CALL);
+  check_ok(hooke_study_run(study));
+  const double wants[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+  for (int k = 0; k < 5; k++) {
+    check_ok(hooke_study_recommend(study, wants[k]));
+    assert_true(hooke_study_recommendation_number(study, "met") == 1.0);
+    assert_string_equal(hooke_study_recommendation_text(study, "note"), "");
+    const double step = hooke_study_recommendation_number(study, "step");
+    const double rtol = hooke_study_recommendation_number(study, "rtol");
+    assert_true(isnan(step) != isnan(rtol));
+    const struct run run = {.method = hooke_study_recommendation_text(study, "method"),
+                            .step = isnan(step) ? 0.0 : step,
+                            .rtol = isnan(rtol) ? 0.0 : rtol,
+                            .atol = isnan(rtol) ? 0.0 : hooke_study_recommendation_number(study, "atol"),
+                            .duration = 1.0,
+                            .every = 0.05};
+    check_between(true_error(reference, expected, system, run), 0.0, wants[k]);
+    check_between(hooke_study_recommendation_number(study, "error"), 0.0, wants[k]);
+  }
+  /* what no run can give is said, with what comes closest */
+  check_ok(hooke_study_recommend(study, 1e-15));
+  assert_true(hooke_study_recommendation_number(study, "met") == 0.0);
+  assert_true(strlen(hooke_study_recommendation_text(study, "note")) > 20);
+  check_between(hooke_study_recommendation_number(study, "error"), 1e-15, 1e-5);
+  hooke_study_destroy(study);
+  /* nor does it make the reference doubt itself */
+  study = start_study(system, "cvode-adams", 1.0, 0.05, 1e-30);
+  check_ok(hooke_study_run(study));
+  check_close(hooke_study_figure(study, "trusted_until"), 1.0, 1e-12);
+  assert_true(hooke_study_recommendation_number(study, "met") == 0.0);
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+/* ---- chaos ---- */
+
+/* An undamped cloth that falls on one corner and crumples. */
+static hooke_system *crumpling_cloth(void) {
+  hooke_system *system;
+  hooke_options *cloth;
+  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0}, size[2] = {6.0, 6.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
+  check_ok(hooke_options_set_number(cloth, "mass", 1.0));
+  check_ok(hooke_options_set_text(cloth, "pinned", "0"));
+  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 500.0));
+  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 300.0));
+  check_ok(hooke_options_set_number(cloth, "bend.stiffness", 20.0));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, cloth, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(cloth);
+  return system;
+}
+
+static void chaos_is_trusted_for_a_while(void **unused) {
+  (void)unused;
+  hooke_system *system = crumpling_cloth();
+  hooke_study *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
+  check_ok(hooke_study_run(study));
+  check_between(hooke_study_figure(study, "trusted_until"), 0.3, 3.5);
+  check_between(hooke_study_figure(study, "growth"), 1e3, 1e8);
+  check_between(hooke_study_figure(study, "agreement"), 1e-14, 1e-5);
+  /* errors are judged up to there and no further */
+  const int64_t frames = hooke_study_frame_count(study), last = hooke_study_row_count(study) - 1;
+  check_between((double)frames, 3.0, 36.0);
+  const double *error = hooke_study_series(study, last, "error");
+  assert_true(!isnan(error[frames - 1]));
+  assert_true(isnan(error[frames]));
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+/* ---- stopping ---- */
+
+static int32_t stop_after_some(double done, const char *what, void *ctx) {
+  int64_t *calls = ctx;
+  (void)done;
+  return strcmp(what, "cvode-bdf") == 0 && ++*calls > 800 ? 1 : 0;
+}
+
+static void a_stopped_study_keeps_its_rows(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("oscillator"));
+  hooke_study *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
+  int64_t calls = 0;
+  hooke_study_on_progress(study, stop_after_some, &calls);
+  check_status(hooke_study_run(study), HOOKE_STOPPED);
+  check_between((double)hooke_study_row_count(study), 1.0, 20.0);
+  int64_t finished = 0;
+  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
+    finished += strcmp(hooke_study_text(study, k, "status"), "finished") == 0;
+  }
+  check_between((double)finished, 1.0, (double)hooke_study_row_count(study) - 1.0);
+  check_between(hooke_study_figure(study, "agreement"), 1e-15, 1e-6);
+  assert_null(hooke_study_recommendation_text(study, "method"));
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(errors_are_true),
+      cmocka_unit_test(agreement_is_honest),
+      cmocka_unit_test(orders_are_those_of_the_theory),
+      cmocka_unit_test(ladders_go_from_coarse_to_fine),
+      cmocka_unit_test(bad_requests),
+      cmocka_unit_test(recommendations_hold),
+      cmocka_unit_test(chaos_is_trusted_for_a_while),
+      cmocka_unit_test(a_stopped_study_keeps_its_rows),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
