@@ -48,8 +48,9 @@ static const char *other_method(const struct hooke_setup *setup, const double *q
 
 static void print_command(FILE *file, const struct hooke_arguments *arguments, const char *method,
                           const char *step) {
+  const struct hooke_setting settings[] = {{"method", method}, {"step", step}, {NULL, NULL}};
   fputs("  ", file);
-  hooke_report_command(file, arguments, method, step);
+  hooke_report_command(file, arguments, arguments->verb->name, settings);
   fputc('\n', file);
 }
 

@@ -1,5 +1,6 @@
 #include "arguments.h"
 #include "report.h"
+#include "unit.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -22,9 +23,10 @@ static void add_own(struct hooke_arguments *arguments, const struct hooke_verb_r
   snprintf(argument->flag, sizeof argument->flag, "%s", row->name);
 }
 
-static void add_option(struct hooke_arguments *arguments, int64_t row) {
+static void add_option(struct hooke_arguments *arguments, hooke_options *table, int64_t row) {
   struct hooke_argument *argument = &arguments->all[arguments->count++];
-  argument->name = hooke_options_row(arguments->run, row, "name");
+  argument->name = hooke_options_row(table, row, "name");
+  argument->table = table;
   argument->row = row;
   snprintf(argument->flag, sizeof argument->flag, "%s", argument->name);
   for (char *at = argument->flag; *at; at++) {
@@ -32,21 +34,36 @@ static void add_option(struct hooke_arguments *arguments, int64_t row) {
   }
 }
 
-/* Collects every option that the verb takes: its own, those of all verbs, those of a run. */
+/* 1 if `name` is among `words`, which blanks part. */
+static int32_t is_among(const char *words, const char *name) {
+  size_t length = strlen(name);
+  for (const char *at = words; at && *at; at += strspn(at, " ")) {
+    size_t word = strcspn(at, " ");
+    if (word == length && strncmp(at, name, length) == 0) return 1;
+    at += word;
+  }
+  return 0;
+}
+
+/* Collects every option that the verb takes: its own, those of all verbs, its own table's, those of a run. */
 static int collect(struct hooke_arguments *arguments) {
   const struct hooke_verb *verb = arguments->verb;
   int32_t status = hooke_run_options_create(&arguments->run);
+  if (status == HOOKE_OK && verb->options) status = verb->options(&arguments->more);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
   int64_t rows = hooke_options_row_count(arguments->run);
-  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + rows), sizeof *arguments->all);
+  int64_t more = arguments->more ? hooke_options_row_count(arguments->more) : 0;
+  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + rows + more), sizeof *arguments->all);
   if (!arguments->all) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  for (int64_t row = 0; row < more; row++)
+    add_option(arguments, arguments->more, row);
   for (int32_t i = 0; i < verb->row_count; i++)
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
   for (int64_t row = 0; row < rows; row++) {
-    const char *name = hooke_options_row(arguments->run, row, "name");
-    if (!verb->without || strcmp(name, verb->without) != 0) add_option(arguments, row);
+    if (!is_among(verb->without, hooke_options_row(arguments->run, row, "name")))
+      add_option(arguments, arguments->run, row);
   }
   return HOOKE_EXIT_DONE;
 }
@@ -68,13 +85,29 @@ static int unknown_flag(const struct hooke_arguments *arguments, const char *wor
       near ? ", did you mean --" : "", near ? near : "", near ? "?" : "", arguments->verb->name);
 }
 
+/* Puts what was given into `value`, in SI units. */
+static int read_value(const struct hooke_arguments *arguments, struct hooke_argument *argument) {
+  const char *unit = hooke_options_row(argument->table, argument->row, "unit");
+  char word[HOOKE_UNIT_WORD_SIZE] = "", list[HOOKE_UNIT_LIST_SIZE];
+  free(argument->value);
+  argument->value =
+      hooke_unit_has_others(unit) ? hooke_unit_read(argument->text, unit, word) : strdup(argument->text);
+  if (argument->value) return HOOKE_EXIT_DONE;
+  if (!word[0]) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                      "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
+                      argument->flag, argument->text, word, hooke_unit_list(unit, list), unit);
+}
+
 static int take(struct hooke_arguments *arguments, struct hooke_argument *argument, const char *text) {
   argument->text = text ? text : "";
   if (argument->own) return HOOKE_EXIT_DONE;
   if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
     return hooke_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
   }
-  if (hooke_options_set_text(arguments->run, argument->name, argument->text) == HOOKE_OK)
+  int answer = read_value(arguments, argument);
+  if (answer != HOOKE_EXIT_DONE) return answer;
+  if (hooke_options_set_text(argument->table, argument->name, argument->value) == HOOKE_OK)
     return HOOKE_EXIT_DONE;
   return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: %s", argument->flag, argument->text,
                       hooke_last_error());
@@ -160,8 +193,11 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
 }
 
 void hooke_arguments_destroy(struct hooke_arguments *arguments) {
-  hooke_options_destroy(arguments->run);
+  for (int32_t i = 0; i < arguments->count; i++)
+    free(arguments->all[i].value);
   free(arguments->all);
+  hooke_options_destroy(arguments->run);
+  hooke_options_destroy(arguments->more);
 }
 
 /* ---- asking ---- */
@@ -176,8 +212,8 @@ const char *hooke_arguments_text(const struct hooke_arguments *arguments, const 
 int32_t hooke_arguments_apply(const struct hooke_arguments *arguments, hooke_options *options) {
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct hooke_argument *argument = &arguments->all[i];
-    if (argument->own || !argument->text) continue;
-    int32_t status = hooke_options_set_text(options, argument->name, argument->text);
+    if (argument->table != arguments->run || !argument->text) continue;
+    int32_t status = hooke_options_set_text(options, argument->name, argument->value);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;

@@ -1,5 +1,5 @@
-/* The words of the command line: parsed by getopt_long, with the long options of a run taken from the
- * library's own option table. */
+/* The words of the command line: parsed by getopt_long, with the long options of a run, and of what else a verb
+ * configures, taken from the library's own option tables. */
 #ifndef HOOKE_CLI_ARGUMENTS_H
 #define HOOKE_CLI_ARGUMENTS_H
 
@@ -7,20 +7,23 @@
 
 enum { HOOKE_FLAG_SIZE = 64 };
 
-/* One option that a verb takes: a row of its own, or one of the option table of a run. */
+/* One option that a verb takes: a row of its own, or one of an option table. */
 struct hooke_argument {
   char flag[HOOKE_FLAG_SIZE];       /* as typed, without the dashes */
   const char *name;                 /* "atol_velocity", "output" */
-  const struct hooke_verb_row *own; /* NULL: row `row` of the option table */
+  const struct hooke_verb_row *own; /* NULL: row `row` of `table` */
+  hooke_options *table;
   int64_t row;
   const char *text; /* what was given, "" for a switch; NULL: not given */
+  char *value;      /* the same in SI units, for a row of a table */
 };
 
 struct hooke_arguments {
   const struct hooke_verb *verb;
   const char *scene;
   int32_t help, json, quiet;
-  hooke_options *run; /* the option table, holding what was given */
+  hooke_options *run;  /* the option table of a run, holding what was given */
+  hooke_options *more; /* that of the verb, likewise; NULL: it has none */
   struct hooke_argument *all;
   int32_t count;
 };

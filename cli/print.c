@@ -142,6 +142,11 @@ void hooke_json_number(struct hooke_json *json, const char *key, double value) {
   fputs(isfinite(value) ? hooke_format_number(value, text) : "null", json->file);
 }
 
+void hooke_json_flag(struct hooke_json *json, const char *key, int32_t value) {
+  write_key(json, key);
+  fputs(value ? "true" : "false", json->file);
+}
+
 void hooke_json_count(struct hooke_json *json, const char *key, int64_t value) {
   write_key(json, key);
   fprintf(json->file, "%" PRId64, value);

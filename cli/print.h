@@ -34,6 +34,7 @@ void hooke_json_open(struct hooke_json *json, const char *key, char bracket); /*
 void hooke_json_close(struct hooke_json *json);
 /* null if the number is not finite */
 void hooke_json_number(struct hooke_json *json, const char *key, double value);
+void hooke_json_flag(struct hooke_json *json, const char *key, int32_t value); /* true or false */
 void hooke_json_count(struct hooke_json *json, const char *key, int64_t value);
 /* null if `text` is NULL; bytes that are not UTF-8 become U+FFFD */
 void hooke_json_text(struct hooke_json *json, const char *key, const char *text);

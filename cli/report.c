@@ -64,21 +64,40 @@ void hooke_report_words(const struct hooke_arguments *arguments, const char *for
   say(arguments, message);
 }
 
-void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, const char *method,
-                          const char *step) {
-  fprintf(file, "hooke %s ", arguments->verb->name);
+static int32_t is_set_by(const struct hooke_setting *settings, const char *name) {
+  for (; settings->name; settings++) {
+    if (settings->text && strcmp(settings->name, name) == 0) return 1;
+  }
+  return 0;
+}
+
+/* " --atol-velocity" for "atol_velocity". */
+static void print_flag(FILE *file, const char *name) {
+  fputs(" --", file);
+  for (; *name; name++)
+    fputc(*name == '_' ? '-' : *name, file);
+}
+
+void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, const char *verb,
+                          const struct hooke_setting *settings) {
+  int32_t same = strcmp(verb, arguments->verb->name) == 0;
+  fprintf(file, "hooke %s ", verb);
   hooke_print_quoted(file, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct hooke_argument *argument = &arguments->all[i];
-    if (!argument->text || (method && strcmp(argument->name, "method") == 0)) continue;
-    if (step && strcmp(argument->name, "step") == 0) continue;
-    fprintf(file, " --%s", argument->flag);
+    if (!argument->text || is_set_by(settings, argument->name)) continue;
+    if (!same && argument->table != arguments->run) continue;
+    print_flag(file, argument->name);
     if (argument->own && !argument->own->value) continue;
     fputc(' ', file);
     hooke_print_quoted(file, argument->text);
   }
-  if (method) fprintf(file, " --method %s", method);
-  if (step) fprintf(file, " --step %s", step);
+  for (; settings->name; settings++) {
+    if (!settings->text) continue;
+    print_flag(file, settings->name);
+    fputc(' ', file);
+    hooke_print_quoted(file, settings->text);
+  }
 }
 
 /* Letters to change, insert or drop to make one word of the other. */

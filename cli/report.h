@@ -21,9 +21,15 @@ int hooke_report_status(const struct hooke_arguments *arguments, int32_t status)
 void hooke_report_words(const struct hooke_arguments *arguments, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Prints the command again, with `method` and `step` in place of its own where they are not NULL. */
-void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, const char *method,
-                          const char *step);
+/* An option of a run that a command is to have. */
+struct hooke_setting {
+  const char *name, *text; /* text NULL: not wanted after all */
+};
+
+/* Prints the command again as one of `verb`, with `settings`, whose end is a NULL name, in place of its own; for another
+ * verb than its own, of what was given only the options of a run. */
+void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, const char *verb,
+                          const struct hooke_setting *settings);
 
 /* Writes the names of all methods, "a, b, c". */
 void hooke_report_methods(char *list, size_t size);

@@ -3,11 +3,13 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
+#include "unit.h"
 #include "watch.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 2048, SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
@@ -285,11 +287,55 @@ static int run_and_tell(struct run *run) {
   return hooke_exit_code(run->outcome);
 }
 
+/* ---- --want ---- */
+
+/* The length of --want [m]; the option table of a study knows what is allowed. */
+static int read_want(const struct hooke_arguments *arguments, const char *text, double *want) {
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  char *value = hooke_unit_read(text, "m", word);
+  if (!value) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--want %s: there is no unit '%s'; allowed: %s", text,
+                        word, hooke_unit_list("m", list));
+  }
+  hooke_options *options = NULL;
+  int32_t status = hooke_study_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "want", value);
+  if (status == HOOKE_OK) *want = hooke_options_number(options, "want");
+  hooke_options_destroy(options);
+  free(value);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE
+                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
+}
+
+/* Method and step from a quick study of the beginning, and a word on what was picked. */
+static int pick(struct run *run, const char *text) {
+  const struct hooke_arguments *arguments = run->arguments;
+  double want = 0.0;
+  char number[HOOKE_NUMBER_SIZE];
+  int code = hooke_setup_require_duration(arguments, &run->setup);
+  if (code == HOOKE_EXIT_DONE) code = read_want(arguments, text, &want);
+  if (code != HOOKE_EXIT_DONE) return code;
+  hooke_watch_start(&run->watch, arguments);
+  int32_t status =
+      hooke_study_pick(run->setup.system, run->setup.options, want, hooke_watch_progress, &run->watch);
+  hooke_watch_end(&run->watch);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  const char *method = hooke_options_text(run->setup.options, "method");
+  const int adaptive = hooke_method_is_adaptive(method);
+  hooke_report_words(
+      arguments, "picked for an error of %s: %s, %s %s, from a quick study of the beginning", text, method,
+      adaptive ? "rtol" : "step",
+      hooke_format_number(hooke_options_number(run->setup.options, adaptive ? "rtol" : "step"), number));
+  return HOOKE_EXIT_DONE;
+}
+
 static int do_run(const struct hooke_arguments *arguments) {
+  const char *want = hooke_arguments_text(arguments, "want");
   struct run run = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
   int code = hooke_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   code = hooke_setup_load(arguments, &run.setup);
+  if (code == HOOKE_EXIT_DONE && want) code = pick(&run, want);
   if (code == HOOKE_EXIT_DONE) {
     code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
@@ -301,6 +347,8 @@ static int do_run(const struct hooke_arguments *arguments) {
 
 static const struct hooke_verb_row rows[] = {
     {"output", 'o', "FILE", "writes the trajectory to FILE (HDF5 in the H5MD layout), replacing it"},
+    {"want", 0, "LENGTH",
+     "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
 };
 

@@ -22,6 +22,12 @@ void hooke_setup_destroy(struct hooke_setup *setup) {
   hooke_scene_destroy(setup->scene);
 }
 
+int hooke_setup_require_duration(const struct hooke_arguments *arguments, const struct hooke_setup *setup) {
+  if (hooke_options_number_count(setup->options, "duration") > 0) return HOOKE_EXIT_DONE;
+  return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                      "no duration: the scene's run names none; give one in seconds, such as --duration 1");
+}
+
 int hooke_setup_require(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
                         const char *method) {
   if (hooke_method_is_adaptive(method) < 0) { /* one given as an option was refused before */
@@ -34,10 +40,8 @@ int hooke_setup_require(const struct hooke_arguments *arguments, const struct ho
                         "%s is not in this build of hooke; 'hooke --version' says what it was built with",
                         method);
   }
-  if (hooke_options_number_count(setup->options, "duration") == 0) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "no duration: the scene's run names none; give one in seconds, such as --duration 1");
-  }
+  int code = hooke_setup_require_duration(arguments, setup);
+  if (code != HOOKE_EXIT_DONE) return code;
   if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(setup->options, "step") == 0) {
     return hooke_report(arguments, HOOKE_EXIT_USAGE,
                         "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
@@ -47,20 +51,24 @@ int hooke_setup_require(const struct hooke_arguments *arguments, const struct ho
   return HOOKE_EXIT_DONE;
 }
 
-int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {
+int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output) {
   struct stat scene, file;
-  if (!output) return HOOKE_EXIT_DONE;
+  if (output && stat(arguments->scene, &scene) == 0 && stat(output, &file) == 0 &&
+      scene.st_dev == file.st_dev && scene.st_ino == file.st_ino) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                        "%s is the scene itself; name another file for the output", output);
+  }
+  return HOOKE_EXIT_DONE;
+}
+
+int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {
   const char *hdf5 = hooke_build_fact("hdf5");
-  if (!hdf5 || !hdf5[0]) {
+  if (output && (!hdf5 || !hdf5[0])) {
     return hooke_report(
         arguments, HOOKE_EXIT_NOT_BUILT,
         "-o %s: this build of hooke has no HDF5 and writes no trajectories; run without -o, or build "
         "hooke with HDF5",
         output);
   }
-  if (stat(arguments->scene, &scene) == 0 && stat(output, &file) == 0 && scene.st_dev == file.st_dev &&
-      scene.st_ino == file.st_ino) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "-o %s is the scene itself; name another file", output);
-  }
-  return HOOKE_EXIT_DONE;
+  return hooke_setup_check_other_file(arguments, output);
 }

@@ -16,11 +16,15 @@ struct hooke_setup {
 int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup);
 void hooke_setup_destroy(struct hooke_setup *setup);
 
-/* Reports what a run by `method` lacks: a duration, a step, the method itself in this build. */
+/* Reports what a run by `method` lacks: a duration, a step, the method itself in this build; the first function a
+ * duration alone. */
+int hooke_setup_require_duration(const struct hooke_arguments *arguments, const struct hooke_setup *setup);
 int hooke_setup_require(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
                         const char *method);
 
-/* Before any work: this build can write FILE of -o, and it is not the scene itself. */
+/* Before any work: FILE of -o (NULL: none) is not the scene itself, and for the second function this build can write it
+ * as HDF5. */
+int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output);
 int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output);
 
 #endif

@@ -1,6 +1,7 @@
 #include "usage.h"
 #include "print.h"
 #include "report.h"
+#include "unit.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -47,13 +48,12 @@ static void print_row(FILE *file, char letter, const char *flag, const char *val
   hooke_print_wrapped(file, DOC_COLUMN, DOC_COLUMN, WIDTH, doc);
 }
 
-static void print_option(FILE *file, const struct hooke_arguments *arguments,
-                         const struct hooke_argument *argument) {
-  const hooke_options *run = arguments->run;
-  const char *type = hooke_options_row(run, argument->row, "type");
-  const char *unit = hooke_options_row(run, argument->row, "unit");
-  const char *allowed = hooke_options_row(run, argument->row, "allowed");
-  const char *fallback = hooke_options_row(run, argument->row, "default");
+static void print_option(FILE *file, const struct hooke_argument *argument) {
+  const hooke_options *table = argument->table;
+  const char *type = hooke_options_row(table, argument->row, "type");
+  const char *unit = hooke_options_row(table, argument->row, "unit");
+  const char *allowed = hooke_options_row(table, argument->row, "allowed");
+  const char *fallback = hooke_options_row(table, argument->row, "default");
   char value[HOOKE_FLAG_SIZE];
   char doc[DOC_SIZE], methods[DOC_SIZE / 4] = "";
   size_t length = strcspn(type, " ");
@@ -61,13 +61,23 @@ static void print_option(FILE *file, const struct hooke_arguments *arguments,
   for (size_t i = 0; i < length; i++)
     value[i] = (char)toupper((unsigned char)type[i]);
   value[length] = '\0';
-  if (strcmp(argument->name, "method") == 0) {
+  if (strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0) {
     hooke_report_methods(methods, sizeof methods);
     allowed = methods;
   }
   snprintf(doc, sizeof doc, "%s%s%s%s; %s; default: %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
-           hooke_options_row(run, argument->row, "doc"), allowed, fallback[0] ? fallback : "none");
+           hooke_options_row(table, argument->row, "doc"), allowed, fallback[0] ? fallback : "none");
   print_row(file, 0, argument->flag, value, doc);
+}
+
+/* The rows of a table, after `title`. */
+static void print_table(FILE *file, const struct hooke_arguments *arguments, const hooke_options *table,
+                        const char *title) {
+  if (!table) return;
+  fprintf(file, "\n%s:\n", title);
+  for (int32_t i = 0; i < arguments->count; i++) {
+    if (arguments->all[i].table == table) print_option(file, &arguments->all[i]);
+  }
 }
 
 void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments) {
@@ -79,12 +89,14 @@ void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments)
     const struct hooke_verb_row *own = arguments->all[i].own;
     if (own) print_row(file, own->letter, own->name, own->value, own->doc);
   }
-  fputs("\noptions of the run, instead of what the scene's \"run\" says (defaults: where neither says "
-        "anything):\n",
-        file);
-  for (int32_t i = 0; i < arguments->count; i++) {
-    if (!arguments->all[i].own) print_option(file, arguments, &arguments->all[i]);
-  }
+  char title[HOOKE_FLAG_SIZE], times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
+  snprintf(title, sizeof title, "options of the %s", verb->name);
+  print_table(file, arguments, arguments->more, title);
+  print_table(file, arguments, arguments->run,
+              "options of the run, instead of what the scene's \"run\" says (defaults: where neither says "
+              "anything)");
+  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
+          hooke_unit_list("m", lengths));
   fprintf(file, "\n%s", exit_codes);
 }
 
@@ -102,6 +114,7 @@ void hooke_usage_print_version(FILE *file) {
   print_part(file, "GSL", "gsl");
   print_part(file, "HDF5", "hdf5");
   print_part(file, "jansson", "jansson");
+  print_part(file, "Chart.js", "chartjs");
   print_part(file, "instructions", "instructions");
   fprintf(file, "%-13s %ld on this machine\n", "threads", threads > 0 ? threads : 1);
   print_part(file, "licence", "licence");

@@ -32,7 +32,9 @@ struct hooke_verb {
   const char *text;    /* a paragraph for --help */
   const struct hooke_verb_row *rows;
   int32_t row_count;
-  const char *without; /* the option of a run that this verb does not take, NULL: it takes all */
+  int32_t (*options)(
+      hooke_options **options); /* makes an option table of the verb's own; NULL: it has none */
+  const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
   int (*function)(const struct hooke_arguments *arguments);
 };
 
@@ -41,5 +43,6 @@ struct hooke_verb {
 extern const struct hooke_verb hooke_verb_run;
 extern const struct hooke_verb hooke_verb_check;
 extern const struct hooke_verb hooke_verb_compare;
+extern const struct hooke_verb hooke_verb_study;
 
 #endif

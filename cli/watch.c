@@ -71,6 +71,10 @@ int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *wha
   return 0;
 }
 
+int32_t hooke_watch_progress(double done, const char *what, void *watch) {
+  return hooke_watch_tell(watch, done, what);
+}
+
 void hooke_watch_end(struct hooke_watch *watch) {
   if (watch->shown) fputs("\r\033[K", stderr);
   watch->shown = 0;

@@ -19,6 +19,9 @@ void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *
 /* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */
 int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *what);
 
+/* The same as a hooke_progress of the library, with the watch as its context. */
+int32_t hooke_watch_progress(double done, const char *what, void *watch);
+
 /* Takes the line of progress away. Signals stay caught, so that what was computed can be put away. */
 void hooke_watch_end(struct hooke_watch *watch);
 

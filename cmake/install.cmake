@@ -1,11 +1,14 @@
-# cmake --install: headers, both libraries, the program, the example scenes, and the files by which find_package(hooke)
-# and pkg-config find them. Nothing installed names a folder of this machine, so the result may be moved.
+# cmake --install: headers, both libraries, the program, the example scenes, the page of a report, and the files by
+# which find_package(hooke) and pkg-config find them. Nothing installed names a folder of this machine, so the result may be moved.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
 
 install(FILES include/hooke.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/hooke DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY examples/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke/examples)
+if(HOOKE_CHARTJS_FOUND)
+  install(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/share/hooke/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke)
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Two sets of targets: the static library alone needs the other libraries to be found.
@@ -30,6 +33,9 @@ install(FILES
 
 # What the static library needs, as -L and -l.
 set(HOOKE_PRIVATE_LIBRARIES "-lm")
+if(CMAKE_DL_LIBS)
+  string(APPEND HOOKE_PRIVATE_LIBRARIES " -l${CMAKE_DL_LIBS}")
+endif()
 foreach(dependency IN LISTS HOOKE_DEPENDENCIES)
   get_target_property(files ${dependency} INTERFACE_LINK_LIBRARIES)
   foreach(file IN LISTS files)

@@ -1,4 +1,4 @@
-/* hooke/io.h - scenes (JSON) and trajectories (H5MD).
+/* hooke/io.h - scenes (JSON), trajectories (H5MD) and tables (CSV).
  *
  * Scenes need a build with jansson, trajectories one with HDF5; without them these functions return
  * HOOKE_NOT_BUILT. */
@@ -8,6 +8,7 @@
 #include "build.h"
 #include "integrator.h"
 #include "measure.h"
+#include "study.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -74,6 +75,30 @@ HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_sys
                                                hooke_comparison *comparison, const char *scene_text,
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+
+/* ---- studies ---- */
+
+/* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time, orders,
+ * reference, recommendation (layout: docs/study.md). `scene_text` may be NULL; `outcome` is what hooke_study_run()
+ * returned. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
+                                       int32_t outcome);
+
+/* ---- tables ---- */
+
+/* Writes the rows that a study has so far as CSV: a line of names, then one line a row with "method", the numbers of
+ * hooke_study_number() and "status". Numbers read back to the same bits in every locale, those that do not apply are
+ * left empty. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);
+
+/* ---- reports ---- */
+
+/* Writes one HTML page, readable offline, with all that a study has so far: diagrams, table, recommendation, reference,
+ * machine and versions. `scene` is the name over it; `command`, the line to type for what is recommended, may be NULL.
+ * An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY; HOOKE_NOT_BUILT in a build
+ * without Chart.js, or where the files that are installed with the library, in share/hooke, are missing. */
+HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
+                                           const char *command);
 
 #ifdef __cplusplus
 }

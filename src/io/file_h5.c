@@ -5,16 +5,14 @@
 
 #include "io/file_h5.h"
 #include "io/object_h5.h"
+#include "io/place.h"
 
 #include "core/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- errors ---- */
@@ -70,37 +68,7 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
                     guard->reason);
 }
 
-/* The same for calls to the operating system. */
-static int32_t fail_errno(const char *path, const char *what, int error) {
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what, strerror(error));
-}
-
 /* ---- a file ---- */
-
-/* `path` with links followed, so that a link stays one when its target is replaced, and from the root, so
- * that it still holds when the process changes its folder. */
-static int32_t find_place(const char *path, char **place) {
-  struct stat there;
-  if (stat(path, &there) == 0) {
-    if (!S_ISREG(there.st_mode)) {
-      return hooke_fail(HOOKE_IO_FAILED, NULL,
-                        "%s: is not a regular file, and only such are replaced; name another", path);
-    }
-    char *real = realpath(path, NULL);
-    if (real == NULL) return fail_errno(path, "follow the path", errno);
-    *place = hooke_copy_text(real);
-    free(real);
-  } else if (path[0] == '/') {
-    *place = hooke_copy_text(path);
-  } else {
-    char folder[PATH_MAX];
-    if (getcwd(folder, sizeof folder) == NULL) return fail_errno(path, "find the working folder", errno);
-    const size_t room = strlen(folder) + strlen(path) + 2;
-    *place = hooke_new((int64_t)room, 1);
-    if (*place) snprintf(*place, room, "%s/%s", folder, path);
-  }
-  return *place ? HOOKE_OK : HOOKE_NO_MEMORY;
-}
 
 static hid_t access_list(void) {
   hid_t list = H5Pcreate(H5P_FILE_ACCESS);
@@ -120,23 +88,19 @@ static int32_t try_room(const char *path, const char *temporary, double bytes) {
   snprintf(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
   unlink(temporary);
   int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY, 0666);
-  if (descriptor < 0) return fail_errno(path, "create the file", errno);
+  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
   int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
   if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
   close(descriptor);
   unlink(temporary);
-  return error ? fail_errno(path, what, error) : HOOKE_OK;
+  return error ? hooke_place_fail(path, what, error) : HOOKE_OK;
 }
 
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file) {
   *file = (struct hooke_h5_file){.id = -1};
-  int32_t status = find_place(path, &file->path);
+  int32_t status = hooke_place_find(path, &file->path, &file->temporary);
   if (status != HOOKE_OK) return status;
-  const int64_t room = (int64_t)strlen(file->path) + 32;
-  file->temporary = hooke_new(room, 1);
-  if (file->temporary == NULL) return HOOKE_NO_MEMORY;
-  snprintf(file->temporary, (size_t)room, "%s.%ld.part", file->path, (long)getpid());
   status = try_room(path, file->temporary, bytes);
   if (status != HOOKE_OK) return status;
   hid_t list = access_list();
@@ -151,53 +115,16 @@ double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
   return H5Fget_filesize(file->id, &bytes) < 0 ? 0.0 : (double)bytes;
 }
 
-static int sync_path(const char *path, int flags) {
-  int descriptor = open(path, flags);
-  if (descriptor < 0) return -1;
-  int result = fsync(descriptor);
-  int error = errno;
-  close(descriptor);
-  errno = error;
-  return result;
-}
-
-/* The names of a folder's files are data of the folder. */
-static int sync_folder_of(const char *path) {
-  const char *slash = strrchr(path, '/');
-  char *folder = hooke_new(slash - path + 2, 1);
-  if (folder == NULL) {
-    errno = ENOMEM;
-    return -1;
-  }
-  memcpy(folder, path, (size_t)(slash - path) + 1);
-  int result = sync_path(folder, O_RDONLY | O_DIRECTORY);
-  hooke_free(folder);
-  /* some file systems cannot do this for a folder; the rename is then as durable as they make it */
-  return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
-}
-
-static int32_t move_into_place(struct hooke_h5_file *file) {
-  if (sync_path(file->temporary, O_RDONLY) != 0)
-    return fail_errno(file->path, "bring the data to the disk", errno);
-  if (rename(file->temporary, file->path) != 0) return fail_errno(file->path, "take this name", errno);
-  hooke_free(file->temporary);
-  file->temporary = NULL;
-  if (sync_folder_of(file->path) != 0) return fail_errno(file->path, "bring the name to the disk", errno);
-  return HOOKE_OK;
-}
-
 int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
-  return move_into_place(file);
+  return hooke_place_take(file->path, &file->temporary);
 }
 
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
   file->id = -1;
-  if (file->temporary) return move_into_place(file);
-  if (sync_path(file->path, O_RDONLY) != 0)
-    return fail_errno(file->path, "bring the data to the disk", errno);
-  return HOOKE_OK;
+  if (file->temporary) return hooke_place_take(file->path, &file->temporary);
+  return hooke_place_sync(file->path);
 }
 
 void hooke_h5_file_release(struct hooke_h5_file *file) {

@@ -34,7 +34,7 @@ static herr_t write_h5md(hid_t file) {
   return result;
 }
 
-static herr_t write_options(hid_t where, const hooke_options *options) {
+herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options) {
   hid_t group = new_group(where, "options");
   herr_t result = group < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < hooke_options_row_count(options); k++) {
@@ -69,7 +69,7 @@ herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *
   if (result >= 0) result = hooke_h5_integer_attribute(group, "abi", 1, &abi);
   if (result >= 0) result = hooke_h5_text_attribute(group, "units", units);
   if (result >= 0 && method) result = hooke_h5_text_attribute(group, "method", method);
-  if (result >= 0 && options) result = write_options(group, options);
+  if (result >= 0 && options) result = hooke_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);
   if (result >= 0) result = write_text(group, "status", STATUS_LENGTH, "running");
   hooke_h5_drop(group);

@@ -21,6 +21,9 @@
 herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
                            const char *scene_text);
 
+/* A group `options` with an attribute for each option that has a value. Negative on failure. */
+herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options);
+
 /* /connectivity/springs; the particles group has to be there. */
 herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 

@@ -61,6 +61,23 @@ def test_program(prefix):
     assert VERSION in run(prefix / "bin/hooke", "--version")
 
 
+def test_report(prefix, tmp_path):
+    """The installed program finds the page of a report in its own share/hooke, wherever that has been moved."""
+    pages = {p.name for p in (prefix / "share/hooke").glob("*.*")}
+    if "HOOKE_CLI" not in os.environ or not pages:
+        pytest.skip("this build writes no reports")
+    sources = {p.name for p in (ROOT / "src/io/report").iterdir()}
+    assert pages == sources | {"chart.js"}
+    command = [prefix / "bin/hooke", "study", prefix / "share/hooke/examples/scenes/oscillator.json", "--duration", "0.5",
+               "--methods", "rk4", "--report", tmp_path / "page.html"]
+    run(*command)
+    for name in pages - {"study.html"}:
+        assert (prefix / "share/hooke" / name).read_text() in (tmp_path / "page.html").read_text()
+    (prefix / "share/hooke/study.js").rename(prefix / "share/hooke/away.js")
+    assert "share/hooke/study.js" in run(*command, expect=6)
+    (prefix / "share/hooke/away.js").rename(prefix / "share/hooke/study.js")
+
+
 def test_find_package(prefix, tmp_path):
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DHOOKE_WANTED={VERSION}")
     run(CMAKE, "--build", tmp_path)

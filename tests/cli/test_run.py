@@ -326,3 +326,23 @@ def test_standard_output_is_json_and_nothing_else(write, tmp_path):
         done = subprocess.run(line, shell=True, cwd=tmp_path, capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, (verb, done.stderr)
         assert done.stdout.startswith("{") and "Extra data" not in done.stderr
+
+
+@pytest.mark.parametrize("want, metres", [("1cm", 1e-2), ("1e-3", 1e-3), ("10 um", 1e-5)])
+def test_want_picks_a_method_and_keeps_to_it(hooke, write, want, metres):
+    """The error of what was picked, against a run at tight tolerance."""
+    scene = write(SIX_PARTICLES)
+    done = hooke("run", scene, "--want", want, "--json", "--final")
+    assert done.code == 0
+    assert "picked for an error of" in done.err and done.json["method"] in done.err
+    tight = ["--method", "cvode-adams", "--rtol", "1e-10", "--atol", "1e-12"]
+    exact = hooke("run", scene, *tight, "--json", "--final").json["final"]["position"]
+    pairs = zip(done.json["final"]["position"], exact)
+    assert math.sqrt(sum(math.dist(a, b) ** 2 for a, b in pairs) / 5) < metres
+
+
+@pytest.mark.parametrize("want, word", [("1 furlong", "furlong"), ("-1", "want"), ("0", "want"), ("much", "want")])
+def test_want_that_is_no_length(hooke, write, want, word):
+    done = hooke("run", write(SIX_PARTICLES), "--want=" + want)
+    assert done.code == 2
+    assert word in done.err

@@ -18,6 +18,7 @@ def test_the_tables_are_those_of_the_library():
     assert step.unit == "s" and step.type == "number" and step.doc
     for what, options in [
         ("run", hooke.Options.for_run()),
+        ("study", hooke.Options.for_study()),
         ("springs", hooke.Options.for_springs()),
         ("rope", hooke.Options.for_part("rope")),
         ("cloth", hooke.Options.for_part("cloth")),

@@ -28,7 +28,14 @@ PLAIN_NUMBERS = {
     "hooke_method_is_built",
     "hooke_integrator_stop_value",
 }
-OUTCOMES = {"hooke_integrator_run", "hooke_integrator_step", "hooke_comparison_run"}
+OUTCOMES = {
+    "hooke_integrator_run",
+    "hooke_integrator_step",
+    "hooke_comparison_run",
+    "hooke_study_run",
+    "hooke_study_recommend",
+    "hooke_study_pick",
+}
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 

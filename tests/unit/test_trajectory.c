@@ -50,7 +50,8 @@ struct fixture {
 static int set_up(void **state) {
   struct fixture *f = new_block(1, sizeof *f);
   f->system = new_rope();
-  f->integrator = start_run(f->system, (struct run){"symplectic-euler", 1e-3, 0.1, 0.01, 0, 0, 0});
+  f->integrator = start_run(
+      f->system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   f->state = start_state(f->system);
   f->stop_after = FRAMES + 1;
   assert_int_equal(hooke_integrator_frame_count(f->integrator), FRAMES);
@@ -397,8 +398,8 @@ int main(void) {
 static void trajectories_are_not_in_this_build(void **unused) {
   (void)unused;
   hooke_system *system = new_rope();
-  hooke_integrator *integrator =
-      start_run(system, (struct run){"symplectic-euler", 1e-3, 0.1, 0.01, 0, 0, 0});
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   hooke_trajectory *trajectory;
   double *values;
   int64_t rows, columns;

@@ -6,8 +6,9 @@
 ('finished', (256, 3))
 
 A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
-it, `compare` sets several methods against a tight reference, `Integrator` gives you the loop. Units are SI,
-positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+it, `compare` sets several methods against a tight reference, `study` measures error against cost and
+recommends, `Integrator` gives you the loop. Units are SI, positions and velocities are NumPy arrays (n, 3)
+over the library's own memory.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from .options import Options, describe, part_kinds
 from .results import Frames, Result, run
 from .scene import Scene
 from .state import State
+from .study import Study, study
 from .system import System
 
 __version__ = "0.1.0"
@@ -48,6 +50,7 @@ __all__ = [
     "SolverFailed",
     "State",
     "Stopped",
+    "Study",
     "System",
     "Unsuited",
     "build_facts",
@@ -57,6 +60,7 @@ __all__ = [
     "part_kinds",
     "plot",
     "run",
+    "study",
 ]
 
 

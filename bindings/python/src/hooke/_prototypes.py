@@ -29,6 +29,7 @@ SCENE = _handle("hooke_scene")
 TRAJECTORY = _handle("hooke_trajectory")
 COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
+STUDY = _handle("hooke_study")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
 DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
@@ -156,6 +157,25 @@ PROTOTYPES = {
     "hooke_comparison_reference": (TEXT, COMPARISON),
     "hooke_comparison_frame_count": (INT64, COMPARISON),
     "hooke_comparison_series": (DOUBLES, COMPARISON, INT64, TEXT),
+    # study.h
+    "hooke_study_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_study_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(STUDY)),
+    "hooke_study_destroy": (None, STUDY),
+    "hooke_study_on_progress": (None, STUDY, PROGRESS, ADDRESS),
+    "hooke_study_run": (OUTCOME, STUDY),
+    "hooke_study_reference": (TEXT, STUDY, TEXT),
+    "hooke_study_figure": (DOUBLE, STUDY, TEXT),
+    "hooke_study_row_count": (INT64, STUDY),
+    "hooke_study_text": (TEXT, STUDY, INT64, TEXT),
+    "hooke_study_number": (DOUBLE, STUDY, INT64, TEXT),
+    "hooke_study_frame_count": (INT64, STUDY),
+    "hooke_study_series": (DOUBLES, STUDY, INT64, TEXT),
+    "hooke_study_order": (DOUBLE, STUDY, TEXT, TEXT),
+    "hooke_study_order_note": (TEXT, STUDY, TEXT),
+    "hooke_study_recommend": (OUTCOME, STUDY, DOUBLE),
+    "hooke_study_recommendation_text": (TEXT, STUDY, TEXT),
+    "hooke_study_recommendation_number": (DOUBLE, STUDY, TEXT),
+    "hooke_study_pick": (OUTCOME, SYSTEM, OPTIONS, DOUBLE, PROGRESS, ADDRESS),
     # io.h
     "hooke_io_own_process": (STATUS,),
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
@@ -171,4 +191,7 @@ PROTOTYPES = {
     "hooke_trajectory_close": (STATUS, TRAJECTORY, INT32),
     "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
     "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
+    "hooke_study_write_csv": (STATUS, STUDY, TEXT),
+    "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
+    "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
 }

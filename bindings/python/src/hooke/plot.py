@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from .results import Result
+from .study import Study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,6 +81,82 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
     ax.set_title(f"against {reference}" if reference else "")
     ax.legend()
     return ax
+
+
+def study(
+    source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
+) -> Any:
+    """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error
+    [m] against cost, one marked line a method, and error against step with the orders that were seen.
+
+    `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at
+    the upper edge of the second. The grey band is what the reference does not know, and ten times that. `want` [m] draws a line.
+    """
+    table = _Table(source)
+    if axes is None:
+        import matplotlib.pyplot as plt
+
+        _, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True, layout="constrained")
+    costs, steps = axes
+    for number, method in enumerate(dict.fromkeys(table["method"])):
+        rows = np.flatnonzero(table["method"] == method)
+        style = {"color": f"C{number % 10}", "marker": _MARKERS[number % len(_MARKERS)], "markersize": 4}
+        _ladder(costs, table[cost][rows], table["error"][rows], method, style)
+        if np.isfinite(table["step"][rows]).any():
+            order = table.orders.get(method, np.nan)
+            label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
+            _ladder(steps, table["step"][rows], table["error"][rows], label, style)
+            _edge(steps, table["step"][rows[np.isnan(table["error"][rows])]], style)
+    costs.set_xlabel({"wall_seconds": "wall time [s]"}.get(cost, cost.replace("_", " ")))
+    steps.set_xlabel("step [s]")
+    for ax in (costs, steps):
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        ax.set_ylabel("error [m]")
+        if table.agreement > 0:
+            ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
+            ax.set_ylim(bottom=table.agreement)
+        if want is not None:
+            ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8)
+        ax.legend(fontsize="small")
+    return axes
+
+
+_MARKERS = "osD^v<>PX*"
+
+
+class _Table:
+    """Columns, orders and the floor of a study or of its file."""
+
+    def __init__(self, source: Study | Path):
+        if isinstance(source, Study):
+            self._columns = {name: source.rows[name] for name in source.rows.dtype.names or ()}
+            self.orders = {name: order.order for name, order in source.orders.items()}
+            self.agreement = source.reference.agreement
+            return
+        import h5py
+
+        with h5py.File(source, "r") as file:
+            group = file["study"]
+            self._columns = {name: group[name][:] for name in group if isinstance(group[name], h5py.Dataset)}
+            for name in ("method", "status"):
+                self._columns[name] = np.array([_text(word) for word in self._columns[name]])
+            names = (_text(word) for word in group["orders/method"][:])
+            self.orders = dict(zip(names, group["orders/order"][:].tolist()))
+            self.agreement = float(group["reference"].attrs["agreement"])
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+
+def _ladder(ax: Any, x: np.ndarray, error: np.ndarray, label: str, style: dict[str, Any]) -> None:
+    there = error > 0
+    ax.plot(x[there], error[there], label=label, linewidth=1, **style)
+
+
+def _edge(ax: Any, x: np.ndarray, style: dict[str, Any]) -> None:
+    height = np.full(x.size, 0.98)
+    ax.plot(x, height, transform=ax.get_xaxis_transform(), linestyle="", **{**style, "marker": "x"})
 
 
 def _frame(source: Source, run: str, frame: int) -> tuple[np.ndarray, np.ndarray, float | None]:

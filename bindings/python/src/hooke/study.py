@@ -1,0 +1,318 @@
+"""Studies: how accurate each method is for what it costs on one scene, and which one to take."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterable
+from typing import Any, Callable, NamedTuple, Optional
+
+import numpy as np
+
+from . import _callback
+from ._library import lib
+from ._memory import Handle, address_of, text, view
+from ._prototypes import PROGRESS, STUDY
+from ._status import OUTCOMES, BadValue
+from .options import Options
+from .results import Path, Runnable, resolve
+from .scene import Scene, scene_text
+from .system import Force, System
+
+#: progress(fraction, what): the share done, 0 to 1, and what is running.
+StudyProgress = Callable[[float, str], Optional[int]]
+
+_TEXTS = ("method", "status")
+_FLAGS = ("near_floor", "timed_alone")
+_NUMBERS = (
+    "step",
+    "rtol",
+    "atol",
+    "error",
+    "error_max",
+    "error_final",
+    "energy_drift",
+    "force_evaluations",
+    "steps",
+    "linear_iterations",
+    "wall_seconds",
+    "wall_median",
+    "repeats",
+)
+_ROW = np.dtype(
+    [(name, "U32") for name in _TEXTS]
+    + [(name, float) for name in _NUMBERS]
+    + [(name, bool) for name in _FLAGS]
+)
+
+
+class Reference(NamedTuple):
+    """What the errors are measured against: the two integrators that made it, which share only the force;
+    how far they are apart at most [m], the floor of all errors; the time until which they agree [s], up to
+    which errors are judged; and the factor by which a small displacement of the start grows."""
+
+    methods: tuple[str, str]
+    agreement: float
+    trusted_until: float
+    growth: float
+
+
+class Order(NamedTuple):
+    """The order that a fixed-step method showed, its 95 % interval, the theory's, and why they may differ."""
+
+    order: float
+    low: float
+    high: float
+    theory: float
+    note: str
+
+
+class Series(NamedTuple):
+    """One row over the frames that are judged, each (k,): time [s], error [m], energy_drift [J]."""
+
+    time: np.ndarray
+    error: np.ndarray
+    energy_drift: np.ndarray
+
+
+class Recommendation(NamedTuple):
+    """The cheapest run that was seen to meet `want` [m]; if `met` is False, the one that came closest, and
+    `note` says what is in the way. Numbers that do not apply are NaN."""
+
+    met: bool
+    want: float
+    method: str
+    step: float
+    rtol: float
+    atol: float
+    error: float
+    wall_seconds: float
+    force_evaluations: float
+    note: str
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What to give to `hooke.run` to have it."""
+        numbers = {name: getattr(self, name) for name in ("step", "rtol", "atol")}
+        options: dict[str, Any] = {"method": self.method} if self.method else {}
+        options.update({name: number for name, number in numbers.items() if not np.isnan(number)})
+        if "atol" in options:
+            options["atol_velocity"] = options["atol"]
+        return options
+
+
+class Study:
+    """A study that was made: one row a method and step or tolerance, the coarsest first.
+
+    Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped",
+    "failed"), step [s], rtol, atol [m], error (largest root mean square over the free particles [m]),
+    error_max [m], error_final [m], energy_drift [J], force_evaluations, steps, linear_iterations,
+    wall_seconds (the least of `repeats` runs) and wall_median [s]; near_floor (the error is within ten times
+    of what the reference is known to), timed_alone. NaN where a number does not apply. `rows` holds them all
+    as one structured array.
+
+    `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that
+    rows are missing for lack of time. `orders` has an `Order` for each fixed-step method.
+    """
+
+    outcome: str
+    budget_spent: bool
+    duration: float
+    reference: Reference
+    rows: np.ndarray
+    orders: dict[str, Order]
+
+    method: np.ndarray
+    status: np.ndarray
+    step: np.ndarray
+    rtol: np.ndarray
+    atol: np.ndarray
+    error: np.ndarray
+    error_max: np.ndarray
+    error_final: np.ndarray
+    energy_drift: np.ndarray
+    force_evaluations: np.ndarray
+    steps: np.ndarray
+    linear_iterations: np.ndarray
+    wall_seconds: np.ndarray
+    wall_median: np.ndarray
+    repeats: np.ndarray
+    near_floor: np.ndarray
+    timed_alone: np.ndarray
+
+    def __init__(
+        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: StudyProgress | None
+    ):
+        self._handle = handle
+        self._scene = scene
+        self._system = system  # its callbacks have to live as long as the study
+        self._status = status
+        self._progress = progress
+        self.outcome = OUTCOMES.get(status, "stopped")
+        self.rows = _read_rows(handle)
+        self.rows.flags.writeable = False
+        for name in _ROW.names or ():
+            setattr(self, name, self.rows[name])
+        figure = {what: lib.hooke_study_figure(handle, what.encode()) for what in _FIGURES}
+        names = [text(lib.hooke_study_reference(handle, what)) for what in (b"method", b"check")]
+        self.reference = Reference((names[0], names[1]), *(figure[what] for what in _FIGURES[:3]))
+        self.duration = figure["duration"]
+        self.budget_spent = bool(figure["budget_spent"])
+        self.orders = _read_orders(handle, self.methods)
+
+    @property
+    def methods(self) -> list[str]:
+        """The methods that have rows, in the order of the rows."""
+        return [str(name) for name in dict.fromkeys(self.rows["method"])]
+
+    @property
+    def recommendation(self) -> Recommendation | None:
+        """The latest recommendation; None if there was no `want`."""
+        if lib.hooke_study_recommendation_text(self._handle, b"note") is None:
+            return None
+
+        def number(what: str) -> float:
+            return lib.hooke_study_recommendation_number(self._handle, what.encode())
+
+        def word(what: str) -> str:
+            return text(lib.hooke_study_recommendation_text(self._handle, what.encode()))
+
+        names = ("step", "rtol", "atol", "error", "wall_seconds", "force_evaluations")
+        return Recommendation(
+            bool(number("met")), number("want"), word("method"), *map(number, names), word("note")
+        )
+
+    def recommend(self, want: float) -> Recommendation:
+        """Finds the cheapest step or tolerance whose error is at most `want` [m], by running it."""
+        with _listening(self._handle, self._progress):
+            lib.hooke_study_recommend(self._handle, want)
+        found = self.recommendation
+        assert found is not None
+        return found
+
+    def series(self, row: int) -> Series:
+        """Error and energy drift of a row over the frames that are judged; NaN past the end of a run that
+        diverged."""
+        row = range(len(self.rows))[row]
+        count = lib.hooke_study_frame_count(self._handle)
+        arrays = []
+        for what in Series._fields:
+            pointer = lib.hooke_study_series(self._handle, row, what.encode())
+            arrays.append(view(address_of(pointer), (count,)).copy() if pointer else np.full(count, np.nan))
+        return Series(*arrays)
+
+    def write(self, path: Path) -> None:
+        """Writes the rows as a table to a path that ends in ``.csv``, or the whole study to an HDF5 file
+        (docs/study.md), which `hooke.plot.study` draws."""
+        name = os.fsencode(path)
+        if name.endswith(b".csv"):
+            lib.hooke_study_write_csv(self._handle, name)
+        else:
+            lib.hooke_study_write_h5(self._handle, name, scene_text(self._scene), self._status)
+
+    def plot(self, axes: Any = None, **options: Any) -> Any:
+        """Draws error against cost and error against step; see `hooke.plot.study`."""
+        from .plot import study as draw
+
+        return draw(self, axes, **options)
+
+    def __str__(self) -> str:
+        columns = ("step", "rtol", "error", "force_evaluations", "wall_seconds")
+        lines = [f"{'method':18}{'status':>10}" + "".join(f"{name:>19}" for name in columns)]
+        for row in self.rows:
+            numbers = "".join(f"{row[name]:>19.4g}" for name in columns)
+            lines.append(f"{row['method']:18}{row['status']:>10}{numbers}")
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
+
+
+_FIGURES = ("agreement", "trusted_until", "growth", "duration", "budget_spent")
+
+
+def study(
+    problem: Runnable,
+    methods: str | Iterable[str] | None = None,
+    *,
+    want: float | None = None,
+    budget: float | None = None,
+    points: int | None = None,
+    steps: Any = None,
+    tolerances: Any = None,
+    output: Path | None = None,
+    force: Force | None = None,
+    progress: StudyProgress | None = None,
+    **options: Any,
+) -> Study:
+    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
+    over a ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the
+    `Study`.
+
+    `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want`
+    [m] asks for a recommendation, `budget` [s] limits the time. `output` is a file to write (see
+    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress and stops
+    the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
+    every [s], threads, ...
+    """
+    scene, system, given = resolve(problem, force)
+    if not isinstance(system, System):
+        raise BadValue("study: a system is needed, this is a first-order problem")
+    run = (given.copy() if given is not None else Options.for_run()).set(**options)
+    threads = run["threads"]
+    if system._callbacks and isinstance(threads, int) and threads > 1:
+        raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
+    if methods is not None and not isinstance(methods, str):
+        methods = ",".join(methods)
+    chosen = Options.for_study().set(
+        methods=methods, want=want, budget=budget, points=points, steps=steps, tolerances=tolerances
+    )
+    pointer = STUDY()
+    lib.hooke_study_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
+    handle = Handle(pointer, lib.hooke_study_destroy, system._handle)
+    with _listening(handle, progress):
+        status = lib.hooke_study_run(handle)
+    made = Study(handle, scene, system, status, progress)
+    if output is not None:
+        made.write(output)
+    return made
+
+
+class _listening:
+    """Passes progress on while the library works, and lets Ctrl-C in."""
+
+    def __init__(self, handle: Handle, progress: StudyProgress | None):
+        self._handle = handle
+        tell = progress or (lambda done, what: None)
+        self._watcher = PROGRESS(lambda done, what, _: _callback.guarded(tell, done, text(what)))
+        self._interruptible = _callback.interruptible()
+
+    def __enter__(self) -> None:
+        lib.hooke_study_on_progress(self._handle, self._watcher, None)
+        self._interruptible.__enter__()
+
+    def __exit__(self, *failure: Any) -> Any:
+        lib.hooke_study_on_progress(self._handle, PROGRESS(), None)
+        return self._interruptible.__exit__(*failure)
+
+
+def _read_rows(handle: Handle) -> np.ndarray:
+    count = lib.hooke_study_row_count(handle)
+    rows = np.empty(count, _ROW)
+    for row in range(count):
+        for name in _TEXTS:
+            rows[name][row] = text(lib.hooke_study_text(handle, row, name.encode()))
+        for name in (*_NUMBERS, *_FLAGS):
+            rows[name][row] = lib.hooke_study_number(handle, row, name.encode())
+    return rows
+
+
+def _read_orders(handle: Handle, methods: list[str]) -> dict[str, Order]:
+    orders = {}
+    for method in methods:
+        name = method.encode()
+        if lib.hooke_method_is_adaptive(name):
+            continue
+        numbers = (lib.hooke_study_order(handle, name, what.encode()) for what in Order._fields[:-1])
+        orders[method] = Order(*numbers, text(lib.hooke_study_order_note(handle, name)))
+    return orders

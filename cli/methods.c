@@ -1,0 +1,49 @@
+#include "methods.h"
+#include "report.h"
+
+#include <string.h>
+
+/* The method that `word` begins with, up to `length`; NULL if there is none. */
+static const char *find_method(const char *word, size_t length) {
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    const char *name = hooke_method_name(i);
+    if (strlen(name) == length && strncmp(name, word, length) == 0) return name;
+  }
+  return NULL;
+}
+
+static int add_method(const struct hooke_arguments *arguments, struct hooke_methods *methods,
+                      const char *name) {
+  if (!hooke_method_is_built(name)) {
+    return hooke_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                        "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                        name);
+  }
+  for (int32_t i = 0; i < methods->count; i++) {
+    if (methods->name[i] == name) {
+      return hooke_report(arguments, HOOKE_EXIT_USAGE, "--methods: %s is named twice", name);
+    }
+  }
+  if (methods->count < HOOKE_MOST_METHODS) methods->name[methods->count++] = name;
+  return HOOKE_EXIT_DONE;
+}
+
+int hooke_methods_choose(const struct hooke_arguments *arguments, struct hooke_methods *methods) {
+  const char *word = hooke_arguments_text(arguments, "methods");
+  methods->count = 0;
+  if (!word) {
+    for (int64_t i = 0; i < hooke_method_count() && methods->count < HOOKE_MOST_METHODS; i++) {
+      const char *name = hooke_method_name(i);
+      if (hooke_method_is_built(name)) methods->name[methods->count++] = name;
+    }
+    return HOOKE_EXIT_DONE;
+  }
+  for (;;) {
+    size_t length = strcspn(word, ",");
+    const char *name = find_method(word, length);
+    int code = name ? add_method(arguments, methods, name)
+                    : hooke_report_unknown_method(arguments, "methods", word, length);
+    if (code != HOOKE_EXIT_DONE || !word[length]) return code;
+    word += length + 1;
+  }
+}

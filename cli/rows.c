@@ -1,0 +1,90 @@
+#include "rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { CELL_SIZE = 24, LEAST_WIDTH = 10 };
+
+static const struct column {
+  const char *what, *head, *unit;
+  int width;
+  int32_t counts; /* a whole number, printed in full */
+  int32_t marked; /* a mark may stand behind it */
+} columns[] = {{"step", "step", "[s]", 9, 0, 0},
+               {"rtol", "rtol", "", 9, 0, 0},
+               {"error", "error", "max [m]", 10, 0, 1},
+               {"error_final", "error", "end [m]", 10, 0, 0},
+               {"error_max", "farthest", "particle [m]", 12, 0, 0},
+               {"energy_drift", "energy", "drift [J]", 10, 0, 0},
+               {"steps", "steps", "", 9, 1, 0},
+               {"force_evaluations", "force", "evaluations", 11, 1, 0},
+               {"wall_seconds", "wall time", "[s]", 10, 0, 1}};
+enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
+
+static const char *method_of(const struct hooke_rows *rows, int64_t row) {
+  return rows->text(rows->source, row, "method");
+}
+
+int32_t hooke_rows_method_width(const struct hooke_rows *rows) {
+  size_t width = LEAST_WIDTH;
+  for (int64_t row = 0; row < rows->count; row++) {
+    size_t length = strlen(method_of(rows, row));
+    if (length > width) width = length;
+  }
+  return (int32_t)width;
+}
+
+void hooke_rows_print_cell(int32_t width, double value) {
+  char cell[CELL_SIZE] = "-";
+  if (!isnan(value)) snprintf(cell, sizeof cell, "%.4g", value);
+  printf(" %*s", width, cell);
+}
+
+static void print_head(const struct hooke_rows *rows, int32_t method_width, int32_t second) {
+  printf("%-*s", method_width, second ? "" : "method");
+  for (int i = 0; i < COLUMN_COUNT; i++) {
+    printf(" %*s", columns[i].width, second ? columns[i].unit : columns[i].head);
+    if (rows->mark && columns[i].marked && i + 1 < COLUMN_COUNT) printf(" ");
+  }
+  printf("\n");
+}
+
+static void print_row(const struct hooke_rows *rows, int64_t row, int32_t method_width) {
+  printf("%-*s", method_width, method_of(rows, row));
+  for (int i = 0; i < COLUMN_COUNT; i++) {
+    double value = rows->number(rows->source, row, columns[i].what);
+    if (columns[i].counts) {
+      printf(" %*.0f", columns[i].width, value);
+    } else {
+      hooke_rows_print_cell(columns[i].width, value);
+    }
+    if (rows->mark && columns[i].marked) printf("%c", rows->mark(rows->source, row, columns[i].what));
+  }
+  printf("  %s\n", rows->text(rows->source, row, "status"));
+}
+
+void hooke_rows_print(const struct hooke_rows *rows, int32_t method_width) {
+  print_head(rows, method_width, 0);
+  print_head(rows, method_width, 1);
+  for (int64_t row = 0; row < rows->count; row++) {
+    if (rows->grouped && row > 0 && strcmp(method_of(rows, row), method_of(rows, row - 1)) != 0) printf("\n");
+    print_row(rows, row, method_width);
+  }
+}
+
+void hooke_rows_print_json(struct hooke_json *json, const struct hooke_rows *rows) {
+  static const char *const numbers[] = {
+      "step",  "rtol",        "error", "error_max", "error_final", "energy_drift", "force_evaluations",
+      "steps", "wall_seconds"};
+  hooke_json_open(json, "rows", '[');
+  for (int64_t row = 0; row < rows->count; row++) {
+    hooke_json_open(json, NULL, '{');
+    hooke_json_text(json, "method", method_of(rows, row));
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+      hooke_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
+    hooke_json_text(json, "status", rows->text(rows->source, row, "status"));
+    hooke_json_close(json);
+  }
+  hooke_json_close(json);
+}

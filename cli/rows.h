@@ -1,0 +1,31 @@
+/* The rows of a comparison or a study: a method with a step or tolerance, its errors and its cost. */
+#ifndef HOOKE_CLI_ROWS_H
+#define HOOKE_CLI_ROWS_H
+
+#include "print.h"
+
+#include <stdint.h>
+
+struct hooke_rows {
+  const void *source;
+  int64_t count;
+  const char *(*text)(const void *source, int64_t row, const char *what); /* "method", "status" */
+  double (*number)(const void *source, int64_t row, const char *what);
+  int32_t grouped; /* 1: an empty line before each method but the first */
+  /* what stands behind "error" and "wall_seconds" of a row; NULL: no room for marks */
+  char (*mark)(const void *source, int64_t row, const char *what);
+};
+
+/* Width of the column of methods. */
+int32_t hooke_rows_method_width(const struct hooke_rows *rows);
+
+/* A number in `width` columns to 4 digits, "-" where there is none. */
+void hooke_rows_print_cell(int32_t width, double value);
+
+/* A table of all rows. */
+void hooke_rows_print(const struct hooke_rows *rows, int32_t method_width);
+
+/* "rows": [...]. */
+void hooke_rows_print_json(struct hooke_json *json, const struct hooke_rows *rows);
+
+#endif

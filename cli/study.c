@@ -1,0 +1,233 @@
+/* hooke study: how accurate each method is for what it costs on a scene, and which one to take. */
+#include "print.h"
+#include "report.h"
+#include "study_results.h"
+#include "watch.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { FOLDER_SIZE = 4096 };
+
+/* ---- the file of -o ---- */
+
+/* Before any work, so that a long study is not lost to a wrong name. */
+static int check_place(const struct hooke_arguments *arguments, const char *flag, const char *file) {
+  struct stat there;
+  char folder[FOLDER_SIZE] = ".";
+  const char *slash = strrchr(file, '/');
+  if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
+  if (access(folder, W_OK) != 0) {
+    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file,
+                        strerror(errno));
+  }
+  if (stat(file, &there) == 0 && !S_ISREG(there.st_mode)) {
+    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
+  }
+  return hooke_setup_check_other_file(arguments, file);
+}
+
+static int ends_in(const char *name, const char *ending) {
+  const size_t length = strlen(name), end = strlen(ending);
+  return length > end && strcmp(name + length - end, ending) == 0;
+}
+
+static int check_output(const struct hooke_arguments *arguments, const char *output) {
+  if (!output) return HOOKE_EXIT_DONE;
+  if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
+    return hooke_report(
+        arguments, HOOKE_EXIT_USAGE,
+        "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
+        "whole study",
+        output);
+  }
+  const int code = ends_in(output, ".h5") ? hooke_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
+  return code == HOOKE_EXIT_DONE ? check_place(arguments, "-o", output) : code;
+}
+
+/* ---- the file of --report ---- */
+
+static int check_report(const struct hooke_arguments *arguments, const char *report) {
+  if (!report) return HOOKE_EXIT_DONE;
+  const char *library = hooke_build_fact("chartjs");
+  if (!library || !library[0]) {
+    return hooke_report(
+        arguments, HOOKE_EXIT_NOT_BUILT,
+        "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and writes no "
+        "reports; run without --report",
+        report);
+  }
+  return check_place(arguments, "--report", report);
+}
+
+/* The exit code of the study, or that of a report that could not be written. */
+static int write_report(const struct hooke_study_results *results, const char *report, int code) {
+  if (!report || hooke_study_row_count(results->study) == 0) return code;
+  const char *title = hooke_scene_title(results->setup.scene);
+  int32_t status =
+      hooke_study_write_report(results->study, report, title && title[0] ? title : results->arguments->scene,
+                               hooke_study_results_recommend(results) ? results->command : NULL);
+  if (status == HOOKE_OK) return code;
+  hooke_report_words(results->arguments, "%s", hooke_last_error());
+  return hooke_exit_code(status);
+}
+
+/* ---- running ---- */
+
+static int run_study(struct hooke_study_results *results) {
+  const struct hooke_arguments *arguments = results->arguments;
+  struct hooke_watch watch;
+  hooke_watch_start(&watch, arguments);
+  int32_t status =
+      hooke_study_create(results->setup.system, results->setup.options, arguments->more, &results->study);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  hooke_study_on_progress(results->study, hooke_watch_progress, &watch);
+  status = hooke_study_run(results->study);
+  hooke_watch_end(&watch);
+  results->interrupted = status == HOOKE_STOPPED;
+  return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE
+                                                    : hooke_report_status(arguments, status);
+}
+
+/* ---- the command that is recommended ---- */
+
+static double recommended(const struct hooke_study_results *results, const char *what) {
+  return hooke_study_recommendation_number(results->study, what);
+}
+
+int32_t hooke_study_results_recommend(const struct hooke_study_results *results) {
+  if (!hooke_study_recommendation_text(results->study, "note")) return 0;
+  return recommended(results, "met") == 1.0 || !results->interrupted;
+}
+
+/* NULL where the number does not apply. */
+static const char *setting(const struct hooke_study_results *results, const char *what,
+                           char text[HOOKE_NUMBER_SIZE]) {
+  double value = recommended(results, what);
+  return isnan(value) ? NULL : hooke_format_number(value, text);
+}
+
+static void find_command(struct hooke_study_results *results) {
+  char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
+  size_t size;
+  const char *method = hooke_study_recommendation_text(results->study, "method");
+  if (!method || !hooke_study_results_recommend(results)) return;
+  struct hooke_setting settings[] = {{"method", method},
+                                     {"step", setting(results, "step", step)},
+                                     {"rtol", setting(results, "rtol", rtol)},
+                                     {"atol", setting(results, "atol", atol)},
+                                     {"atol_velocity", NULL},
+                                     {NULL, NULL}};
+  /* the study sets it to the number of atol, whatever the scene says */
+  if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
+  FILE *file = open_memstream(&results->command, &size);
+  if (!file) return;
+  hooke_report_command(file, results->arguments, "run", settings);
+  fclose(file);
+}
+
+/* ---- results ---- */
+
+static const char *text_of(const void *study, int64_t row, const char *what) {
+  return hooke_study_text(study, row, what);
+}
+
+static double number_of(const void *study, int64_t row, const char *what) {
+  return hooke_study_number(study, row, what);
+}
+
+static char mark_of(const void *study, int64_t row, const char *what) {
+  if (strcmp(what, "error") == 0) return hooke_study_number(study, row, "near_floor") == 1.0 ? '*' : ' ';
+  return hooke_study_number(study, row, "timed_alone") == 0.0 ? '+' : ' ';
+}
+
+struct hooke_rows hooke_study_results_rows(const struct hooke_study_results *results) {
+  return (struct hooke_rows){.source = results->study,
+                             .count = hooke_study_row_count(results->study),
+                             .text = text_of,
+                             .number = number_of,
+                             .grouped = 1,
+                             .mark = mark_of};
+}
+
+static int32_t write_output(const struct hooke_study_results *results, const char *output) {
+  if (ends_in(output, ".csv")) return hooke_study_write_csv(results->study, output);
+  return hooke_study_write_h5(results->study, output, hooke_scene_text(results->setup.scene),
+                              results->interrupted ? HOOKE_STOPPED : HOOKE_OK);
+}
+
+/* What was measured is printed also when the file fails. */
+static int tell(struct hooke_study_results *results, const char *output) {
+  const struct hooke_arguments *arguments = results->arguments;
+  int32_t written = HOOKE_OK;
+  /* a study that was stopped before its first row takes no older file's place */
+  if (hooke_study_row_count(results->study) == 0) output = NULL;
+  find_command(results);
+  if (arguments->json) {
+    hooke_study_results_print_json(results);
+  } else {
+    hooke_study_results_print(results);
+  }
+  if (output) written = write_output(results, output);
+  if (output && written == HOOKE_OK && !arguments->json) {
+    printf("\noutput: ");
+    hooke_print_text(stdout, output);
+    printf("\n");
+  }
+  fflush(stdout);
+  if (written != HOOKE_OK) hooke_report_words(arguments, "%s", hooke_last_error());
+  if (results->interrupted) {
+    hooke_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
+                       hooke_study_row_count(results->study), output && written == HOOKE_OK ? ", in " : "",
+                       output && written == HOOKE_OK ? output : "");
+  }
+  if (written != HOOKE_OK) return hooke_exit_code(written);
+  return results->interrupted ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_DONE;
+}
+
+static int do_study(const struct hooke_arguments *arguments) {
+  struct hooke_study_results results = {.arguments = arguments};
+  const char *output = hooke_arguments_text(arguments, "output");
+  const char *report = hooke_arguments_text(arguments, "report");
+  int code = hooke_methods_choose(arguments, &results.methods);
+  if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
+  if (code == HOOKE_EXIT_DONE) code = check_report(arguments, report);
+  if (code != HOOKE_EXIT_DONE) return code;
+  code = hooke_setup_load(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = hooke_setup_require_duration(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = run_study(&results);
+  if (code == HOOKE_EXIT_DONE) {
+    code = tell(&results, output);
+    code = write_report(&results, report, code);
+  }
+  free(results.command);
+  hooke_study_destroy(results.study);
+  hooke_setup_destroy(&results.setup);
+  return code;
+}
+
+static const struct hooke_verb_row own_rows[] = {
+    {"output", 'o', "FILE", "writes the rows to FILE.csv, or the whole study to FILE.h5, replacing it"},
+    {"report", 0, "FILE.html",
+     "writes diagrams, table and recommendation as one page to read offline, replacing it"},
+};
+
+const struct hooke_verb hooke_verb_study = {
+    .name = "study",
+    .summary = "how accurate each method is for what it costs, and which one to take",
+    .text = "Makes a reference by two integrators that check each other, runs every method over a ladder of "
+            "steps or tolerances, and prints error and cost of each run, the order of each method, and with "
+            "--want LENGTH the cheapest run that is accurate enough, as a command. Runs that diverge stay as "
+            "rows. Ctrl-C ends a study and prints what is done so far. Tables are rounded; --json and "
+            "FILE have every digit.",
+    HOOKE_VERB_ROWS(own_rows),
+    .options = hooke_study_options_create,
+    .without = "method step rtol atol atol_velocity",
+    .function = do_study,
+};

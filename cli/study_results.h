@@ -1,0 +1,27 @@
+/* What a study gave, printed for a person and for a program. */
+#ifndef HOOKE_CLI_STUDY_RESULTS_H
+#define HOOKE_CLI_STUDY_RESULTS_H
+
+#include "methods.h"
+#include "rows.h"
+#include "setup.h"
+
+struct hooke_study_results {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  struct hooke_methods methods;
+  hooke_study *study;
+  int32_t interrupted;
+  char *command; /* the run that is recommended, or the closest one; NULL: there is none */
+};
+
+/* The rows as a table. */
+struct hooke_rows hooke_study_results_rows(const struct hooke_study_results *results);
+
+/* 1 if there is a recommendation: one that meets the want, or the closest to it of a study that came to its end. */
+int32_t hooke_study_results_recommend(const struct hooke_study_results *results);
+
+void hooke_study_results_print(const struct hooke_study_results *results);
+void hooke_study_results_print_json(const struct hooke_study_results *results);
+
+#endif

@@ -1,0 +1,165 @@
+/* The results of a study for a person. */
+#include "study_results.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LABEL = 16, WIDTH = 110, TEXT_SIZE = 1024 };
+
+/* Differences that grow more than this are called chaotic where the integrators part. */
+static const double CHAOTIC = 1e3;
+
+static void print_fact(const char *label, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A label, and words that wrap beside it. */
+static void print_fact(const char *label, const char *format, ...) {
+  char text[TEXT_SIZE];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  printf("%-*s", LABEL, label);
+  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+}
+
+/* ---- the reference ---- */
+
+static void print_trust(const hooke_study *study, double agreement) {
+  double until = hooke_study_figure(study, "trusted_until");
+  double growth = hooke_study_figure(study, "growth");
+  double duration = hooke_study_figure(study, "duration");
+  char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
+  hooke_format_number(until, time);
+  hooke_format_number(duration, all);
+  int32_t whole = until >= duration * (1.0 - 1e-9);
+  print_fact("agreement",
+             "%.3g m%s: no error below that means anything; those within ten times of it are marked *",
+             agreement, whole ? "" : ", until they part");
+  print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
+  if (!isnan(growth))
+    print_fact("growth", "a small displacement of the start grows at most %.3g times", growth);
+  if (whole) return;
+  if (growth > CHAOTIC) {
+    print_fact(
+        "WARNING",
+        "this motion is chaotic: small differences grow so much that the two integrators part after %s s, "
+        "and where the particles are later cannot be computed to the wanted digits. Errors and energy drift "
+        "are those up to %s s.",
+        time, time);
+  } else {
+    print_fact("WARNING",
+               "the two integrators part after %s s, although differences do not grow much: their tolerances "
+               "do not reach "
+               "the wanted digits%s. Errors and energy drift are those up to %s s.",
+               time, hooke_study_figure(study, "budget_spent") == 1.0 ? "; a larger --budget may" : "", time);
+  }
+}
+
+static void print_reference(const hooke_study *study) {
+  double agreement = hooke_study_figure(study, "agreement");
+  if (isnan(agreement)) {
+    print_fact("reference", "not finished, so there is nothing to measure against");
+    return;
+  }
+  print_fact("reference", "%s, checked by %s; they share the forces and nothing else",
+             hooke_study_reference(study, "method"), hooke_study_reference(study, "check"));
+  print_trust(study, agreement);
+}
+
+/* ---- orders ---- */
+
+static void print_order(const hooke_study *study, const char *method, int32_t width) {
+  double order = hooke_study_order(study, method, "order");
+  double theory = hooke_study_order(study, method, "theory");
+  const char *note = hooke_study_order_note(study, method);
+  char seen[HOOKE_NUMBER_SIZE] = "-", interval[HOOKE_NUMBER_SIZE] = "-";
+  if (!isnan(order)) {
+    snprintf(seen, sizeof seen, "%.2f", order);
+    snprintf(interval, sizeof interval, "%.2f to %.2f", hooke_study_order(study, method, "low"),
+             hooke_study_order(study, method, "high"));
+  }
+  printf("%-*s %7s %16s", width, method, seen, interval);
+  hooke_rows_print_cell(7, theory);
+  if (note && note[0]) {
+    printf("  ");
+    hooke_print_wrapped(stdout, width + 35, width + 35, WIDTH + 20, note);
+  } else {
+    printf("\n");
+  }
+}
+
+static void print_orders(const struct hooke_study_results *results, int32_t width) {
+  int32_t any = 0;
+  for (int32_t i = 0; i < results->methods.count; i++) {
+    const char *method = results->methods.name[i];
+    if (hooke_method_is_adaptive(method) != 0) continue;
+    if (!any) printf("\n%-*s %7s %16s %7s\n", width, "order", "seen", "95 % interval", "theory");
+    any = 1;
+    print_order(results->study, method, width);
+  }
+}
+
+/* ---- the recommendation ---- */
+
+static void print_recommendation(const struct hooke_study_results *results) {
+  const hooke_study *study = results->study;
+  double want = hooke_study_recommendation_number(study, "want");
+  int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
+  char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
+  hooke_format_number(want, text);
+  hooke_format_number(hooke_study_figure(study, "trusted_until"), time);
+  printf("\n");
+  if (met) {
+    print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s:", text,
+               time);
+  } else {
+    print_fact("recommendation", "none for an error of at most %s m: %s", text,
+               hooke_study_recommendation_text(study, "note"));
+  }
+  if (!results->command) return;
+  if (!met) print_fact("closest", "%s", hooke_study_recommendation_text(study, "method"));
+  printf("%*s", LABEL, "");
+  hooke_print_text(stdout, results->command);
+  printf("\n");
+  print_fact("", "error %.3g m, wall time %.3g s, %.0f force evaluations, as measured",
+             hooke_study_recommendation_number(study, "error"),
+             hooke_study_recommendation_number(study, "wall_seconds"),
+             hooke_study_recommendation_number(study, "force_evaluations"));
+}
+
+/* What the columns mean, and the marks that occur. */
+static void print_legend(const struct hooke_rows *rows) {
+  int32_t shared = 0;
+  for (int64_t row = 0; row < rows->count; row++)
+    shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
+  printf("\nerror: the root mean square over free particles of the distance to the reference; wall time: the "
+         "least of "
+         "several runs%s\n",
+         shared ? "; +: other rows ran beside it, so its time may be too long" : "");
+}
+
+void hooke_study_results_print(const struct hooke_study_results *results) {
+  const struct hooke_arguments *arguments = results->arguments;
+  const struct hooke_rows rows = hooke_study_results_rows(results);
+  const char *title = hooke_scene_title(results->setup.scene);
+  int32_t width = hooke_rows_method_width(&rows);
+  char text[HOOKE_NUMBER_SIZE];
+  hooke_print_text(stdout, title && title[0] ? title : arguments->scene);
+  printf(", %s s\n", hooke_format_number(hooke_study_figure(results->study, "duration"), text));
+  print_reference(results->study);
+  if (rows.count > 0) {
+    printf("\n");
+    hooke_rows_print(&rows, width);
+    print_legend(&rows);
+  }
+  if (hooke_study_figure(results->study, "budget_spent") == 1.0)
+    printf("the budget is spent: rows that it left no time for are missing\n");
+  if (rows.count > 0) print_orders(results, width);
+  if (hooke_study_results_recommend(results)) {
+    print_recommendation(results);
+  } else if (rows.count > 0 && !arguments->quiet && !hooke_arguments_text(arguments, "want")) {
+    printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
+  }
+}

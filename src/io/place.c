@@ -1,0 +1,93 @@
+#include "io/place.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int32_t hooke_place_fail(const char *path, const char *what, int error) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what, strerror(error));
+}
+
+static int32_t find(const char *path, char **place) {
+  struct stat there;
+  if (stat(path, &there) == 0) {
+    if (!S_ISREG(there.st_mode)) {
+      return hooke_fail(HOOKE_IO_FAILED, NULL,
+                        "%s: is not a regular file, and only such are replaced; name another", path);
+    }
+    char *real = realpath(path, NULL);
+    if (real == NULL) return hooke_place_fail(path, "follow the path", errno);
+    *place = hooke_copy_text(real);
+    free(real);
+  } else if (path[0] == '/') {
+    *place = hooke_copy_text(path);
+  } else {
+    char folder[PATH_MAX];
+    if (getcwd(folder, sizeof folder) == NULL)
+      return hooke_place_fail(path, "find the working folder", errno);
+    const size_t room = strlen(folder) + strlen(path) + 2;
+    *place = hooke_new((int64_t)room, 1);
+    if (*place) snprintf(*place, room, "%s/%s", folder, path);
+  }
+  return *place ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+int32_t hooke_place_find(const char *path, char **place, char **temporary) {
+  *place = NULL;
+  *temporary = NULL;
+  const int32_t status = find(path, place);
+  if (status != HOOKE_OK) return status;
+  const size_t room = strlen(*place) + 32;
+  *temporary = hooke_new((int64_t)room, 1);
+  if (*temporary == NULL) return HOOKE_NO_MEMORY;
+  snprintf(*temporary, room, "%s.%ld.part", *place, (long)getpid());
+  return HOOKE_OK;
+}
+
+static int sync_path(const char *path, int flags) {
+  int descriptor = open(path, flags);
+  if (descriptor < 0) return -1;
+  int result = fsync(descriptor);
+  int error = errno;
+  close(descriptor);
+  errno = error;
+  return result;
+}
+
+int32_t hooke_place_sync(const char *path) {
+  return sync_path(path, O_RDONLY) == 0 ? HOOKE_OK
+                                        : hooke_place_fail(path, "bring the data to the disk", errno);
+}
+
+/* The names of a folder's files are data of the folder. */
+static int sync_folder_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  char *folder = hooke_new(slash - path + 2, 1);
+  if (folder == NULL) {
+    errno = ENOMEM;
+    return -1;
+  }
+  memcpy(folder, path, (size_t)(slash - path) + 1);
+  int result = sync_path(folder, O_RDONLY | O_DIRECTORY);
+  hooke_free(folder);
+  /* some file systems cannot do this for a folder; the rename is then as durable as they make it */
+  return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
+}
+
+int32_t hooke_place_take(const char *place, char **temporary) {
+  if (sync_path(*temporary, O_RDONLY) != 0)
+    return hooke_place_fail(place, "bring the data to the disk", errno);
+  if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);
+  hooke_free(*temporary);
+  *temporary = NULL;
+  if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
+  return HOOKE_OK;
+}

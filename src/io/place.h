@@ -1,0 +1,22 @@
+/* The place of a file that is written: under another name beside it until it is ready, then synced and renamed, so that
+ * an older file is replaced as a whole or not at all. */
+#ifndef HOOKE_IO_PLACE_H
+#define HOOKE_IO_PLACE_H
+
+#include "hooke/base.h"
+
+/* Fails with HOOKE_IO_FAILED, "path: could not <what>: reason"; `error` is an errno. */
+int32_t hooke_place_fail(const char *path, const char *what, int error);
+
+/* `place`: `path` with links followed, so that a link stays one when its target is replaced, and from the root, so that
+ * it still holds when the process changes its folder; `temporary`: a name beside it. Both are the caller's to free, on
+ * failure, too. HOOKE_IO_FAILED if something other than a regular file is there, HOOKE_NO_MEMORY. */
+int32_t hooke_place_find(const char *path, char **place, char **temporary);
+
+/* Brings the closed file `temporary` to the disk and gives it the name `place`; then frees and clears `temporary`. */
+int32_t hooke_place_take(const char *place, char **temporary);
+
+/* Brings the data of a file to the disk. HOOKE_IO_FAILED. */
+int32_t hooke_place_sync(const char *path);
+
+#endif

@@ -1,0 +1,284 @@
+"use strict";
+/* Draws a study with Chart.js. The data are those of the element #study, in SI units. */
+
+const study = JSON.parse(document.getElementById("study").textContent);
+const methods = [...new Set(study.rows.map((row) => row.method))];
+const floor = study.reference.agreement;
+const recommended = study.recommendation;
+const want = recommended ? recommended.want : null;
+const trusted = study.reference.trusted_until, duration = study.reference.duration;
+const wholeRun = trusted === null || trusted >= duration * (1 - 1e-9);
+
+/* ---- numbers as words ---- */
+
+const RAISED = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075",
+  6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079" };
+const power = (exponent) => "10" + [...String(exponent)].map((c) => RAISED[c]).join("");
+
+function words(value, digits = 3) {
+  if (value === null || value === undefined) return "\u2013";
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(digits)));
+  const [head, exponent] = value.toExponential(digits - 1).split("e");
+  return (Number(head) === 1 ? "" : `${Number(head)}\u00b7`) + power(Number(exponent));
+}
+const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
+const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);
+
+/* ---- what a method looks like ---- */
+
+const COLOURS = ["#0072b2", "#d55e00", "#00875f", "#c2408f", "#7a5195", "#b8860b", "#2aa1c9", "#8b3a3a", "#5b6770",
+  "#3d7a1f"];
+const MARKS = ["circle", "rect", "triangle", "rectRot"];
+const colourOf = (method) => COLOURS[methods.indexOf(method) % COLOURS.length];
+const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
+const rowsOf = (method) => study.rows.filter((row) => row.method === method);
+const finished = (row) => row.status === "finished" && row.error !== null;
+
+/* ---- axes ---- */
+
+/* The ends of a logarithmic axis, with a little room around the values. */
+function ends(values) {
+  const seen = values.filter((value) => value > 0 && value < Infinity);
+  if (seen.length === 0) return [0.1, 10];
+  return [Math.min(...seen) / 1.6, Math.max(...seen) * 1.6];
+}
+
+/* Powers of ten are labelled; 2 and 5 as well on a short axis. */
+function ticks([low, high]) {
+  const decades = Math.log10(high / low);
+  const every = Math.ceil(decades / 12);
+  const list = [];
+  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); e++) {
+    for (let digit = 1; digit <= 9; digit++) {
+      const value = digit * 10 ** e;
+      if (value < low || value > high || (digit > 1 && decades > 7)) continue;
+      const bare = digit === 1 ? e % every === 0 : decades < 2 && (digit === 2 || digit === 5);
+      const head = digit > 1 ? `${digit}\u00b7` : "";
+      list.push({ value, major: digit === 1, label: bare ? head + power(e) : "" });
+    }
+  }
+  return list;
+}
+
+function logAxis(title, range) {
+  return {
+    type: "logarithmic", min: range[0], max: range[1],
+    title: { display: true, text: title },
+    afterBuildTicks: (axis) => { axis.ticks = ticks(range); },
+    ticks: { autoSkip: false, maxRotation: 0, callback: (value, k, all) => all[k].label },
+    grid: { color: (context) => (context.tick && context.tick.major ? "#c9d0d7" : "#edf0f2") },
+  };
+}
+
+function timeAxis() {
+  return { type: "linear", min: Math.min(0, ...study.time), max: Math.max(...study.time),
+    title: { display: true, text: "time [s]" }, grid: { color: "#edf0f2" } };
+}
+
+/* ---- lines ---- */
+
+const level = (label, value, colour, range) => ({
+  label, data: range.map((x) => ({ x, y: value })), borderColor: colour, backgroundColor: colour, borderWidth: 1.5,
+  borderDash: [7, 4], pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 5,
+});
+
+function levels(range) {
+  const list = [];
+  if (floor > 0) list.push(level(`floor of the reference, ${words(floor)} m`, floor, "#6b7680", range));
+  if (want !== null) list.push(level(`wanted, ${words(want)} m`, want, "#14633c", range));
+  return list;
+}
+
+/* The error axis of some rows. Runs without an error stand at its upper edge, one row of crosses for each method. */
+function errorAxis(rows) {
+  const [low, high] = ends([...rows.filter(finished), recommended || {}].map((row) => row.error).concat(floor, want));
+  const lost = methods.filter((method) => rows.some((row) => row.method === method && !finished(row)));
+  const apart = (high / low) ** 0.035;
+  const range = [low, high * apart ** lost.length];
+  return { range, edge: (method) => range[1] / apart ** lost.indexOf(method) };
+}
+
+/* A marked line of a method over `range`; what cannot be on it stands at its near end. */
+function curve(method, rows, what, range, edge) {
+  const across = (value) => Math.min(Math.max(value, range[0]), range[1]);
+  const colour = colourOf(method);
+  const lost = rows.map((row) => !finished(row));
+  return {
+    label: method,
+    data: rows.map((row, k) => ({ x: across(row[what]), y: lost[k] ? edge(method) : row.error, row })),
+    borderColor: colour, backgroundColor: colour, borderWidth: 2, clip: 9,
+    segment: { borderColor: (at) => (lost[at.p0DataIndex] || lost[at.p1DataIndex] ? "transparent" : undefined) },
+    pointStyle: lost.map((is) => (is ? "crossRot" : markOf(method))),
+    pointRadius: lost.map((is) => (is ? 7 : 5)), pointHoverRadius: 8,
+    pointBorderWidth: lost.map((is) => (is ? 2.5 : 2)), pointBorderColor: colour,
+    pointBackgroundColor: rows.map((row) => (row.near_floor ? "#fff" : colour)),
+  };
+}
+
+/* ---- charts ---- */
+
+Chart.defaults.animation = false;
+Chart.defaults.maintainAspectRatio = false;
+Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
+Chart.defaults.font.size = 13;
+Chart.defaults.color = "#1c2126";
+
+/* Says in the element what Chart.js has drawn, for whoever looks from outside. */
+const tell = {
+  id: "tell",
+  afterDraw(chart) {
+    const area = chart.chartArea;
+    let lines = 0, points = 0, outside = 0, crosses = 0, hollow = 0;
+    chart.data.datasets.forEach((line, k) => {
+      if (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k)) return;
+      const seen = chart.getDatasetMeta(k).data.filter((point) => !point.skip);
+      lines += seen.length > 0;
+      points += seen.length;
+      crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
+      hollow += seen.filter((point) => point.options.backgroundColor === "#fff").length;
+      outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
+        point.y < area.top - 1 || point.y > area.bottom + 1).length;
+    });
+    const across = chart.options.scales.x.title.text;
+    Object.assign(chart.canvas.dataset, { across, lines, points, outside, crosses, hollow });
+  },
+};
+
+function legendLabels(chart) {
+  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label) => {
+    const line = chart.data.datasets[label.datasetIndex];
+    const pointed = Array.isArray(line.pointStyle);
+    return { ...label, pointStyle: pointed ? markOf(line.label) : line.pointStyle, fillStyle: line.backgroundColor,
+      strokeStyle: line.borderColor, lineWidth: 2 };
+  });
+}
+
+function draw(id, lines, x, y, describe) {
+  const canvas = document.getElementById(id);
+  const old = Chart.getChart(canvas);
+  if (old) old.destroy();
+  return new Chart(canvas, {
+    type: "scatter",
+    data: { datasets: lines.map((line) => ({ showLine: true, ...line })) },
+    plugins: [tell],
+    options: {
+      scales: { x, y },
+      layout: { padding: { top: 4, right: 12 } },
+      interaction: { mode: "nearest", intersect: true },
+      plugins: {
+        legend: { position: "bottom", labels: { usePointStyle: true, boxHeight: 8, padding: 14,
+          generateLabels: legendLabels, filter: (label) => label.text !== "" } },
+        tooltip: { callbacks: { title: (items) => items[0].dataset.label, label: describe } },
+      },
+    },
+  });
+}
+
+function describeRow(item) {
+  const row = item.raw.row;
+  if (!row) return "";
+  return [setting(row), finished(row) ? `error ${words(row.error)} m` : row.status,
+    `wall time ${words(row.wall_seconds)} s`, `${whole(row.force_evaluations)} force evaluations`];
+}
+
+const COSTS = { wall_seconds: ["wall time", "wall time [s]"],
+  force_evaluations: ["force evaluations", "force evaluations"] };
+
+function drawCost(what) {
+  const across = ends([...study.rows.filter(finished), recommended || {}].map((row) => row[what]));
+  const up = errorAxis(study.rows);
+  const lines = methods.map((method) => curve(method, rowsOf(method), what, across, up.edge));
+  if (recommended && recommended.error !== null) {
+    const row = { ...recommended, status: "finished" };
+    lines.push({ label: recommended.met ? "recommended" : "closest", role: "star", showLine: false,
+      data: [{ x: row[what], y: row.error, row }], pointStyle: "star", pointRadius: 11, pointHoverRadius: 12,
+      pointBorderWidth: 2, borderColor: "#111", backgroundColor: "#111", order: -1, clip: 12 });
+  }
+  draw("work-precision", [...lines, ...levels(across)], logAxis(COSTS[what][1], across),
+    logAxis("error [m]", up.range), describeRow);
+}
+
+/* Through the finest point clear of the floor, with the slope of the order. */
+function slopeLine(method, rows) {
+  const order = study.orders[method];
+  const clear = rows.filter((row) => finished(row) && !row.near_floor && row.error > 0);
+  if (!order || order.order === null || clear.length < 2) return [];
+  const from = clear[clear.length - 1], to = clear[0].step;
+  const at = (x) => ({ x, y: from.error * (x / from.step) ** order.order });
+  return [{ label: "", role: "slope", data: [at(from.step / 1.4), at(to)], pointRadius: 0, pointHitRadius: 0,
+    borderColor: colourOf(method), borderWidth: 1.5, borderDash: [3, 4] }];
+}
+
+function drawConvergence() {
+  const fixed = study.rows.filter((row) => row.step !== null);
+  document.getElementById("convergence").closest("section").hidden = fixed.length === 0;
+  if (fixed.length === 0) return;
+  const across = ends(fixed.map((row) => row.step));
+  const up = errorAxis(fixed);
+  const names = methods.filter((method) => fixed.some((row) => row.method === method));
+  const lines = names.flatMap((method) => [curve(method, rowsOf(method), "step", across, up.edge),
+    ...slopeLine(method, rowsOf(method))]);
+  const chart = draw("convergence", [...lines, ...levels(across)], logAxis("step [s]", across),
+    logAxis("error [m]", up.range), describeRow);
+  chart.canvas.dataset.slopes = lines.filter((line) => line.role === "slope").length;
+}
+
+/* ---- over time ---- */
+
+const PICKS = {
+  enough: ["just enough",
+    "Of each method the coarsest run whose error is at most what is wanted; its finest one where none is."],
+  coarse: ["coarsest", "Of each method the coarsest run that finished."],
+  middle: ["middle", "Of each method the middle one of its runs that finished."],
+  fine: ["finest", "Of each method the finest run that finished."],
+};
+
+function pick(method, how) {
+  const rows = rowsOf(method).filter(finished);
+  if (how === "coarse") return rows[0];
+  if (how === "middle") return rows[Math.floor((rows.length - 1) / 2)];
+  const enough = how === "enough" ? rows.find((row) => row.error <= want) : undefined;
+  return enough || rows[rows.length - 1];
+}
+
+function drawTimes(how) {
+  document.getElementById("picked").textContent = PICKS[how][1] +
+    " Left the error, right how far the energy is from that of the reference; point at a line for its step or " +
+    "tolerance." +
+    (want === null ? "" : " The dashed line is what is wanted.");
+  const rows = methods.map((method) => pick(method, how)).filter((row) => row !== undefined);
+  const lines = (what) => rows.map((row) => ({
+    label: row.method, borderColor: colourOf(row.method), backgroundColor: colourOf(row.method), borderWidth: 1.8,
+    pointStyle: "line", pointRadius: 0.5, pointHoverRadius: 4, pointHitRadius: 6,
+    data: study.time.map((x, k) => ({ x, y: row[what][k] > 0 ? row[what][k] : NaN, row })),
+  }));
+  const draws = (id, what, title, extra) => {
+    const list = lines(what);
+    const seen = list.flatMap((line) => line.data.map((point) => point.y)).filter((y) => y > 0);
+    const high = Math.max(...seen, ...extra), low = Math.max(Math.min(...seen), high * 1e-16);
+    const unnamed = what === "error_at" ? levels(study.time).map((line) => ({ ...line, label: "" })) : [];
+    draw(id, [...list, ...unnamed],
+      timeAxis(), logAxis(title, ends([low, high])),
+      (item) => [setting(item.raw.row), `t = ${words(item.raw.x)} s: ${words(item.raw.y)}`]);
+  };
+  draws("error-over-time", "error_at", "error [m]", want === null ? [] : [want]);
+  draws("energy-over-time", "energy_drift_at", "|E \u2212 E of the reference| [J]", []);
+}
+
+/* Buttons of which one is pressed, `first` to begin with; `show` is called with its key. */
+function choice(id, options, first, show) {
+  const box = document.getElementById(id);
+  const press = (key) => {
+    for (const button of box.children) button.setAttribute("aria-pressed", String(button.dataset.key === key));
+    show(key);
+  };
+  for (const [key, [label]] of options) {
+    const button = document.createElement("button");
+    button.textContent = label;
+    button.dataset.key = key;
+    button.onclick = () => press(key);
+    box.append(button);
+  }
+  press(first);
+}

@@ -1,0 +1,159 @@
+"use strict";
+/* The words and tables of the page, and the start of everything. Text is set as text, never as markup. */
+
+function element(kind, text, options = {}) {
+  const made = Object.assign(document.createElement(kind), options);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+function fact(list, name, value) {
+  if (value === null || value === undefined || value === "") return;
+  document.getElementById(list).append(element("dt", name), element("dd", value));
+}
+
+/* ---- the head ---- */
+
+function writeHead() {
+  document.title = `hooke study: ${study.scene}`;
+  document.getElementById("scene").textContent = study.scene;
+  document.getElementById("lead").textContent =
+    `How accurate each method is for what it costs, over ${words(duration, 6)} s. ` +
+    `${study.rows.length} runs of ${methods.length} methods, ${study.date}.` +
+    (wholeRun ? "" : ` The two integrators of the reference part after ${words(trusted, 6)} s: ` +
+      "all errors are those up to there.") +
+    (study.reference.budget_spent ? " The time that the study was given ran out before its last rows." : "");
+  document.getElementById("crosses").hidden = study.rows.every(finished);
+  document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== 0);
+}
+
+function writeRecommendation() {
+  const box = document.getElementById("recommendation");
+  box.append(element("h2", !recommended || recommended.met ? "Recommendation" : "Nothing meets what is wanted"));
+  if (!recommended) {
+    box.className = "none";
+    box.append(element("p", "None was asked for. Say how large an error you can live with, such as --want 1mm."));
+    return;
+  }
+  box.className = recommended.met ? "met" : "unmet";
+  if (recommended.note) box.append(element("p", recommended.note + "."));
+  if (recommended.method) {
+    const cost = `it takes ${words(recommended.wall_seconds)} s of wall time and ` +
+      `${whole(recommended.force_evaluations)} force evaluations.`;
+    const choice = `${recommended.method} with ${setting(recommended)}`;
+    const limit = `${words(want)} m${wholeRun ? "" : ` up to ${words(trusted, 6)} s`}`;
+    const error = `its error is ${words(recommended.error)} m, and ${cost}`;
+    box.append(element("p", recommended.met
+      ? `For an error of at most ${limit} take ${choice}: it was run, ${error}`
+      : `Wanted: ${limit}. The closest is ${choice}: ${error}`));
+  }
+  if (recommended.command) box.append(element("pre", recommended.command));
+}
+
+/* ---- tables ---- */
+
+const COLUMNS = [["setting", "step [s]", "or rtol"], ["error", "error", "[m]"],
+  ["error_final", "at the end", "[m]"], ["error_max", "farthest", "[m]"], ["energy_drift", "energy drift", "[J]"],
+  ["force_evaluations", "force", "evaluations"], ["steps", "steps", ""], ["linear_iterations", "solver", "iterations"],
+  ["wall_seconds", "wall time", "[s]"], ["wall_median", "median", "[s]"], ["repeats", "repeats", ""]];
+const COUNTS = new Set(["force_evaluations", "steps", "linear_iterations", "repeats"]);
+
+function headOf(columns) {
+  const row = element("tr");
+  for (const [, name, unit, kind] of columns) {
+    const cell = element("th", name, { className: kind || "" });
+    if (unit) cell.append(element("br"), element("small", unit));
+    row.append(cell);
+  }
+  const head = element("thead");
+  head.append(row);
+  return head;
+}
+
+function methodCell(method) {
+  const cell = element("td", undefined, { className: "word" });
+  const swatch = element("span", undefined, { className: "swatch" });
+  swatch.style.background = colourOf(method);
+  cell.append(swatch, method);
+  return cell;
+}
+
+function numberCell(row, what) {
+  const value = what === "setting" ? row.step ?? row.rtol : row[what];
+  const name = what === "setting" && row.step === null ? "rtol " : "";
+  const cell = element("td", COUNTS.has(what) ? whole(value) : name + words(value, 4));
+  if (value !== null) cell.title = String(value);
+  if (what === "error" && row.near_floor && value !== null) cell.textContent += " \u25cb";
+  if (what === "wall_seconds" && row.timed_alone === 0) cell.textContent += " +";
+  if (what === "error" && want !== null && value !== null && value <= want) cell.className = "enough";
+  return cell;
+}
+
+function writeRows() {
+  const columns = COLUMNS.filter(([what]) =>
+    what !== "linear_iterations" || study.rows.some((row) => row[what] > 0));
+  const body = element("tbody");
+  study.rows.forEach((row, k) => {
+    const line = element("tr", undefined, { className: row.status });
+    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
+    line.append(methodCell(row.method), ...columns.map(([what]) => numberCell(row, what)),
+      element("td", row.status, { className: "word" }));
+    body.append(line);
+  });
+  document.getElementById("rows").append(
+    headOf([["", "method", "", "word"], ...columns, ["", "status", "", "word"]]), body);
+}
+
+function writeOrders() {
+  const body = element("tbody");
+  for (const [method, order] of Object.entries(study.orders)) {
+    const line = element("tr");
+    const range = order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`;
+    line.append(methodCell(method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
+      element("td", range), element("td", words(order.theory)), element("td", order.note, { className: "word note" }));
+    body.append(line);
+  }
+  if (body.children.length === 0) return;
+  document.getElementById("orders").append(headOf([["", "method", "", "word"], ["", "observed order"],
+    ["", "95 % interval"], ["", "theory"], ["", "", "", "word"]]), body);
+}
+
+/* ---- facts ---- */
+
+function writeReference() {
+  const { method, check, agreement, growth, frames } = study.reference;
+  fact("reference", "made by", method);
+  fact("reference", "checked by", check);
+  fact("reference", "agreement", agreement === null ? ""
+    : `${words(agreement)} m, the floor: no error below it means anything`);
+  fact("reference", "trusted until", trusted === null ? "" : `${words(trusted, 6)} s, ` +
+    (wholeRun ? "the whole run" : `of ${words(duration, 6)} s: there the two part, and errors are judged up to there`));
+  fact("reference", "growth", growth === null ? ""
+    : `${words(growth)} times, what a small displacement of the start grows at most`);
+  fact("reference", "frames", whole(frames));
+}
+
+function writeMachine() {
+  const { machine, versions } = study;
+  fact("machine", "processor", machine.processor);
+  fact("machine", "cores", whole(machine.cores));
+  fact("machine", "system", machine.system);
+  fact("machine", "instructions", versions.instructions);
+  fact("machine", "hooke", versions.hooke);
+  const names = { sundials: "SUNDIALS", gsl: "GSL", hdf5: "HDF5", jansson: "jansson", chartjs: "Chart.js" };
+  for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
+  fact("machine", "licence", versions.licence);
+}
+
+/* ---- all of it ---- */
+
+writeHead();
+writeRecommendation();
+writeRows();
+writeOrders();
+writeReference();
+writeMachine();
+choice("cost", Object.entries(COSTS), "wall_seconds", drawCost);
+drawConvergence();
+choice("pick", Object.entries(PICKS).filter(([key]) => key !== "enough" || want !== null),
+  want === null ? "middle" : "enough", drawTimes);

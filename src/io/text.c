@@ -1,0 +1,83 @@
+#include "io/text.h"
+
+#include "core/memory.h"
+#include "core/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const int64_t FIRST_CAPACITY = 1 << 16;
+
+void hooke_text_add(struct hooke_text *text, const char *bytes, int64_t length) {
+  if (text->status != HOOKE_OK) return;
+  if (length > text->capacity - text->length) {
+    int64_t capacity = text->capacity > 0 ? 2 * text->capacity : FIRST_CAPACITY;
+    if (capacity < text->length + length) capacity = text->length + length;
+    text->status = hooke_grow((void **)&text->bytes, text->length, capacity, 1);
+    if (text->status != HOOKE_OK) return;
+    text->capacity = capacity;
+  }
+  memcpy(text->bytes + text->length, bytes, (size_t)length);
+  text->length += length;
+}
+
+void hooke_text_release(struct hooke_text *text) {
+  hooke_free(text->bytes);
+  *text = (struct hooke_text){.bytes = NULL};
+}
+
+/* ---- JSON ---- */
+
+static void add(struct hooke_text *text, const char *words) {
+  hooke_text_add(text, words, (int64_t)strlen(words));
+}
+
+/* "<" is escaped, so that no text ends the element around it or begins a comment. */
+static void add_quoted(struct hooke_text *text, const char *words) {
+  add(text, "\"");
+  while (*words) {
+    size_t plain = 0;
+    while ((unsigned char)words[plain] >= 0x20 && strchr("\"\\<", words[plain]) == NULL)
+      plain++;
+    hooke_text_add(text, words, (int64_t)plain);
+    words += plain;
+    if (*words == '\0') break;
+    char escaped[8];
+    snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)(unsigned char)*words++);
+    add(text, escaped);
+  }
+  add(text, "\"");
+}
+
+static void begin(struct hooke_text *text, const char *key) {
+  const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
+  if (last != '{' && last != '[') add(text, ",");
+  if (key == NULL) return;
+  add_quoted(text, key);
+  add(text, ":");
+}
+
+void hooke_text_open(struct hooke_text *text, const char *key, char bracket) {
+  begin(text, key);
+  hooke_text_add(text, &bracket, 1);
+}
+
+void hooke_text_close(struct hooke_text *text, char bracket) {
+  hooke_text_add(text, &bracket, 1);
+}
+
+void hooke_text_number(struct hooke_text *text, const char *key, double value) {
+  char number[HOOKE_NUMBER_SIZE] = "null";
+  if (isfinite(value)) hooke_number_print(value, number);
+  begin(text, key);
+  add(text, number);
+}
+
+void hooke_text_word(struct hooke_text *text, const char *key, const char *word) {
+  begin(text, key);
+  if (word)
+    add_quoted(text, word);
+  else
+    add(text, "null");
+}

@@ -1,0 +1,358 @@
+"""hooke study: its reference against the truth, keys, ladders, recommendation, table, CSV, and what stops it."""
+
+import csv
+import json
+import math
+import shlex
+import signal
+import time
+
+import h5py
+import pytest
+
+from conftest import ENDLESS, MINIMAL, SIX_PARTICLES, STIFF_PAIR
+from references import Reference
+
+everything = pytest.mark.everything
+
+TOP = ["scene", "duration", "reference", "rows", "orders", "recommendation"]
+ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
+       "wall_seconds", "status"]  # fmt: skip
+RECOMMENDATION = ["want", "method", "step", "rtol", "error", "wall_seconds", "command"]
+FEW = ["--methods", "symplectic-euler,rk4,cvode-adams"]
+
+
+def rows_of(value, method):
+    return [row for row in value["rows"] if row["method"] == method]
+
+
+def begins_with(value, keys):
+    return list(value)[: len(keys)] == keys
+
+
+@everything
+def test_json_has_the_keys(hooke, write):
+    scene = write(SIX_PARTICLES)
+    answer = hooke("study", scene, "--duration", 1, "--json", "--want", "1mm")
+    assert (answer.code, answer.err) == (0, "")
+    value = answer.json
+    assert begins_with(value, TOP)
+    assert (value["scene"], value["duration"]) == (scene, 1)
+    assert begins_with(value["reference"], ["methods", "agreement", "trusted_until"])
+    first, second = value["reference"]["methods"]
+    assert first.startswith("cvode-") and second in ("rk8pd", "arkode-esdirk")
+    assert 0 < value["reference"]["agreement"] < 1e-7
+    assert value["reference"]["trusted_until"] == 1
+    assert 0.1 < value["reference"]["growth"] < 100
+    assert begins_with(value["recommendation"], RECOMMENDATION)
+
+    methods = list(dict.fromkeys(row["method"] for row in value["rows"]))
+    assert {"forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"} <= set(methods)
+    for method in methods:
+        rows = rows_of(value, method)
+        assert len(rows) >= 6, method
+        assert all(list(row) == ROW for row in rows)
+        adaptive = rows[0]["step"] is None
+        ladder = [row["rtol" if adaptive else "step"] for row in rows]
+        assert ladder == sorted(ladder, reverse=True) and all(row["step" if adaptive else "rtol"] is None for row in rows)
+        finished = [row for row in rows if row["status"] == "finished"]
+        assert finished[0]["error"] > 10 * finished[-1]["error"] > 0, "finer is not more accurate"
+        assert finished[0]["steps"] < finished[-1]["steps"]
+        for row in finished:
+            assert 0 <= row["error_final"] <= row["error"] < row["error_max"]
+            assert 0 < row["wall_seconds"] < 10
+        assert (method in value["orders"]) == (not adaptive)
+    for method, order in value["orders"].items():
+        assert begins_with(order, ["order", "low", "high"])
+        assert order["low"] <= order["order"] <= order["high"]
+        assert order["theory"] - 0.15 < order["order"] < order["theory"] + 0.25, method
+
+
+SCENES = [("six_particles", 1), ("oscillator", 1), ("elastic_pendulum", 1), ("rope_12", 0.25), ("chain_16", 1)]
+
+
+@everything
+@pytest.mark.parametrize("name, duration", SCENES)
+def test_errors_are_those_against_the_solution(hooke, write, tmp_path, name, duration):
+    """The error at the end of every row, where it stands clear of the agreement, is that of the same run against the
+    solution to 15 digits: so the reference is as good as it says."""
+    known = Reference(name)
+    scene = write(known.scene, duration=duration, every=duration / 20)
+    value = hooke("study", scene, "--json", "-o", "rows.csv").json
+    floor = value["reference"]["agreement"]
+    assert floor < 1e-8 and value["reference"]["trusted_until"] == duration
+    with open(tmp_path / "rows.csv") as file:
+        table = list(csv.DictReader(file))
+    checked = 0
+    for row in table:
+        if row["status"] != "finished":
+            continue
+        setting = ["--step", row["step"]] if row["step"] else ["--rtol", row["rtol"], "--atol", row["atol"]]
+        run = hooke("run", scene, "--method", row["method"], *setting, "--json", "--final").json
+        true = known.distance(duration, run["final"]["position"])
+        if true > 10 * floor:
+            assert float(row["error_final"]) == pytest.approx(true, rel=0.05), row
+            checked += 1
+    assert checked > 0.7 * len(table)
+
+
+@everything
+def test_csv_reads_back_to_the_same_bits(hooke, write, tmp_path):
+    (tmp_path / "rows.csv").write_text("of old")
+    answer = hooke("study", write(SIX_PARTICLES), "--json", "-o", "rows.csv", *FEW)
+    assert answer.code == 0
+    with open(tmp_path / "rows.csv") as file:
+        table = list(csv.DictReader(file))
+    rows = answer.json["rows"]
+    assert len(table) == len(rows) >= 18
+    for line, row in zip(table, rows):
+        for key, value in row.items():
+            if value is None:
+                assert line[key] == ""
+            elif isinstance(value, str):
+                assert line[key] == value
+            else:
+                assert float(line[key]) == value, key
+        assert float(line["wall_median"]) >= float(line["wall_seconds"]) and int(line["repeats"]) >= 1
+        near = row["error"] is not None and row["error"] <= 10 * answer.json["reference"]["agreement"]
+        assert line["near_floor"] == str(int(near))
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith("rows")] == ["rows.csv"]
+
+
+@everything
+def test_hdf5_holds_the_rows_and_the_recommendation(hooke, write, tmp_path):
+    (tmp_path / "study.h5").write_text("of old")
+    scene = write(SIX_PARTICLES)
+    answer = hooke("study", scene, "--json", "-o", "study.h5", "--want", "1mm", *FEW)
+    assert answer.code == 0, answer.err
+    value = answer.json
+    with h5py.File(tmp_path / "study.h5") as file:
+        study = file["study"]
+        assert study["method"].asstr()[:].tolist() == [row["method"] for row in value["rows"]]
+        for name in ("step", "rtol", "error", "energy_drift", "force_evaluations", "wall_seconds"):
+            found = [None if math.isnan(number) else number for number in study[name][:]]
+            assert found == [row[name] for row in value["rows"]], name
+        assert study["series/error"].shape == (len(value["rows"]), len(study["series/time"]))
+        assert list(study["reference"].attrs["methods"]) == value["reference"]["methods"]
+        assert study["reference"].attrs["agreement"] == value["reference"]["agreement"]
+        assert study["recommendation"].attrs["method"] == value["recommendation"]["method"]
+        assert study["recommendation"].attrs["error"] == value["recommendation"]["error"] <= 1e-3
+        assert file["hooke/scene"].asstr()[()] == (tmp_path / scene).read_text()
+        assert file["hooke/status"].asstr()[()] == "finished"
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith("study")] == ["study.h5"]
+
+
+@everything
+def test_recommended_command_gives_the_error_that_was_promised(hooke, write, tmp_path):
+    known = Reference("six_particles")
+    scene = write(known.scene, name="a scene.json", duration=2, every=0.05, atol_velocity=1e-5)
+    for methods in ["verlet", "cvode-adams"]:
+        value = hooke("study", scene, "--json", "--duration", "1000ms", "--want", "0.2 mm", "--methods", methods).json
+        found = value["recommendation"]
+        assert found["met"] is True and found["note"] == "" and found["want"] == 2e-4
+        assert found["method"] == methods and 0 < found["error"] <= 2e-4
+        words = shlex.split(found["command"])
+        assert words[:3] == ["hooke", "run", scene] and "--duration" in words
+        assert all(option not in words for option in ["--want", "--methods", "--json"])
+        run = hooke(*words[1:], "--json", "--final").json
+        assert run["time"] == 1 and run["method"] == methods
+        assert run.get("step") == found["step"] and run.get("rtol") == found["rtol"]
+        assert 0.01 * found["error"] < known.distance(1, run["final"]["position"]) < 1.05 * found["error"]
+        assert run["force_evaluations"] == found["force_evaluations"]
+
+
+@everything
+def test_what_cannot_be_had_is_said(hooke, write):
+    scene = write(SIX_PARTICLES)
+    words = ["study", scene, "--methods", "forward-euler", "--want", "1um"]
+    found = hooke(*words, "--json").json["recommendation"]
+    assert found["met"] is False and found["command"] is None and found["note"]
+    assert found["error"] > 1e-6
+    answer = hooke(*words)
+    assert answer.code == 0
+    assert "none for an error of at most 1e-06 m" in answer.out and "closest" in answer.out
+    assert hooke("study", scene, *FEW, "--json").json["recommendation"] is None
+
+
+@everything
+def test_ladders_of_ones_own(hooke, write):
+    scene = write(SIX_PARTICLES)
+    value = hooke("study", scene, *FEW, "--steps", "5ms, 1ms,0.5 ms", "--tolerances", "1e-4,1e-7", "--json").json
+    assert [row["step"] for row in rows_of(value, "rk4")] == [5e-3, 1e-3, 5e-4]
+    assert [row["rtol"] for row in rows_of(value, "cvode-adams")] == [1e-4, 1e-7]
+    value = hooke("study", scene, *FEW, "--points", 8, "--json").json
+    assert len(rows_of(value, "cvode-adams")) == 8
+
+
+@everything
+def test_table_marks_what_cannot_be_told_apart_and_what_diverged(hooke, write):
+    scene = write(STIFF_PAIR, duration=10, every=0.25)
+    words = ["study", scene, "--methods", "rk4", "--steps", "250ms,10ms,0.05ms"]
+    answer, value = hooke(*words), hooke(*words, "--json").json
+    assert (answer.code, answer.err) == (0, "")
+    assert [row["status"] for row in value["rows"]] == ["diverged", "finished", "finished"]
+    assert value["rows"][0]["error"] is None
+    assert value["rows"][2]["error"] < 10 * value["reference"]["agreement"] < value["rows"][1]["error"]
+    lines = [line for line in answer.out.splitlines() if line.startswith("rk4") and "theory" not in line][:3]
+    assert lines[0].endswith("diverged") and "*" not in lines[0]
+    assert "*" not in lines[1] and "*" in lines[2]
+    for word in ["reference", "agreement", "trusted until", "growth", "[m]", "[J]", "wall time", "order", "--want"]:
+        assert word in answer.out, word
+    assert max(map(len, answer.out.splitlines())) <= 140
+
+
+# Four masses on undamped springs, thrown: a small displacement grows more than ten thousandfold in 15 s.
+CHAIN = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "particles": {
+        "position": [[0, 0, 0], [0.3, 0, 0], [0.6, 0.1, 0], [0.9, 0.1, 0.1], [1.2, 0.3, 0]],
+        "mass": 1,
+        "pinned": [0],
+    },
+    "springs": [{"between": [[0, 1], [1, 2], [2, 3], [3, 4]], "stiffness": 300}],
+    "run": {"duration": 15, "every": 0.1},
+}
+
+
+@everything
+def test_chaos_is_called_so(hooke, write):
+    words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8"]
+    value = hooke(*words, "--json").json
+    assert 1 < value["reference"]["trusted_until"] < 12
+    assert value["reference"]["growth"] > 1e4
+    out = hooke(*words).out
+    assert "chaotic" in out and "trusted until" in out
+    calm = hooke("study", write(SIX_PARTICLES), *FEW).out
+    assert "chaotic" not in calm and "WARNING" not in calm
+
+
+@everything
+def test_budget_that_is_spent_is_said(hooke, write):
+    scene = write(SIX_PARTICLES)
+    words = ["study", scene, "--steps", "1ms,1us", "--methods", "verlet", "--duration", "1s", "--budget", "100ms"]
+    value = hooke(*words, "--json").json
+    assert value["budget_spent"] is True
+    assert [row["step"] for row in value["rows"]] == [1e-3]
+    assert "the budget is spent" in hooke(*words).out
+
+
+@everything
+@pytest.mark.parametrize(
+    "words, code, wanted",
+    [
+        (["--want", "1parsec"], 2, "allowed: m, km, cm, mm, um, nm"),
+        (["--want", "1s"], 2, "no unit 's'"),
+        (["--want", "0mm"], 2, "> 0"),
+        (["--want", "mm"], 2, "a number > 0 [m]"),
+        (["--budget", "5m"], 2, "allowed: s, ms, us, ns, min, h"),
+        (["--points", "5"], 2, ">= 6"),
+        (["--methods", "rk5"], 2, "did you mean rk4?"),
+        (["--methods", "rk4,rk4"], 2, "named twice"),
+        (["--methods", "rk8pd"], 2, "no method 'rk8pd'"),
+        (["--tolerances", "1e-3;1e-4"], 2, "--tolerances"),
+        (["--steps", "1ms,2ms"], 3, "steps[1]"),
+        (["--rtol", "1e-3"], 2, "no option --rtol"),
+        (["-o", "study.hdf5"], 2, ".h5"),
+        (["-o", "rows.CSV"], 2, ".csv"),
+        (["-o", "no/such/folder/rows.csv"], 5, "no/such/folder"),
+    ],
+)
+def test_wrong_usage(hooke, write, words, code, wanted):
+    answer = hooke("study", write(SIX_PARTICLES), *words)
+    assert answer.code == code
+    assert wanted in answer.err and answer.out == ""
+
+
+@everything
+def test_a_scene_needs_a_duration_but_no_step(hooke, write):
+    answer = hooke("study", write(SIX_PARTICLES, duration=None))
+    assert answer.code == 2 and "no duration" in answer.err
+    assert hooke("study", write(SIX_PARTICLES, step=None), *FEW).code == 0
+
+
+def interrupt(process, after):
+    time.sleep(after)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130 and b"interrupted" in err
+    return json.loads(out)
+
+
+@everything
+def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
+    """The first of the two steps takes no time, the second hours."""
+    words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
+    value = interrupt(start("study", write(SIX_PARTICLES), *words), 2)
+    assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
+    assert value["rows"][0]["error"] > 0 and value["rows"][1]["error"] is None
+    assert value["recommendation"] is None
+    assert len((tmp_path / "rows.csv").read_text().splitlines()) == 3
+
+
+@everything
+def test_ctrl_c_before_the_first_row(start, write, tmp_path):
+    (tmp_path / "rows.csv").write_text("of old")
+    value = interrupt(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 1)
+    assert value["rows"] == [] and value["reference"]["agreement"] is None
+    assert (tmp_path / "rows.csv").read_text() == "of old"
+
+
+def test_help_has_both_tables_and_the_units(hooke):
+    answer = hooke("study", "--help")
+    assert (answer.code, answer.err) == (0, "")
+    for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
+        assert f" --{flag} " in answer.out, flag
+    for flag in ["step", "rtol", "atol", "method"]:
+        assert f" --{flag} " not in answer.out, flag
+    assert "s, ms, us, ns, min, h; m, km, cm, mm, um, nm" in answer.out
+    assert max(map(len, answer.out.splitlines())) <= 110
+
+
+@pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")
+def test_a_minimal_build_says_so(hooke, write):
+    answer = hooke("study", write(SIX_PARTICLES))
+    assert answer.code == 6 and answer.out == ""
+    assert hooke("study", write(SIX_PARTICLES), "--json").json["error"]["exit"] == 6
+    assert hooke("study", "--help").code == 0
+
+
+# ---- units, which every verb takes ----
+
+
+@everything
+@pytest.mark.parametrize(
+    "text, value",
+    [
+        ("3e-3", 3e-3),
+        ("3ms", 3e-3),
+        ("3 ms", 3e-3),
+        ("3000us", 3e-3),
+        ("3e6ns", 3e-3),
+        (".7ms", 0.7e-3),
+        ("7.e-1 ms", 0.7e-3),
+        ("0.1s", 0.1),
+        ("0.001min", 0.001 * 60),
+        ("1e-5h", 1e-5 * 3600),
+    ],
+)
+def test_times_are_read_to_the_bit(hooke, write, text, value):
+    scene = write(SIX_PARTICLES, every=None, step=None, duration=None)
+    answer = hooke("run", scene, "--method", "cvode-adams", "--duration", text, "--json")
+    assert answer.code == 0 and answer.json["time"] == value
+
+
+@everything
+@pytest.mark.parametrize("text", ["3 m s", "3ms2", "3m", "1 2ms", "ms", "3msms", "3,4ms", "1e400ms", "1e-400ms", "-3ms"])
+def test_what_is_no_time_is_refused(hooke, write, text):
+    answer = hooke("run", write(SIX_PARTICLES), f"--duration={text}")
+    assert answer.code == 2 and "--duration" in answer.err, answer.err
+
+
+@everything
+def test_every_length_has_its_unit(hooke, write):
+    for text, value in [("2um", 2e-6), ("3nm", 3e-9), ("0.5 cm", 0.5e-2), ("1e-7km", 1e-4), ("7e-3", 7e-3)]:
+        answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf", "--atol", text, "--json")
+        assert answer.json["atol"] == value, text
+    assert math.isclose(3 * 1e-9, 3e-9) and 3 * 1e-9 != 3e-9  # what a plain product would give

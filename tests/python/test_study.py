@@ -1,0 +1,305 @@
+"""Studies: columns, the reference, orders, the recommendation, files and pictures."""
+
+import csv
+
+import h5py
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+METHODS = ["symplectic-euler", "rk4", "cvode-adams"]
+RUN = {"duration": 1.0, "every": 0.05}
+COLUMNS = (
+    "method status step rtol atol error error_max error_final energy_drift force_evaluations steps "
+    "linear_iterations wall_seconds wall_median repeats near_floor timed_alone"
+).split()
+
+
+@pytest.fixture(scope="module")
+def study():
+    return hooke.study(build_oscillator(), METHODS, want=1e-4, **RUN)
+
+
+def test_columns(study):
+    assert study.outcome == "finished" and not study.budget_spent and study.duration == 1.0
+    assert study.methods == METHODS and list(study.rows.dtype.names) == COLUMNS
+    for name in COLUMNS:
+        column = getattr(study, name)
+        assert column.shape == (len(study.rows),) and not column.flags.writeable
+        np.testing.assert_array_equal(column, study.rows[name])
+    adaptive = study.method == "cvode-adams"
+    assert np.isnan(study.step[adaptive]).all() and np.isnan(study.rtol[~adaptive]).all()
+    assert (study.step[~adaptive] > 0).all() and (study.rtol[adaptive] > 0).all()
+    for method in METHODS:
+        value = study.rtol if method == "cvode-adams" else study.step
+        assert (study.method == method).sum() >= 6
+        assert (np.diff(value[study.method == method]) < 0).all(), "the coarsest first"
+    done = study.status == "finished"
+    assert done.sum() >= 18 and (study.wall_seconds[done] > 0).all()
+    assert (study.wall_median >= study.wall_seconds)[done].all() and (study.repeats[done] >= 1).all()
+    assert all(name in str(study) for name in METHODS) and "rows" in repr(study)
+
+
+def test_errors_are_true(study):
+    """The end of the oscillator is known exactly, and there is one free particle."""
+    exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
+    for row in study.rows[study.method == "symplectic-euler"]:
+        if row["status"] != "finished":
+            continue
+        options = {"method": "symplectic-euler", "step": float(row["step"]), **RUN}
+        x = hooke.run(build_oscillator(), **options).state.q[1, 0]
+        assert row["error_final"] == pytest.approx(abs(x - exact), rel=1e-3)
+    floor = 10 * study.reference.agreement
+    np.testing.assert_array_equal(study.near_floor, study.error <= floor)
+
+
+def test_the_reference(study):
+    first, second = study.reference.methods
+    assert first.startswith("cvode") and second in ("rk8pd", "arkode-esdirk")
+    assert 0 < study.reference.agreement < 1e-6 and study.reference.trusted_until == 1.0
+    assert 0.5 < study.reference.growth < 2, "an oscillator keeps displacements as they are"
+
+
+def test_orders(study):
+    assert list(study.orders) == ["symplectic-euler", "rk4"]
+    for method, theory in (("symplectic-euler", 1), ("rk4", 4)):
+        order = study.orders[method]
+        assert order.theory == theory and theory - 0.15 < order.order < theory + 0.25
+        assert order.low <= order.order <= order.high and order.note == ""
+
+
+def test_series(study):
+    for row in (0, 3, -1):
+        time, error, energy_drift = study.series(row)
+        np.testing.assert_allclose(time, np.arange(21) * 0.05, rtol=1e-14)
+        if study.status[row] == "finished":
+            assert error.max() == study.error[row] and error[-1] == study.error_final[row]
+            assert abs(energy_drift).max() == study.energy_drift[row]
+    with pytest.raises(IndexError):
+        study.series(len(study.rows))
+
+
+def test_the_recommendation_holds(study):
+    found = study.recommendation
+    assert found.met and found.want == 1e-4 and found.note == "" and found.method in METHODS
+    again = hooke.study(
+        build_oscillator(),
+        [found.method],
+        steps=None if np.isnan(found.step) else [found.step],
+        tolerances=None if np.isnan(found.rtol) else [found.rtol],
+        **RUN,
+    )
+    assert again.error[0] == pytest.approx(found.error, rel=1e-6) and 0 < found.error <= 1e-4
+    assert again.force_evaluations[0] == found.force_evaluations
+    result = hooke.run(build_oscillator(), **found.options, **RUN)
+    assert result.status == "finished" and result.options["method"] == found.method
+
+
+def test_another_want(study):
+    finer = study.recommend(want=1e-7)
+    assert finer.met and finer.error <= 1e-7 and finer.force_evaluations > 50
+    assert study.recommendation.error == finer.error and study.recommendation.want == 1e-7
+    none = study.recommend(1e-16)
+    assert not none.met and "reference" in none.note and none.error > 1e-16
+    for bad in (0, -1, float("nan")):
+        with pytest.raises(hooke.BadValue, match="want"):
+            study.recommend(bad)
+
+
+def test_without_a_want_nothing_is_recommended():
+    study = hooke.study(build_oscillator(), "rk4", **RUN)
+    assert study.recommendation is None and study.methods == ["rk4"]
+
+
+def test_ladders_of_ones_own():
+    study = hooke.study(build_oscillator(), METHODS, steps=[0.4, 0.01], tolerances=[1e-4, 1e-6], duration=4, every=0.4)
+    assert study.step[study.method == "rk4"].tolist() == [0.4, 0.01]
+    assert study.rtol[study.method == "cvode-adams"].tolist() == [1e-4, 1e-6]
+    coarse = study.rows[(study.method == "symplectic-euler") & (study.step == 0.4)][0]
+    assert coarse["status"] == "diverged" and np.isnan(coarse["error"]), "0.4 s is above 2/omega"
+    points = hooke.study(build_oscillator(), ["cvode-adams"], points=7, **RUN)
+    assert len(points.rows) == 7
+
+
+def test_a_scene_or_its_path_brings_its_own_options(tmp_path, scene):
+    study = hooke.study(scene, ["rk4"])
+    assert study.duration == SIX_PARTICLES["run"]["duration"]
+    assert len(study.series(0).time) == 11
+
+
+def test_a_budget_leaves_rows_out():
+    study = hooke.study(build_oscillator(), METHODS, budget=1e-9, **RUN)
+    assert study.budget_spent and study.outcome == "finished" and len(study.rows) < 18
+
+
+def test_progress_and_stopping():
+    seen = []
+    hooke.study(build_oscillator(), METHODS, progress=lambda done, what: seen.append((done, what)), **RUN)
+    assert all(0 <= done <= 1 for done, _ in seen)
+    assert {"reference", *METHODS} <= {what for _, what in seen}
+    stopped = hooke.study(build_oscillator(), METHODS, progress=lambda done, what: what == "rk4", **RUN)
+    assert stopped.outcome == "stopped" and stopped.rows[0]["status"] == "finished"
+    nothing = hooke.study(build_oscillator(), METHODS, progress=lambda done, what: 1, **RUN)
+    assert nothing.outcome == "stopped" and len(nothing.rows) == 0 and nothing.orders == {}
+
+
+def test_exceptions_of_progress_come_out():
+    class Mine(Exception):
+        pass
+
+    def fail(done, what):
+        raise Mine
+
+    with pytest.raises(Mine):
+        hooke.study(build_oscillator(), METHODS, progress=fail, **RUN)
+
+    def interrupt(done, what):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        hooke.study(build_oscillator(), METHODS, progress=interrupt, **RUN)
+
+
+def test_a_force_of_ones_own():
+    def push(t, q, v, force):
+        force[1] += [1.0, 0, 0]
+
+    study = hooke.study(build_oscillator(), ["rk4"], force=push, steps=[0.01], duration=0.2, every=0.1)
+    assert study.error[0] < 1e-5 and study.reference.agreement < 1e-8
+    with pytest.raises(hooke.BadValue, match="threads"):
+        hooke.study(build_oscillator(), ["rk4"], force=push, threads=2, **RUN)
+
+    def fail(t, q, v, force):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        hooke.study(build_oscillator(), ["rk4"], force=fail, **RUN)
+
+
+def test_what_a_study_refuses():
+    system = build_oscillator()
+    for options, name in (
+        ({"methods": ["magic"]}, "magic"),
+        ({"points": 2}, "points"),
+        ({"want": -1}, "want"),
+        ({"steps": [1e-3, 1e-2]}, "steps"),
+        ({"stepp": 1}, "stepp"),
+    ):
+        with pytest.raises(hooke.BadValue, match=name):
+            hooke.study(system, **options, **RUN)
+    with pytest.raises(hooke.BadValue, match="duration"):
+        hooke.study(system)
+    with pytest.raises(hooke.BadValue, match="first-order"):
+        hooke.study(hooke.FirstOrder(lambda t, x, rate: None, [1.0]), **RUN)
+
+
+# ---- files ----
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("study") / "study.h5"
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    return path, scene, hooke.study(scene, ["forward-euler", *METHODS], want=1e-3, output=path)
+
+
+def test_the_file_holds_everything(file):
+    path, scene, study = file
+    with h5py.File(path) as h5:
+        group = h5["study"]
+        for name in ("method", "status"):
+            assert group[name].asstr()[:].tolist() == study.rows[name].tolist()
+        for name in COLUMNS[2:]:
+            np.testing.assert_array_equal(group[name][:], study.rows[name])
+        for row in range(len(study.rows)):
+            series = study.series(row)
+            np.testing.assert_array_equal(group["series/time"][:], series.time)
+            np.testing.assert_array_equal(group["series/error"][row], series.error)
+            np.testing.assert_array_equal(group["series/energy_drift"][row], series.energy_drift)
+        reference = group["reference"].attrs
+        assert tuple(reference["methods"]) == study.reference.methods
+        for name in ("agreement", "trusted_until", "growth"):
+            assert reference[name] == getattr(study.reference, name)
+        assert group["orders/method"].asstr()[:].tolist() == study.methods
+        for name in ("order", "low", "high", "theory"):
+            wanted = [getattr(study.orders[m], name) if m in study.orders else np.nan for m in study.methods]
+            np.testing.assert_array_equal(group[f"orders/{name}"][:], wanted)
+        recommendation = group["recommendation"].attrs
+        assert recommendation["method"] == study.recommendation.method
+        for name in ("met", "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"):
+            np.testing.assert_array_equal(recommendation[name], getattr(study.recommendation, name))
+        assert group.attrs["duration"] == study.duration and group.attrs["budget_spent"] == 0
+        assert group["options"].attrs["want"] == 1e-3
+        assert h5["hooke/scene"].asstr()[()] == scene.text
+        assert h5["hooke/status"].asstr()[()] == "finished"
+        assert h5["hooke/options"].attrs["duration"] == 0.5
+
+
+def test_a_file_without_rows_or_recommendation(tmp_path):
+    path = tmp_path / "study.h5"
+    hooke.study(build_six_particles(), METHODS, progress=lambda done, what: 1, output=path, **RUN)
+    with h5py.File(path) as h5:
+        assert h5["study/error"].shape == (0,) and h5["study/series/error"].shape == (0, 0)
+        assert "recommendation" not in h5["study"] and "scene" not in h5["hooke"]
+        assert h5["hooke/status"].asstr()[()] == "stopped"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["study.h5"]
+
+
+def test_a_table(tmp_path, study):
+    study.write(tmp_path / "study.csv")
+    with open(tmp_path / "study.csv", newline="") as text:
+        rows = list(csv.DictReader(text))
+    assert [row["method"] for row in rows] == study.method.tolist()
+    for name in ("step", "rtol", "error", "force_evaluations"):
+        found = [float(row[name] or "nan") for row in rows]
+        np.testing.assert_array_equal(found, study.rows[name])
+
+
+def test_a_file_that_cannot_be_written(tmp_path, study):
+    (tmp_path / "old.h5").write_text("old")
+    with pytest.raises(hooke.IOFailed, match="missing"):
+        study.write(tmp_path / "missing" / "study.h5")
+    with pytest.raises(hooke.IOFailed):
+        study.write(tmp_path)
+    study.write(tmp_path / "old.h5")
+    assert h5py.is_hdf5(tmp_path / "old.h5")
+
+
+# ---- pictures ----
+
+
+def test_pictures(file):
+    import matplotlib.pyplot as plt
+
+    path, _, study = file
+    drawn = study.plot(want=1e-3)
+    assert drawn[0].get_xscale() == drawn[0].get_yscale() == drawn[1].get_xscale() == "log"
+    lines = {line.get_label(): line for line in drawn[0].lines}
+    for method in study.methods:
+        rows = study.rows[(study.method == method) & (study.error > 0)]
+        np.testing.assert_array_equal(lines[method].get_xdata(), rows["wall_seconds"])
+        np.testing.assert_array_equal(lines[method].get_ydata(), rows["error"])
+        assert lines[method].get_marker() not in ("", "None", None)
+    slopes = [line.get_label() for line in drawn[1].lines]
+    assert any(label.startswith("rk4, order ") for label in slopes)
+    assert not any(label.startswith("cvode-adams") for label in slopes), "it has no step"
+    from_file = hooke.plot.study(path, cost="force_evaluations")
+    for one, other in zip(study.plot(cost="force_evaluations"), from_file):
+        assert len(one.lines) == len(other.lines) > 3
+        for a, b in zip(one.lines, other.lines):
+            np.testing.assert_array_equal(a.get_xydata(), b.get_xydata())
+            assert a.get_label() == b.get_label() or a.get_label().startswith("_")
+    from_file[0].figure.canvas.draw()
+    plt.close("all")
+
+
+def test_runs_that_diverged_are_at_the_edge():
+    import matplotlib.pyplot as plt
+
+    study = hooke.study(build_oscillator(), ["symplectic-euler"], steps=[0.4, 0.01], duration=4, every=0.4)
+    costs, steps = study.plot()
+    crosses = [line for line in steps.lines if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in crosses] == [[0.4]]
+    plt.close("all")
