@@ -31,8 +31,8 @@ static int32_t follow(int64_t step, const hooke_state *state, void *ctx) {
     check_failed("%s has no canonical step: add one to tests/support/canonical.c", companion->method);
   }
   if (result == CANONICAL_SOLVED) {
-    const double defect = canonical_defect(&scene->canonical, companion->method, before, end, companion->h,
-                                           companion->q, companion->v, q, v);
+    const double defect =
+        canonical_defect(&scene->canonical, before, end, companion->h, companion->q, companion->v, q, v);
     if (!(defect <= 1.0)) {
       check_failed("%s, step %lld: the equations are off by %.3g times what is allowed", companion->method,
                    (long long)step, defect);
