@@ -114,7 +114,8 @@ def test_without_a_want_nothing_is_recommended():
 
 
 def test_ladders_of_ones_own():
-    study = hooke.study(build_oscillator(), METHODS, steps=[0.4, 0.01], tolerances=[1e-4, 1e-6], duration=4, every=0.4)
+    run = {"duration": 4, "every": 0.4}
+    study = hooke.study(build_oscillator(), METHODS, steps=[0.4, 0.01], tolerances=[1e-4, 1e-6], **run)
     assert study.step[study.method == "rk4"].tolist() == [0.4, 0.01]
     assert study.rtol[study.method == "cvode-adams"].tolist() == [1e-4, 1e-6]
     coarse = study.rows[(study.method == "symplectic-euler") & (study.step == 0.4)][0]
