@@ -21,8 +21,16 @@ import hooke.plot
 
 SIZE = 16  # particles along an edge
 SCENE = Path(__file__).resolve().parent / "scenes" / "cloth-16.json"
-COLOURS = {"forward-euler": "tab:red", "symplectic-euler": "tab:orange", "cvode-bdf": "tab:blue", "cvode-adams": "tab:green"}
-MARKERS = {"forward-euler": "o", "symplectic-euler": "s", "cvode-bdf": "^", "cvode-adams": "D"}
+COLOURS = {
+    "forward-euler": "tab:red",
+    "symplectic-euler": "tab:orange",
+    "verlet": "tab:purple",
+    "rk4": "tab:brown",
+    "backward-euler": "tab:pink",
+    "cvode-bdf": "tab:blue",
+    "cvode-adams": "tab:green",
+}
+MARKERS = dict(zip(COLOURS, "osvPX^D"))
 DRAWN = "forward-euler"  # beside the reference
 
 
@@ -52,7 +60,7 @@ def draw(path, picture):
     hooke.plot.error(path, plane)
     for line in plane.get_lines():
         method = line.get_label()
-        line.set(color=COLOURS.get(method), marker=MARKERS.get(method, "x"), markersize=5)
+        line.set(color=COLOURS.get(method, "0.5"), marker=MARKERS.get(method, "x"), markersize=5)
         line.set_markevery(max(1, len(line.get_xdata()) // 12))
     plane.set_title(f"Root mean square distance to the reference ({reference})")
     plane.grid(alpha=0.3)

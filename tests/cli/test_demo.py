@@ -1,0 +1,30 @@
+"""The demo that `make demo` runs."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from conftest import CLI, METHODS
+
+ROOT = Path(__file__).resolve().parents[2]
+LIBRARY = Path(CLI).resolve().parent / "libhooke.so"
+
+pytestmark = [
+    pytest.mark.everything,
+    pytest.mark.skipif(os.environ.get("HOOKE_PRESET") != "release", reason="the Python package runs with release"),
+]
+
+
+def test_demo_prints_the_table_and_draws_the_picture(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "bindings/python/src"), "HOOKE_LIBRARY": str(LIBRARY)}
+    command = [sys.executable, ROOT / "examples/demo.py", CLI, tmp_path]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    for method in METHODS:
+        assert f"\n{method} " in done.stdout
+    assert (tmp_path / "cloth-16.h5").stat().st_size > 1e6
+    picture = (tmp_path / "cloth-16.png").read_bytes()
+    assert picture.startswith(b"\x89PNG") and len(picture) > 50_000
