@@ -3,7 +3,7 @@
  * An integrator is a method with its options and its scratch, made for one system (or one first-order
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
- * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], rtol, atol [m],
+ * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], newton, rtol, atol [m],
  * atol_velocity [m/s], max_order, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
@@ -52,7 +52,7 @@ HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hook
                                           hooke_integrator **integrator);
 
 /* An integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs positions and
- * velocities, such as symplectic-euler. */
+ * velocities or their derivatives, such as symplectic-euler or backward-euler. */
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);

@@ -62,8 +62,13 @@ enum { L = HOOKE_GENERAL_SWEEP };
 struct general {
   const struct hooke_operator *a;
   double *r[L + 1], *u[L + 1], *shadow;
-  double rho, alpha, omega, length, target;
+  double rho, alpha, omega;
+  double length, shadow_length; /* of b and of the shadow */
 };
+
+/* The recurrences start anew from the true residual each time that it has come down by this factor, which keeps their
+ * residual true and their cosines above rounding; those below the second number are not. */
+static const double SWEEP = 1e-6, BROKEN = 1e-9;
 
 /* Residual from x itself, and a new start of the recurrences. */
 static int32_t restart(struct general *g, const double *b, const double *x) {
@@ -73,6 +78,7 @@ static int32_t restart(struct general *g, const double *b, const double *x) {
   for (int64_t k = 0; k < size; k++)
     g->r[0][k] = b[k] - g->u[0][k];
   copy(size, g->r[0], g->shadow);
+  g->shadow_length = norm(size, g->shadow);
   memset(g->u[0], 0, (size_t)size * sizeof(double));
   g->rho = g->omega = 1.0;
   g->alpha = 0.0;
@@ -88,8 +94,10 @@ static int32_t biconjugate_step(struct general *g, int j, double *x, int *broken
     hooke_scale_and_add(size, -beta, g->r[i], g->u[i]);
   int32_t status = g->a->apply(g->a->ctx, g->u[j], g->u[j + 1]);
   if (status != HOOKE_OK) return status;
-  g->alpha = rho / hooke_dot(size, g->u[j + 1], g->shadow);
-  *broken = !(fabs(g->alpha) < INFINITY) || !(fabs(beta) < INFINITY) || rho == 0.0;
+  const double curvature = hooke_dot(size, g->u[j + 1], g->shadow);
+  g->alpha = rho / curvature;
+  *broken = !(fabs(g->alpha) < INFINITY) || rho == 0.0 ||
+            !(fabs(curvature) > BROKEN * g->shadow_length * norm(size, g->u[j + 1]));
   if (*broken) return HOOKE_OK;
   hooke_add_multiple(size, g->alpha, g->u[0], x);
   for (int i = 0; i <= j; i++)
@@ -132,28 +140,26 @@ static void smooth(struct general *g, double *x, int *broken) {
   g->omega = gamma[L];
 }
 
-/* 1 if the residual is small enough. */
-static int is_done(struct general *g, struct hooke_solution *solution) {
-  const double size = norm(g->a->size, g->r[0]);
-  solution->residual = size / g->length;
-  solution->converged = size <= g->target;
-  return solution->converged;
+/* The residual over b. */
+static double residual_of(const struct general *g) {
+  return norm(g->a->size, g->r[0]) / g->length;
 }
 
-/* Iterations until done, the limit, or numbers that fail. */
-static int32_t sweep(struct general *g, int64_t limit, double *x, struct hooke_solution *solution) {
+/* Iterations until the residual is down at `goal`, the limit, or numbers that fail. */
+static int32_t sweep(struct general *g, double goal, int64_t limit, double *x,
+                     struct hooke_solution *solution) {
   int broken = 0;
   while (!broken && solution->iterations < limit) {
     g->rho = -g->omega * g->rho;
     for (int j = 0; j < L; j++) {
       int32_t status = biconjugate_step(g, j, x, &broken);
       solution->iterations++;
-      if (status != HOOKE_OK || broken || is_done(g, solution)) return status;
+      if (status != HOOKE_OK || broken || residual_of(g) <= goal) return status;
       status = g->a->apply(g->a->ctx, g->r[j], g->r[j + 1]);
       if (status != HOOKE_OK) return status;
     }
     smooth(g, x, &broken);
-    if (!broken && is_done(g, solution)) return HOOKE_OK;
+    if (residual_of(g) <= goal) return HOOKE_OK;
   }
   return HOOKE_OK;
 }
@@ -167,11 +173,16 @@ int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, dou
     g.u[k] = scratch + (L + 1 + k) * size;
   }
   if (!begin(size, b, x, &g.length, solution)) return HOOKE_OK;
-  g.target = tolerance * g.length;
-  while (!solution->converged && solution->iterations < limit) {
+  for (double best = INFINITY;;) {
     int32_t status = restart(&g, b, x);
-    if (status == HOOKE_OK && !is_done(&g, solution)) status = sweep(&g, limit, x, solution);
-    if (status != HOOKE_OK || !(solution->residual < INFINITY)) return status;
+    if (status != HOOKE_OK) return status;
+    solution->residual = residual_of(&g);
+    solution->converged = solution->residual <= tolerance;
+    if (solution->converged || solution->iterations >= limit) return HOOKE_OK;
+    /* no better than when it last began: rounding allows no more */
+    if (!(solution->residual < 0.5 * best)) return HOOKE_OK;
+    best = solution->residual;
+    status = sweep(&g, fmax(0.5 * tolerance, SWEEP * best), limit, x, solution);
+    if (status != HOOKE_OK) return status;
   }
-  return HOOKE_OK;
 }

@@ -22,15 +22,17 @@ enum {
 struct hooke_solution {
   int32_t converged;
   int64_t iterations;
-  double residual; /* relative to b */
+  double residual; /* relative to b; of the general one the true one, b - A x */
 };
 
 /* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that did not
- * converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come out in x. */
+ * converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come out in x. For an A
+ * that is not positive they end at the first direction that shows it (Steihaug 1983), with b.x > 0. */
 int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, double tolerance,
                               int64_t limit, double *scratch, double *x, struct hooke_solution *solution);
 
-/* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. */
+/* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. Not converged
+ * also where rounding allows no smaller residual; `residual` tells. */
 int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
                             double *scratch, double *x, struct hooke_solution *solution);
 

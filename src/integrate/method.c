@@ -4,7 +4,7 @@
 #include <string.h>
 
 static const struct hooke_method *const table[] = {
-    &hooke_forward_euler, &hooke_symplectic_euler, &hooke_verlet, &hooke_rk4,
+    &hooke_forward_euler, &hooke_symplectic_euler, &hooke_verlet, &hooke_rk4,           &hooke_backward_euler,
     &hooke_cvode_bdf,     &hooke_cvode_adams,      &hooke_rk8pd,  &hooke_arkode_esdirk,
 };
 

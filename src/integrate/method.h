@@ -25,7 +25,7 @@ struct hooke_method {
 };
 
 extern const struct hooke_method hooke_forward_euler, hooke_symplectic_euler, hooke_verlet, hooke_rk4,
-    hooke_cvode_bdf, hooke_cvode_adams, hooke_rk8pd, hooke_arkode_esdirk;
+    hooke_backward_euler, hooke_cvode_bdf, hooke_cvode_adams, hooke_rk8pd, hooke_arkode_esdirk;
 
 /* Row of this name, or NULL. */
 const struct hooke_method *hooke_method_find(const char *name);

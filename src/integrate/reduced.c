@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <stdlib.h>
 
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
@@ -98,7 +97,6 @@ static void fill_diagonal(struct hooke_reduced *reduced) {
 void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, double beta) {
   const hooke_system *system = reduced->integrator->system;
   const struct hooke_motion *motion = reduced->integrator->motion;
-  reduced->projected = 0;
   reduced->t = t;
   reduced->alpha = alpha;
   reduced->beta = beta;
@@ -184,8 +182,7 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hooke_tangent_product(run, &reduced->tangent, from, to);
   }
-  const int32_t status =
-      reduced->rows_needed && !reduced->projected ? subtract_others(reduced, x, out) : HOOKE_OK;
+  const int32_t status = reduced->rows_needed ? subtract_others(reduced, x, out) : HOOKE_OK;
   hooke_apply_factor(n, reduced->factor, out);
   return status;
 }
@@ -210,16 +207,9 @@ int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, doub
   return solve(reduced, reduced->symmetric, b, tolerance, x, solution);
 }
 
-void hooke_reduced_solve_positive(struct hooke_reduced *reduced, const double *b, double tolerance,
-                                  double *x) {
-  const struct hooke_springs *springs = &reduced->integrator->system->springs;
+int32_t hooke_reduced_descend(struct hooke_reduced *reduced, const double *b, double tolerance, double *x) {
   struct hooke_solution solution;
-  if (getenv("PROJ")) {
-    for (int64_t k = 0; k < springs->run_count; k++)
-      hooke_tangent_project(&springs->run[k], &reduced->tangent);
-    reduced->projected = 1;
-  }
-  solve(reduced, 1, b, tolerance, x, &solution);
+  return solve(reduced, 1, b, tolerance, x, &solution);
 }
 
 int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution) {

@@ -14,7 +14,6 @@ struct hooke_reduced {
   hooke_integrator *integrator;
   int32_t symmetric;   /* alpha = 0, and springs and drag alone */
   int32_t rows_needed; /* some force is not among the springs and drag */
-  int32_t projected;   /* S stands in the place of the derivatives */
   double t, alpha, beta;
   struct hooke_tangent tangent;
   double *diagonal;                /* n: m + beta c */
@@ -37,10 +36,9 @@ void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, do
 int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
                             struct hooke_solution *solution);
 
-/* The same for S in place of the exact matrix, callbacks left out: b.x > 0 whatever the derivatives are. Has to be the last
- * use of them. */
-void hooke_reduced_solve_positive(struct hooke_reduced *reduced, const double *b, double tolerance,
-                                  double *x);
+/* By conjugate gradients, as far as `tolerance` or to where the matrix proves not to be positive: a direction with
+ * b.x > 0. For corrections far from a solution. */
+int32_t hooke_reduced_descend(struct hooke_reduced *reduced, const double *b, double tolerance, double *x);
 
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
 int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution);

@@ -31,6 +31,12 @@ static const struct hooke_option_row run_rows[] = {
      .above_low = 1,
      .high = 1e300,
      .doc = "time between frames, a whole multiple of step; about duration/100 if not given"},
+    {.name = "newton",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "converged one-iteration",
+     .fallback = "converged",
+     .doc = "how backward-euler solves its step: converged, or one-iteration (linearised at the start of the "
+            "step)"},
     {.name = "rtol",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1e-15,

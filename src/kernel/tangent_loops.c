@@ -160,25 +160,7 @@ void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tange
     multiply(run, tangent, x, out, 0, 0);
 }
 
-/* ---- the part that is symmetric and not negative ---- */
-
-/* Its size along and across spring s. */
-HOOKE_INLINE double along_spring(const struct hooke_tangent *t, ptrdiff_t s) {
-  return ((t->e[0][s] * t->u[0][s] + t->e[1][s] * t->u[1][s]) + t->e[2][s] * t->u[2][s]) + t->b[s];
-}
-
-HOOKE_INLINE double across_spring(const struct hooke_tangent *t, ptrdiff_t s) {
-  return t->b[s] > 0.0 ? t->b[s] : 0.0;
-}
-
-void hooke_tangent_project(const struct hooke_run *run, const struct hooke_tangent *tangent) {
-  for (ptrdiff_t s = run->first; s < run->first + run->count; s++) {
-    const double across = across_spring(tangent, s), rest = along_spring(tangent, s) - across;
-    for (int a = 0; a < 3; a++)
-      tangent->e[a][s] = rest * tangent->u[a][s];
-    tangent->b[s] = across;
-  }
-}
+/* ---- diagonal ---- */
 
 void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *t,
                             double *const block[6]) {
@@ -190,8 +172,8 @@ void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tang
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
     double along = 1.0, across = 0.0;
     if (!axial) {
-      across = across_spring(t, s);
-      along = along_spring(t, s) - across;
+      across = t->b[s] > 0.0 ? t->b[s] : 0.0;
+      along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + t->b[s] - across;
     }
     for (int c = 0; c < 6; c++) {
       const double value = along * u[row[c]] * u[column[c]] + (c < 3 ? across : 0.0);

@@ -22,9 +22,6 @@ void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *
 void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
                            const double *const x[3], double *const out[3]);
 
-/* Leaves of every B its part that is symmetric and not negative, as below. */
-void hooke_tangent_project(const struct hooke_run *run, const struct hooke_tangent *tangent);
-
 /* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal block of
  * either end: xx, yy, zz, xy, xz, yz. */
 void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *tangent,

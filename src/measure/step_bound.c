@@ -37,6 +37,7 @@ static double rk4(const struct hooke_node_blocks *blocks) {
   return fastest > 0.0 ? 2.6156 / fastest : INFINITY;
 }
 
+/* Without a limit where `bound` is NULL. */
 static const struct {
   const char *method;
   double (*bound)(const struct hooke_node_blocks *blocks);
@@ -45,6 +46,7 @@ static const struct {
     {"symplectic-euler", hooke_node_blocks_step},
     {"verlet", verlet},
     {"rk4", rk4},
+    {"backward-euler", NULL},
 };
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
@@ -55,6 +57,8 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
   *bound = adaptive ? INFINITY : NAN;
   for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
     if (strcmp(rules[k].method, method) != 0) continue;
+    *bound = INFINITY;
+    if (rules[k].bound == NULL) break;
     struct hooke_node_blocks blocks;
     status = hooke_node_blocks_create(system, q, &blocks);
     if (status != HOOKE_OK) return status;

@@ -170,6 +170,46 @@ static void test_planted_faults(void **unused) {
   free(b);
 }
 
+/* Steps that are solved for: a velocity off by 1e-7 of its change, a position off by a bit, have to show. */
+static void test_planted_defects(void **unused) {
+  (void)unused;
+  const char *methods[] = {"verlet", "backward-euler"};
+  const double start = 0.003, h = 0.0009765;
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = 21,
+                                                    .particles = 200,
+                                                    .springs = 600,
+                                                    .features = SCENE_DAMPING | SCENE_GRAVITY | SCENE_DRAG},
+                      &scene);
+  const int64_t size = 3 * scene.canonical.particle_count;
+  double *q = new_doubles(size), *v = new_doubles(size);
+  random_scene_shake(&scene, 22, q, v);
+  for (int m = 0; m < 2; m++) {
+    hooke_state *state = start_state(scene.system);
+    double *q1 = hooke_state_position(state), *v1 = hooke_state_velocity(state);
+    memcpy(q1, q, (size_t)size * sizeof(double));
+    memcpy(v1, v, (size_t)size * sizeof(double));
+    hooke_state_set_time(state, start);
+    hooke_integrator *integrator = start_run(scene.system, (struct run){.method = methods[m], .step = h});
+    check_ok(hooke_integrator_step(integrator, state, 1));
+    hooke_integrator_destroy(integrator);
+    const struct canonical *c = &scene.canonical;
+    const double end = start + h;
+    check_between(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1), 0.0, 1.0);
+    const double keep = q1[17], wrong = 1e-7 * largest_difference(size, v, v1);
+    q1[17] = nextafter(keep, INFINITY);
+    assert_true(isinf(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1)));
+    q1[17] = keep;
+    v1[17] += wrong;
+    if (m == 1) q1[17] = q[17] + h * v1[17];
+    assert_true(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1) > 1.0);
+    hooke_state_destroy(state);
+  }
+  random_scene_destroy(&scene);
+  free(q);
+  free(v);
+}
+
 /* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */
 static void test_hash(void **unused) {
   (void)unused;
@@ -185,9 +225,13 @@ static void test_hash(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_hash),         cmocka_unit_test(test_planted_faults),
-      cmocka_unit_test(test_small_scenes), cmocka_unit_test(test_large_scenes),
-      cmocka_unit_test(test_parts),        cmocka_unit_test(test_parts_are_springs),
+      cmocka_unit_test(test_hash),
+      cmocka_unit_test(test_planted_faults),
+      cmocka_unit_test(test_planted_defects),
+      cmocka_unit_test(test_small_scenes),
+      cmocka_unit_test(test_large_scenes),
+      cmocka_unit_test(test_parts),
+      cmocka_unit_test(test_parts_are_springs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

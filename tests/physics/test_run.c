@@ -350,13 +350,20 @@ static void test_counts(void **unused) {
     check_ok(hooke_integrator_run(integrator, state));
     const int64_t steps = hooke_integrator_count(integrator, "steps");
     const int64_t forces = hooke_integrator_count(integrator, "force_evaluations");
-    if (strstr(method, "-euler") != NULL) {
+    if (is_fixed_step(method)) {
       assert_int_equal(steps, 100);
-      assert_int_equal(forces, steps);
+      if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0)
+        assert_int_equal(forces, 100);
+      else if (strcmp(method, "verlet") == 0)
+        assert_int_equal(forces, 101); /* without damping the last force is the next one's first */
+      else if (strcmp(method, "rk4") == 0)
+        assert_int_equal(forces, 400);
+      else
+        assert_in_range(forces, 101, 1000);
     } else {
       assert_true(steps > 10 && forces >= steps && forces < 100 * steps);
     }
-    if (strcmp(method, "cvode-bdf") == 0) {
+    if (strcmp(method, "cvode-bdf") == 0 || strcmp(method, "backward-euler") == 0) {
       assert_true(hooke_integrator_count(integrator, "derivative_products") > 0);
       assert_true(hooke_integrator_count(integrator, "linear_iterations") > 0);
       assert_true(hooke_integrator_count(integrator, "nonlinear_iterations") > 0);

@@ -60,6 +60,19 @@ static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
   hooke_system_destroy(cloth10);
 }
 
+/* From the largest frequencies, computed independently; those of net6 and cloth10 are far from overdamped. */
+static void verlet_and_rk4_are_bounded_from_both_sides(void **unused) {
+  (void)unused;
+  hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
+  check_between(bound_of(net6, "verlet"), 0.5 * 0.136435852341, 0.136435852341);
+  check_between(bound_of(net6, "rk4"), 0.5 * 0.197249285762, 0.197249285762);
+  check_between(bound_of(cloth10, "verlet"), 0.8 * 0.00343489081603, 0.00343489081603);
+  check_between(bound_of(cloth10, "rk4"), 0.7 * 0.00507852346534, 0.00507852346534);
+  assert_true(isinf(bound_of(net6, "backward-euler")));
+  hooke_system_destroy(net6);
+  hooke_system_destroy(cloth10);
+}
+
 static void forward_euler_needs_damping(void **unused) {
   (void)unused;
   hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
@@ -78,15 +91,15 @@ static void one_spring_is_sharp(void **unused) {
   hooke_system *system = small_oscillator(omega);
   check_close(bound_of(system, "symplectic-euler"), 2.0 / omega, 1e-11);
   check_close(bound_of(system, "verlet"), 2.0 / omega, 1e-12);
-  check_between(bound_of(system, "rk4"), 2.6 / omega, 2.8284 / omega);
+  check_close(bound_of(system, "rk4"), 2.6156 / omega, 1e-11);
   check_between(bound_of(system, "forward-euler"), 0.0, 0.0);
   assert_true(isinf(bound_of(system, "cvode-bdf")));
   hooke_system_destroy(system);
 }
 
 /* The largest position reached in 3000 steps. */
-static double reach(const hooke_system *system, double step) {
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
+static double reach(const hooke_system *system, const char *method, double step) {
+  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
   hooke_state *state = start_state(system);
   const int32_t status = hooke_integrator_step(integrator, state, 3000);
   const double most =
@@ -99,11 +112,14 @@ static double reach(const hooke_system *system, double step) {
 static void runs_agree(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(7.0);
-  const double bound = bound_of(system, "symplectic-euler");
+  const char *methods[] = {"symplectic-euler", "verlet"};
   /* just below the limit the energy swings by 1/(1 - (h omega/2)^2), which must stay below what counts as
    * divergence */
-  check_between(reach(system, 0.98 * bound), 0.0, 100.0);
-  assert_true(isinf(reach(system, 1.01 * bound)));
+  for (int m = 0; m < 2; m++) {
+    const double bound = bound_of(system, methods[m]);
+    check_between(reach(system, methods[m], 0.98 * bound), 0.0, 100.0);
+    assert_true(isinf(reach(system, methods[m], 1.01 * bound)));
+  }
   hooke_system_destroy(system);
 }
 
@@ -116,6 +132,9 @@ static void nothing_to_bound(void **unused) {
   /* x'' = -c x' alone: forward Euler holds up to 2 m/c, and so does symplectic Euler */
   check_close(bound_of(falling, "forward-euler"), 8.0, 1e-12);
   check_close(bound_of(falling, "symplectic-euler"), 8.0, 1e-10);
+  /* where the only root is real, Runge-Kutta holds up to 2.785 m/c; implicit drag has no limit */
+  check_close(bound_of(falling, "rk4"), 4.0 * 2.6156, 1e-10);
+  assert_true(isinf(bound_of(falling, "verlet")) && isinf(bound_of(falling, "backward-euler")));
   double bound;
   check_status(hooke_step_bound(falling, "no-such-method", place, &bound), HOOKE_BAD_VALUE);
   check_message("no-such-method");
@@ -128,6 +147,7 @@ static void nothing_to_bound(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(symplectic_euler_is_bounded_from_both_sides),
+      cmocka_unit_test(verlet_and_rk4_are_bounded_from_both_sides),
       cmocka_unit_test(forward_euler_needs_damping),
       cmocka_unit_test(one_spring_is_sharp),
       cmocka_unit_test(runs_agree),

@@ -200,6 +200,7 @@ static int is_damped(const struct canonical *canonical) {
 
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v) {
+  if (strcmp(method, "backward-euler") == 0) return CANONICAL_SOLVED;
   if (strcmp(method, "verlet") == 0 && is_damped(canonical)) return CANONICAL_SOLVED;
   int32_t result = CANONICAL_STEPPED;
   double *a = new_doubles(3 * canonical->particle_count);
@@ -235,22 +236,29 @@ static double rounding(const struct canonical *canonical, double h, const double
   return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
 }
 
-double canonical_defect(const struct canonical *canonical, double t, double end, double h, const double *q0,
-                        const double *v0, const double *q1, const double *v1) {
+double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
+                        const double *q0, const double *v0, const double *q1, const double *v1) {
   const int64_t size = 3 * canonical->particle_count;
+  const int kicks = strcmp(method, "verlet") == 0; /* else backward Euler */
   double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
   memcpy(q, q0, (size_t)size * sizeof(double));
   memcpy(v, v0, (size_t)size * sizeof(double));
   double change = 0.0, defect = 0.0;
-  verlet_drift(canonical, t, h, q, v, a);
+  if (kicks) {
+    verlet_drift(canonical, t, h, q, v, a);
+  } else {
+    for (int64_t k = 0; k < size; k++) {
+      if (is_free(canonical, k)) q[k] += h * v1[k];
+    }
+  }
   double *seen = new_doubles(size);
-  memcpy(seen, v, (size_t)size * sizeof(double));
+  memcpy(seen, kicks ? v : v1, (size_t)size * sizeof(double));
   place(canonical, end, q, seen);
   accelerate(canonical, end, q, v1, seen, a);
   for (int64_t k = 0; k < size; k++) {
     if (memcmp(&q[k], &q1[k], sizeof q[k]) != 0) defect = INFINITY;
     if (!is_free(canonical, k)) continue;
-    const double wrong = v1[k] - (v[k] + h / 2.0 * a[k]);
+    const double wrong = v1[k] - (v[k] + (kicks ? h / 2.0 : h) * a[k]);
     if (!(fabs(wrong) <= defect)) defect = fabs(wrong);
     change = fmax(change, fabs(v1[k] - v0[k]));
   }

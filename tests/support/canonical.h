@@ -39,10 +39,10 @@ enum { CANONICAL_UNKNOWN, CANONICAL_STEPPED, CANONICAL_SOLVED };
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v);
 
-/* How far such a step of verlet from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity, over 1e-9 of
+/* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity, over 1e-9 of
  * the largest change of one and what a few roundings of the numbers in the equations make of it. Infinity unless
  * positions follow from the velocities to the bit. */
-double canonical_defect(const struct canonical *canonical, double t, double end, double h, const double *q0,
-                        const double *v0, const double *q1, const double *v1);
+double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
+                        const double *q0, const double *v0, const double *q1, const double *v1);
 
 #endif

@@ -31,8 +31,8 @@ static int32_t follow(int64_t step, const hooke_state *state, void *ctx) {
     check_failed("%s has no canonical step: add one to tests/support/canonical.c", companion->method);
   }
   if (result == CANONICAL_SOLVED) {
-    const double defect =
-        canonical_defect(&scene->canonical, before, end, companion->h, companion->q, companion->v, q, v);
+    const double defect = canonical_defect(&scene->canonical, companion->method, before, end, companion->h,
+                                           companion->q, companion->v, q, v);
     if (!(defect <= 1.0)) {
       check_failed("%s, step %lld: the equations are off by %.3g times what is allowed", companion->method,
                    (long long)step, defect);
@@ -53,17 +53,33 @@ static hooke_state *state_at(const struct random_scene *scene, double start) {
   return state;
 }
 
+/* Springs that only pull and are damped take up their damping with a jump where they begin to pull: there the equations of
+ * a step may have no solution. */
+static int may_fail(const struct random_scene *scene, const char *method) {
+  const struct canonical *canonical = &scene->canonical;
+  int jumps = 0;
+  for (int64_t k = 0; k < canonical->spring_count; k++)
+    jumps |= canonical->pull_only[k] && canonical->gamma[k] != 0.0;
+  return jumps && strcmp(method, "backward-euler") == 0;
+}
+
+/* Steps that succeed, or end as the first of these runs did. */
+static void advance(hooke_integrator *integrator, hooke_state *state, int64_t steps, int32_t expected) {
+  check_status(hooke_integrator_step(integrator, state, steps), expected);
+  if (expected == HOOKE_SOLVER_FAILED) check_message("no solution");
+}
+
 /* The same in calls of one step each; and, where nothing depends on time, by a new integrator for each step: a step is
  * defined by t, q and v alone. */
-static void check_one_by_one(const struct random_scene *scene, struct run run, double start, int64_t steps,
+static void check_one_by_one(const struct random_scene *scene, struct run run, int32_t status,
                              const struct companion *expected) {
   const int64_t n = scene->canonical.particle_count;
   const int anew = scene->canonical.force == NULL && scene->driven_count == 0;
   for (int renew = 0; renew <= anew; renew++) {
-    hooke_state *state = state_at(scene, start);
+    hooke_state *state = state_at(scene, expected->start);
     hooke_integrator *integrator = start_run(scene->system, run);
-    for (int64_t k = 0; k < steps; k++) {
-      check_ok(hooke_integrator_step(integrator, state, 1));
+    for (int64_t k = 0; k < expected->steps + (status != HOOKE_OK); k++) {
+      advance(integrator, state, 1, k < expected->steps ? HOOKE_OK : status);
       if (!renew) continue;
       hooke_integrator_destroy(integrator);
       integrator = start_run(scene->system, run);
@@ -87,14 +103,16 @@ void check_lockstep(const struct random_scene *scene, const char *method, int32_
 
   hooke_integrator *integrator = start_run(scene->system, run);
   check_ok(hooke_integrator_on_step(integrator, 1, follow, &companion));
-  check_ok(hooke_integrator_step(integrator, watched, steps));
+  const int32_t found = hooke_integrator_step(integrator, watched, steps);
+  const int32_t status = found == HOOKE_SOLVER_FAILED && may_fail(scene, method) ? found : HOOKE_OK;
+  check_status(found, status);
   hooke_integrator_destroy(integrator);
-  assert_int_equal(companion.steps, steps);
+  assert_in_range(companion.steps, status == HOOKE_OK ? steps : 0, steps);
 
   integrator = start_run(scene->system, run);
-  check_ok(hooke_integrator_step(integrator, alone, steps));
+  advance(integrator, alone, steps, status);
   hooke_integrator_destroy(integrator);
-  check_one_by_one(scene, run, start, steps, &companion);
+  check_one_by_one(scene, run, status, &companion);
 
   check_same_bits(3 * n, hooke_state_position(watched), companion.q);
   check_same_bits(3 * n, hooke_state_velocity(watched), companion.v);

@@ -13,6 +13,7 @@ hooke_options *run_options(struct run run) {
   hooke_options *options = NULL;
   check_ok(hooke_run_options_create(&options));
   if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
+  if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
   set_number(options, "step", run.step);
   set_number(options, "duration", run.duration);
   set_number(options, "every", run.every);

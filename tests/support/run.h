@@ -10,6 +10,7 @@ struct run {
   double step, duration, every;
   double rtol, atol;
   int32_t threads;
+  const char *newton; /* NULL: the default */
 };
 
 /* The caller destroys what these return. */

@@ -1,0 +1,308 @@
+/* Backward Euler: its formula, any step, both forms, drives and callbacks in its equations, and steps without solution. */
+#include "check.h"
+#include "order.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const forms[] = {"converged", "one-iteration"};
+
+/* ---- linear scenes: both forms are the formula ---- */
+
+static void one_step_is_the_formula(void **unused) {
+  (void)unused;
+  const double omega = 3.0, zeta = 0.4, mass = 0.5, q[] = {0, 0, 0, 1, 0, 0}, down[] = {2.5, 0, 0};
+  const int64_t ends[] = {0, 1};
+  const double steps[] = {0.01, 0.3, 1e3 / 3.0};
+  for (int k = 0; k < 6; k++) {
+    const double h = steps[k % 3];
+    hooke_system *system = small_system(2, q, NULL, mass, 1);
+    small_springs(system, 1, ends,
+                  (struct springs){.law = "length",
+                                   .stiffness = mass * omega * omega,
+                                   .damping = 2.0 * zeta * omega * mass});
+    check_ok(hooke_system_set_gravity(system, down));
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator =
+        start_run(system, (struct run){.method = "backward-euler", .newton = forms[k / 3], .step = h});
+    hooke_state *state = start_state(system);
+    double x = 1.0, v = 0.0;
+    for (int n = 0; n < 20; n++) {
+      v = (v + h * (down[0] - omega * omega * x)) / (1.0 + 2.0 * zeta * omega * h + omega * omega * h * h);
+      x += h * v;
+      check_ok(hooke_integrator_step(integrator, state, 1));
+      check_close(hooke_state_position(state)[3], x, 1e-12);
+      check_close(hooke_state_velocity(state)[3], v, 1e-12 / h);
+    }
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+/* A linear force of the caller's own, with and without its derivative, and a driven end. */
+static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)ctx;
+  for (int64_t k = 0; k < 3 * n; k += 3)
+    force[k] += cos(3.0 * t) - 20.0 * q[k] - 0.7 * v[k];
+  return 0;
+}
+
+static int32_t pull_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                            const double *dv, double *out, void *ctx) {
+  (void)t, (void)q, (void)v, (void)ctx;
+  for (int64_t k = 0; k < 3 * n; k++)
+    out[k] += -20.0 * dq[k] - 0.7 * dv[k];
+  return 0;
+}
+
+static hooke_system *pulled(int with_product) {
+  const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, amplitude[] = {0.1, 0, 0};
+  const int64_t ends[] = {0, 1, 1, 2}, driven = 0;
+  hooke_system *system = small_system(3, q, NULL, 0.5, 0);
+  small_springs(system, 2, ends, (struct springs){.law = "length", .stiffness = 30, .damping = 0.4});
+  check_ok(hooke_system_set_drag(system, 0.2));
+  check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 0.8, 0.3));
+  check_ok(hooke_system_set_force(system, pull, with_product ? pull_product : NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* Along one line springs of no length are linear, so one iteration solves the equations. */
+static void forms_agree_where_all_is_linear(void **unused) {
+  (void)unused;
+  for (int with_product = 0; with_product < 2; with_product++) {
+    hooke_system *system = pulled(with_product);
+    double q[2][9], v[2][9];
+    for (int form = 0; form < 2; form++) {
+      run_to_end(
+          system,
+          (struct run){
+              .method = "backward-euler", .newton = forms[form], .step = 0.05, .duration = 3.0, .every = 3.0},
+          q[form], v[form]);
+    }
+    check_between(largest_difference(9, q[0], q[1]), 0.0, with_product ? 1e-12 : 1e-9);
+    check_between(largest_difference(9, v[0], v[1]), 0.0, with_product ? 1e-11 : 1e-8);
+    assert_true(largest(9, q[0]) > 1e-2);
+    hooke_system_destroy(system);
+  }
+}
+
+static void order_with_a_drive(void **unused) {
+  (void)unused;
+  hooke_system *system = pulled(1);
+  double fine[9], error[4];
+  run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 1.0}, fine, NULL);
+  for (int form = 0; form < 2; form++) {
+    for (int k = 0; k < 4; k++) {
+      double found[9];
+      run_to_end(
+          system,
+          (struct run){
+              .method = "backward-euler", .newton = forms[form], .step = 1.0 / (400 << k), .duration = 1.0},
+          found, NULL);
+      error[k] = largest_difference(9, found, fine);
+    }
+    check_order(forms[form], 4, error, 0.85, 1.25);
+  }
+  hooke_system_destroy(system);
+}
+
+/* ---- nonlinear scenes ---- */
+
+/* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy never rises. */
+static void strides_over_a_stiff_rod(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 1e8, .rest_length = 1});
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.2});
+  hooke_state *state = start_state(system);
+  const double *at = hooke_state_position(state), *v = hooke_state_velocity(state);
+  double energy = hooke_system_energy(system, at, v);
+  for (int k = 0; k < 200; k++) {
+    check_ok(hooke_integrator_step(integrator, state, 1));
+    const double now = hooke_system_energy(system, at, v);
+    check_between(now - energy, -1e2, 1e-6);
+    check_close(hypot(at[3], at[4]), 1.0, 1e-3);
+    energy = now;
+  }
+  /* it hangs at rest */
+  check_close(at[4], -1.0 - 1e-7, 1e-9);
+  check_between(largest(6, v), 0.0, 1e-6);
+  assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* A hanging cloth that crumples, in steps at which the matrix of Newton is not positive any more. */
+static void gets_through_compression(void **unused) {
+  (void)unused;
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {16, 16};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  check_ok(hooke_options_set_number(options, "structural.stiffness", 50.0));
+  check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.02});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_step(integrator, state, 50));
+  const double energy = hooke_system_energy(system, hooke_state_position(state), hooke_state_velocity(state));
+  check_between(energy, -9.81, -0.1); /* it has fallen, and gained nothing */
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+static void work_is_counted(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("six-particles"));
+  int64_t force[2], newton[2], linear[2], products[2];
+  for (int form = 0; form < 2; form++) {
+    hooke_integrator *integrator =
+        start_run(system, (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.01});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_step(integrator, state, 100));
+    force[form] = hooke_integrator_count(integrator, "force_evaluations");
+    newton[form] = hooke_integrator_count(integrator, "nonlinear_iterations");
+    linear[form] = hooke_integrator_count(integrator, "linear_iterations");
+    products[form] = hooke_integrator_count(integrator, "derivative_products");
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  assert_int_equal(force[1], 100);
+  assert_int_equal(newton[1], 100);
+  assert_in_range(force[0], 300, 700);
+  assert_in_range(newton[0], 200, 500);
+  for (int form = 0; form < 2; form++) {
+    assert_in_range(linear[form], newton[form], 20 * newton[form]);
+    assert_in_range(products[form], linear[form], 4 * linear[form]);
+  }
+  hooke_system_destroy(system);
+}
+
+/* ---- no solution ---- */
+
+/* A cable that runs taut within the step: strong damping would pull it back to where it is slack and does not pull. */
+static void a_step_without_solution(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, q, v, 1.0, 1);
+  small_springs(system, 1, ends,
+                (struct springs){.stiffness = 1, .damping = 1000, .rest_length = 1, .pull_only = 1});
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
+  check_message("no solution");
+  check_message("t = 0 s");
+  check_message("one-iteration");
+  check_close(hooke_state_time(state), 0.0, 0.0);
+  check_same_bits(6, hooke_state_position(state), q);
+  check_same_bits(6, hooke_state_velocity(state), v);
+  assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 1);
+  hooke_integrator_destroy(integrator);
+  integrator = start_run(
+      system,
+      (struct run){.method = "backward-euler", .newton = "one-iteration", .step = 0.1, .duration = 1.0});
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* A derivative that stops: its value comes out, and the state is that of the last whole step. */
+static int32_t stopping_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                const double *dv, double *out, void *ctx) {
+  pull_product(n, t, q, v, dq, dv, out, ctx);
+  return t > 0.45 ? 77 : 0;
+}
+
+static void a_derivative_that_stops(void **unused) {
+  (void)unused;
+  const double q[] = {1, 0.5, 0};
+  for (int form = 0; form < 2; form++) {
+    hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+    check_ok(hooke_system_set_force(system, pull, stopping_product, NULL));
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator = start_run(
+        system,
+        (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.125, .duration = 1.0});
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+    assert_int_equal(hooke_integrator_stop_value(integrator), 77);
+    check_close(hooke_state_time(state), 0.375, 0.0);
+    double whole[3];
+    hooke_system *same = small_system(1, q, NULL, 1.0, 0);
+    check_ok(hooke_system_set_force(same, pull, pull_product, NULL));
+    check_ok(hooke_system_commit(same));
+    run_to_end(same,
+               (struct run){.method = "backward-euler",
+                            .newton = forms[form],
+                            .step = 0.125,
+                            .duration = 0.375,
+                            .every = 0.125},
+               whole, NULL);
+    check_same_bits(3, hooke_state_position(state), whole);
+    hooke_system_destroy(same);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- what it does not take ---- */
+
+static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)n, (void)t, (void)ctx;
+  rate[0] = -x[0];
+  return 0;
+}
+
+static void refusals(void **unused) {
+  (void)unused;
+  hooke_integrator *integrator = NULL;
+  hooke_options *options = run_options((struct run){.method = "backward-euler", .step = 0.1});
+  check_status(hooke_integrator_create_first_order(1, decay, NULL, options, &integrator), HOOKE_UNSUITED);
+  check_message("derivative");
+  assert_null(integrator);
+  assert_string_equal(hooke_options_text(options, "newton"), "converged");
+  check_status(hooke_options_set_text(options, "newton", "thrice"), HOOKE_BAD_VALUE);
+  check_message("one-iteration");
+  hooke_options_destroy(options);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(one_step_is_the_formula),
+      cmocka_unit_test(forms_agree_where_all_is_linear),
+      cmocka_unit_test(order_with_a_drive),
+      cmocka_unit_test(strides_over_a_stiff_rod),
+      cmocka_unit_test(gets_through_compression),
+      cmocka_unit_test(work_is_counted),
+      cmocka_unit_test(a_step_without_solution),
+      cmocka_unit_test(a_derivative_that_stops),
+      cmocka_unit_test(refusals),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,214 @@
+/* Velocity Verlet: what it costs, what a callback sees, energy over long runs, and how large its step may be. */
+#include "check.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- work ---- */
+
+struct expense {
+  const char *what;
+  double damping, drag;
+  int callback;
+  int64_t first, each; /* force evaluations */
+};
+
+static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+/* The force at the end of a step is that of the next one's start, unless velocities are in it. */
+static void force_evaluations(void **unused) {
+  (void)unused;
+  const struct expense expenses[] = {{"plain", 0, 0, 0, 1, 1},
+                                     {"drag", 0, 0.5, 0, 1, 1},
+                                     {"damping", 0.5, 0, 0, 0, 2},
+                                     {"callback", 0, 0, 1, 0, 2},
+                                     {"everything", 0.5, 0.5, 1, 0, 2}};
+  for (size_t k = 0; k < sizeof expenses / sizeof expenses[0]; k++) {
+    const struct expense *e = &expenses[k];
+    const double q[] = {0, 0, 0, 1, 0, 0, 1, 1.5, 0};
+    const int64_t ends[] = {0, 1, 1, 2};
+    hooke_system *system = small_system(3, q, NULL, 1.0, 1);
+    small_springs(system, 2, ends, (struct springs){.stiffness = 4, .damping = e->damping, .rest_length = 1});
+    check_ok(hooke_system_set_drag(system, e->drag));
+    if (e->callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.01});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_step(integrator, state, 40));
+    check_ok(hooke_integrator_step(integrator, state, 60));
+    const int64_t found = hooke_integrator_count(integrator, "force_evaluations");
+    if (found != e->first + 100 * e->each) check_failed("%s: %lld evaluations", e->what, (long long)found);
+    const int64_t solved = hooke_integrator_count(integrator, "linear_iterations");
+    if (e->damping > 0.0)
+      assert_in_range(solved, 100, 1000);
+    else
+      assert_int_equal(solved, 0);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- a callback ---- */
+
+struct witness {
+  int64_t calls;
+  double t[4], v[4];
+};
+
+static int32_t brake(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct witness *witness = ctx;
+  (void)n, (void)q;
+  assert_true(witness->calls < 4);
+  witness->t[witness->calls] = t;
+  witness->v[witness->calls++] = v[0];
+  force[0] -= 0.5 * v[0];
+  return 0;
+}
+
+/* It sees the velocity half-way at the second kick. All numbers are binary fractions. */
+static void callback_sees_the_velocity_half_way(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0}, v[] = {1, 0, 0};
+  struct witness witness = {0};
+  hooke_system *system = small_system(1, q, v, 1.0, 0);
+  check_ok(hooke_system_set_force(system, brake, NULL, &witness));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.25});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_step(integrator, state, 1));
+  assert_int_equal(witness.calls, 2);
+  const double half = 1.0 - 0.125 * 0.5, whole = half - 0.125 * 0.5 * half;
+  check_close(witness.t[0], 0.0, 0.0);
+  check_close(witness.t[1], 0.25, 0.0);
+  check_close(witness.v[0], 1.0, 0.0);
+  check_close(witness.v[1], half, 0.0);
+  check_close(hooke_state_velocity(state)[0], whole, 0.0);
+  check_close(hooke_state_position(state)[0], 0.25 * half, 0.0);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* ---- one oscillator ---- */
+
+/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; the damping in the spring or in the ether. */
+static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) {
+  const double q[] = {0, 0, 0, 1, 0, 0}, mass = 0.5;
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, q, NULL, mass, 1);
+  const double c = 2.0 * zeta * omega * mass;
+  small_springs(
+      system, 1, ends,
+      (struct springs){.law = "length", .stiffness = mass * omega * omega, .damping = in_ether ? 0.0 : c});
+  check_ok(hooke_system_set_drag(system, in_ether ? c : 0.0));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* One step of the scalar formula, solved by hand. */
+static void one_step_is_the_formula(void **unused) {
+  (void)unused;
+  const double omega = 3.0, zeta = 0.4, h = 0.3;
+  for (int in_ether = 0; in_ether < 2; in_ether++) {
+    hooke_system *system = damped_oscillator(omega, zeta, in_ether);
+    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = h});
+    hooke_state *state = start_state(system);
+    double x = 1.0, v = 0.0;
+    for (int k = 0; k < 20; k++) {
+      const double half = v + h / 2.0 * (-omega * omega * x - 2.0 * zeta * omega * v);
+      x += h * half;
+      v = (half - h / 2.0 * omega * omega * x) / (1.0 + h * zeta * omega);
+      check_ok(hooke_integrator_step(integrator, state, 1));
+      check_close(hooke_state_position(state)[3], x, 1e-14);
+      check_close(hooke_state_velocity(state)[3], v, 3e-14);
+    }
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+static int32_t run_long(const hooke_system *system, double step, double *reach) {
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
+  hooke_state *state = start_state(system);
+  int32_t status = HOOKE_OK;
+  *reach = 0.0;
+  for (int k = 0; k < 40 && status == HOOKE_OK; k++) {
+    status = hooke_integrator_step(integrator, state, 1000);
+    *reach = fmax(*reach, fabs(hooke_state_position(state)[3]));
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return status;
+}
+
+/* h omega = 2, however strong the damping is. */
+static void damping_leaves_the_limit(void **unused) {
+  (void)unused;
+  const double zetas[] = {0.0, 0.1, 0.5, 1.0, 5.0}, omega = 7.0;
+  for (int in_ether = 0; in_ether < 2; in_ether++) {
+    for (int k = 0; k < 5; k++) {
+      hooke_system *system = damped_oscillator(omega, zetas[k], in_ether);
+      double reach;
+      check_status(run_long(system, 0.98 * 2.0 / omega, &reach), HOOKE_OK);
+      check_between(reach, 0.0, 1.0);
+      check_status(run_long(system, 1.02 * 2.0 / omega, &reach), HOOKE_DIVERGED);
+      hooke_system_destroy(system);
+    }
+  }
+}
+
+/* ---- energy ---- */
+
+struct energies {
+  const hooke_system *system;
+  double first, half[2]; /* the largest |E - E(0)| in each half */
+  int64_t seen, steps;
+};
+
+static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
+  struct energies *e = ctx;
+  hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
+  const double off =
+      fabs(hooke_system_energy(e->system, hooke_state_position(seen), hooke_state_velocity(seen)) - e->first);
+  double *most = &e->half[step > e->steps / 2];
+  *most = fmax(*most, off);
+  e->seen++;
+  return 0;
+}
+
+/* A stiff elastic pendulum, nonlinear and without damping: energy swings, and does not drift, over 100 000 steps. */
+static void energy_stays_bounded(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("elastic-pendulum"));
+  struct energies e = {.system = system, .steps = 100000};
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});
+  hooke_state *state = start_state(system);
+  e.first = hooke_system_energy(system, hooke_state_position(state), hooke_state_velocity(state));
+  check_ok(hooke_integrator_on_step(integrator, 7, watch_energy, &e));
+  check_ok(hooke_integrator_step(integrator, state, e.steps));
+  assert_int_equal(e.seen, e.steps / 7);
+  const double weight = fabs(e.first) + hooke_system_kinetic_energy(system, hooke_state_velocity(state));
+  check_between(e.half[0], 1e-6 * weight, 0.05 * weight);
+  check_between(e.half[1] / e.half[0], 0.8, 1.2);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(force_evaluations),       cmocka_unit_test(callback_sees_the_velocity_half_way),
+      cmocka_unit_test(one_step_is_the_formula), cmocka_unit_test(damping_leaves_the_limit),
+      cmocka_unit_test(energy_stays_bounded),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,199 @@
+/* Krylov iterations against Gaussian elimination. */
+#include "check.h"
+#include "integrate/krylov.h"
+#include "random.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIZE = 60 };
+
+struct dense {
+  double a[SIZE][SIZE];
+  int64_t calls, stop_at; /* 0: never */
+};
+
+static int32_t apply(void *ctx, const double *x, double *out) {
+  struct dense *dense = ctx;
+  if (++dense->calls == dense->stop_at) return HOOKE_STOPPED;
+  for (int i = 0; i < SIZE; i++) {
+    out[i] = 0.0;
+    for (int j = 0; j < SIZE; j++)
+      out[i] += dense->a[i][j] * x[j];
+  }
+  return HOOKE_OK;
+}
+
+/* With partial pivoting. */
+static void eliminate(const struct dense *dense, const double *b, double *x) {
+  struct dense m = *dense;
+  memcpy(x, b, SIZE * sizeof(double));
+  for (int k = 0; k < SIZE; k++) {
+    int pivot = k;
+    for (int i = k + 1; i < SIZE; i++) {
+      if (fabs(m.a[i][k]) > fabs(m.a[pivot][k])) pivot = i;
+    }
+    for (int j = 0; j < SIZE; j++) {
+      const double keep = m.a[k][j];
+      m.a[k][j] = m.a[pivot][j];
+      m.a[pivot][j] = keep;
+    }
+    const double keep = x[k];
+    x[k] = x[pivot];
+    x[pivot] = keep;
+    for (int i = k + 1; i < SIZE; i++) {
+      const double factor = m.a[i][k] / m.a[k][k];
+      for (int j = k; j < SIZE; j++)
+        m.a[i][j] -= factor * m.a[k][j];
+      x[i] -= factor * x[k];
+    }
+  }
+  for (int i = SIZE - 1; i >= 0; i--) {
+    for (int j = i + 1; j < SIZE; j++)
+      x[i] -= m.a[i][j] * x[j];
+    x[i] /= m.a[i][i];
+  }
+}
+
+/* diag + share (R + skew-or-symmetric R^T), entries of R up to 1/SIZE in size; every `flip`-th diagonal negative. */
+static void fill(struct dense *dense, uint64_t seed, double share, double mirror, int flip) {
+  struct random_source source = {seed};
+  memset(dense, 0, sizeof *dense);
+  for (int i = 0; i < SIZE; i++) {
+    for (int j = 0; j < SIZE; j++) {
+      const double entry = share * random_between(&source, -1.0, 1.0) / SIZE;
+      dense->a[i][j] += entry;
+      dense->a[j][i] += mirror * entry;
+    }
+    dense->a[i][i] += flip && i % flip == 0 ? -0.5 : 1.0 + 9.0 * i / SIZE;
+  }
+}
+
+typedef int32_t solver(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
+                       double *scratch, double *x, struct hooke_solution *solution);
+
+static int32_t run_solver(solver *solve, struct dense *dense, const double *b, int64_t limit, double *x,
+                          struct hooke_solution *solution) {
+  double *scratch = new_doubles(HOOKE_GENERAL_VECTORS * SIZE);
+  const struct hooke_operator a = {SIZE, apply, dense};
+  const int32_t status = solve(&a, b, 1e-12, limit, scratch, x, solution);
+  free(scratch);
+  return status;
+}
+
+static void random_side(uint64_t seed, double *b) {
+  struct random_source source = {seed};
+  for (int k = 0; k < SIZE; k++)
+    b[k] = random_between(&source, -1.0, 1.0);
+}
+
+static void compare(solver *solve, struct dense *dense, uint64_t seed, int64_t most) {
+  double b[SIZE], x[SIZE], expected[SIZE];
+  struct hooke_solution solution;
+  random_side(seed, b);
+  eliminate(dense, b, expected);
+  check_ok(run_solver(solve, dense, b, 1000, x, &solution));
+  assert_true(solution.converged);
+  check_between(solution.residual, 0.0, 1e-12);
+  check_between((double)solution.iterations, 3.0, (double)most);
+  check_between(largest_difference(SIZE, x, expected), 0.0, 1e-9 * largest(SIZE, expected));
+}
+
+static void symmetric_and_positive(void **unused) {
+  (void)unused;
+  struct dense dense;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    fill(&dense, seed, 1.0, 1.0, 0);
+    compare(hooke_solve_symmetric, &dense, seed, SIZE);
+    compare(hooke_solve_general, &dense, seed, SIZE);
+  }
+}
+
+static void without_symmetry(void **unused) {
+  (void)unused;
+  struct dense dense;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    fill(&dense, seed, 8.0, -0.5, 0);
+    compare(hooke_solve_general, &dense, seed, 2 * SIZE);
+    fill(&dense, seed, 2.0, -0.5, 7); /* and eigenvalues of either sign */
+    compare(hooke_solve_general, &dense, seed, 4 * SIZE);
+  }
+}
+
+/* Nothing to do, and everything done in one step. */
+static void trivial_sides(void **unused) {
+  (void)unused;
+  solver *const solvers[] = {hooke_solve_symmetric, hooke_solve_general};
+  struct dense dense;
+  memset(&dense, 0, sizeof dense);
+  for (int i = 0; i < SIZE; i++)
+    dense.a[i][i] = 4.0;
+  for (int s = 0; s < 2; s++) {
+    double b[SIZE] = {0.0}, x[SIZE];
+    struct hooke_solution solution;
+    memset(x, 0x55, sizeof x);
+    check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
+    assert_true(solution.converged && solution.iterations == 0);
+    check_close(largest(SIZE, x), 0.0, 0.0);
+    b[3] = 2.0;
+    check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
+    assert_true(solution.converged);
+    assert_int_equal(solution.iterations, 1);
+    check_close(x[3], 0.5, 1e-15);
+    b[3] = NAN;
+    check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
+    assert_true(isnan(x[3]));
+  }
+}
+
+/* Conjugate gradients end at the first direction of negative curvature, pointing along b. */
+static void descends(void **unused) {
+  (void)unused;
+  for (int flip = 1; flip <= 9; flip += 4) {
+    struct dense dense;
+    double b[SIZE], x[SIZE], along = 0.0;
+    struct hooke_solution solution;
+    fill(&dense, 5, 0.0, 1.0, flip);
+    random_side(6, b);
+    check_ok(run_solver(hooke_solve_symmetric, &dense, b, 1000, x, &solution));
+    assert_false(solution.converged);
+    for (int k = 0; k < SIZE; k++)
+      along += b[k] * x[k];
+    assert_true(along > 0.0);
+  }
+}
+
+static void limits_and_stops(void **unused) {
+  (void)unused;
+  solver *const solvers[] = {hooke_solve_symmetric, hooke_solve_general};
+  for (int s = 0; s < 2; s++) {
+    struct dense dense;
+    double b[SIZE], x[SIZE];
+    struct hooke_solution solution;
+    fill(&dense, 5, 1.0, 1.0, 0);
+    random_side(6, b);
+    check_ok(run_solver(solvers[s], &dense, b, 4, x, &solution));
+    assert_false(solution.converged);
+    assert_int_equal(solution.iterations, 4);
+    check_between(solution.residual, 1e-6, 1.0);
+    dense.calls = 0;
+    dense.stop_at = 3;
+    check_status(run_solver(solvers[s], &dense, b, 100, x, &solution), HOOKE_STOPPED);
+    assert_int_equal(dense.calls, 3);
+    /* a matrix of zeros has no solution */
+    memset(&dense, 0, sizeof dense);
+    check_ok(run_solver(solvers[s], &dense, b, 20, x, &solution));
+    assert_false(solution.converged);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(symmetric_and_positive), cmocka_unit_test(without_symmetry),
+      cmocka_unit_test(trivial_sides),          cmocka_unit_test(descends),
+      cmocka_unit_test(limits_and_stops),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

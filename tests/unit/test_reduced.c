@@ -1,0 +1,130 @@
+/* The linear equations of implicit steps against products of the model's own derivative. */
+#include "check.h"
+#include "integrate/reduced.h"
+#include "law_scene.h"
+#include "random.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Rows of x y z and x, y, z apart. */
+static void apart(int64_t n, const double *rows, double *vector) {
+  for (int64_t k = 0; k < 3 * n; k++)
+    vector[k % 3 * n + k / 3] = rows[k];
+}
+
+static void rows_of(int64_t n, const double *vector, double *rows) {
+  for (int64_t k = 0; k < 3 * n; k++)
+    rows[k] = vector[k % 3 * n + k / 3];
+}
+
+/* The defect of x in (M - beta df/dv - alpha df/dq) x = b over the free particles, over the largest of b. */
+static double defect(const hooke_system *system, const double *q, const double *v, double alpha, double beta,
+                     const double *b, const double *x) {
+  const int64_t n = hooke_system_particle_count(system), size = 3 * n;
+  const double *mass = hooke_system_mass(system), *w = hooke_system_inverse_mass(system);
+  double *dq = new_doubles(size), *dv = new_doubles(size), *out = new_doubles(size), worst = 0.0;
+  rows_of(n, x, dq);
+  for (int64_t k = 0; k < size; k++) {
+    dv[k] = beta * dq[k];
+    dq[k] *= alpha;
+  }
+  check_ok(hooke_system_derivative_product(system, 0.25, q, v, dq, dv, out));
+  for (int64_t k = 0; k < size; k++) {
+    const int64_t j = k % 3 * n + k / 3;
+    if (w[k / 3] == 0.0)
+      assert_true(x[j] == 0.0);
+    else
+      worst = fmax(worst, fabs(mass[k / 3] * x[j] - out[k] - b[j]));
+  }
+  free(dq);
+  free(dv);
+  free(out);
+  return worst / largest(size, b);
+}
+
+static void check_solution(const hooke_system *system, const double *q, const double *v, double alpha,
+                           double beta, double rounding) {
+  const int64_t n = hooke_system_particle_count(system), size = 3 * n;
+  struct random_source source = {17};
+  double *b = new_doubles(size), *x = new_doubles(size);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
+  struct hooke_reduced reduced;
+  struct hooke_solution solution;
+  for (int64_t k = 0; k < size; k++)
+    b[k] = system->held[k % n] ? 0.0 : random_between(&source, -1.0, 1.0);
+  hooke_motion_load(system, integrator->motion, q, v);
+  check_ok(hooke_reduced_create(integrator, alpha == 0.0 && system->force == NULL, &reduced));
+  hooke_reduced_set(&reduced, 0.25, alpha, beta);
+  check_ok(hooke_reduced_solve(&reduced, b, 1e-13, x, &solution));
+  assert_true(solution.converged);
+  const double wrong = defect(system, q, v, alpha, beta, b, x);
+  if (!(wrong <= rounding)) check_failed("alpha %g, beta %g: defect %g", alpha, beta, wrong);
+  assert_int_equal(hooke_integrator_count(integrator, "linear_iterations"), solution.iterations);
+  assert_true(hooke_integrator_count(integrator, "derivative_products") >= solution.iterations);
+  /* the change that derivatives make of two directions at once */
+  double *dq = new_doubles(2 * size), *dv = dq + size, *found = new_doubles(3 * size),
+         *expected = found + size;
+  double *rows = expected + size;
+  if (!reduced.symmetric) {
+    check_ok(hooke_reduced_change(&reduced, b, x, found));
+    rows_of(n, b, dq);
+    rows_of(n, x, dv);
+    check_ok(hooke_system_derivative_product(system, 0.25, q, v, dq, dv, rows));
+    apart(n, rows, expected);
+    check_between(largest_difference(size, found, expected), 0.0, 1e-14 * largest(size, expected));
+  }
+  free(dq);
+  free(found);
+  hooke_reduced_release(&reduced);
+  hooke_integrator_destroy(integrator);
+  free(b);
+  free(x);
+}
+
+static const double weights[][2] = {{0.0, 0.01},  {0.0, 0.5},  {1e-4, 1e-2},
+                                    {4e-4, 2e-2}, {1e-3, 0.0}, {0.0, 0.0}};
+enum { WEIGHTS = sizeof weights / sizeof weights[0] };
+
+static void every_law(void **unused) {
+  (void)unused;
+  for (int l = 0; l < LAW_COUNT; l++) {
+    struct law_scene scene;
+    law_scene_create(&laws[l], 31, &scene);
+    /* difference quotients stand in for a callback's derivative: good to 1e-9 or so */
+    const double rounding = laws[l].callback == 1 ? 1e-7 : 1e-11;
+    for (int k = 0; k < WEIGHTS; k++)
+      check_solution(scene.system, scene.q, scene.v, weights[k][0], weights[k][1], rounding);
+    law_scene_destroy(&scene);
+  }
+}
+
+static void random_scenes(void **unused) {
+  (void)unused;
+  for (int32_t k = 0; k < 40; k++) {
+    struct random_scene scene;
+    random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
+                                                      .particles = 20 + 13 * k,
+                                                      .springs = 60 + 20 * k,
+                                                      .features = k * 37 & SCENE_EVERYTHING,
+                                                      .cloth = {k % 9 + 2, 9},
+                                                      .with_product = 1},
+                        &scene);
+    const int64_t size = 3 * hooke_system_particle_count(scene.system);
+    double *q = new_doubles(size), *v = new_doubles(size);
+    random_scene_shake(&scene, 7, q, v);
+    check_solution(scene.system, q, v, 0.0, 5e-4, 1e-10);
+    check_solution(scene.system, q, v, 1e-6, 1e-3, 1e-10);
+    free(q);
+    free(v);
+    random_scene_destroy(&scene);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_law), cmocka_unit_test(random_scenes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
