@@ -2,6 +2,7 @@
 #include "integrate/integrator.h"
 
 #include "core/status.h"
+#include "model/force.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -19,6 +20,59 @@ int32_t hooke_integrator_forces_without(hooke_integrator *it, double t,
                                         const struct hooke_force_row *left_out) {
   it->count.force_evaluations++;
   return keep_stop_value(it, hooke_motion_forces_without(it->system, it->motion, t, left_out));
+}
+
+/* Drag on a tile, as its row in the table of forces adds it; held particles are put back after a step. */
+static void brake(double drag, int64_t from, int64_t count, const struct hooke_motion *m,
+                  double *const f[3]) {
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < count; k++)
+      f[a][k] -= drag * m->v[a][from + k];
+  }
+}
+
+struct move {
+  hooke_integrator *integrator;
+  hooke_step_loop *loop;
+};
+
+static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
+  const struct move *move = ctx;
+  const hooke_system *system = move->integrator->system;
+  const struct hooke_motion *m = move->integrator->motion;
+  if (system->drag > 0.0) brake(system->drag, from, count, m, f);
+  for (int a = 0; a < 3; a++) {
+    move->loop(count, move->integrator->schedule.step, system->inverse_mass + from, f[a],
+               system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
+  }
+}
+
+/* 1 if the forces on a tile of particles can be known before the rest of the motion is. */
+static int goes_by_tiles(const hooke_system *system) {
+  int by_tiles = system->lanes.count > 0;
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hooke_force_row *row = system->force_row[k];
+    by_tiles &= row->add == NULL || row == &hooke_force_springs || row == &hooke_force_drag;
+  }
+  return by_tiles;
+}
+
+int32_t hooke_integrator_move(hooke_integrator *it, hooke_step_loop *loop) {
+  struct move move = {it, loop};
+  if (goes_by_tiles(it->system)) {
+    it->count.force_evaluations++;
+    it->motion->coincident = hooke_lanes_pass(&it->system->lanes, it->motion, move_tile, &move);
+    return HOOKE_OK;
+  }
+  const int32_t status = hooke_integrator_forces(it, it->t);
+  if (status != HOOKE_OK) return status;
+  const hooke_system *system = it->system;
+  struct hooke_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    loop(m->n, it->schedule.step, system->inverse_mass, m->f[a],
+         system->has_gravity ? &system->gravity[a] : NULL, m->q[a], m->v[a]);
+  }
+  return HOOKE_OK;
 }
 
 double hooke_integrator_next_time(const hooke_integrator *it) {

@@ -11,18 +11,7 @@ static int32_t step_rate(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
-  const int32_t status = hooke_integrator_forces(it, it->t);
-  if (status != HOOKE_OK) return status;
-  const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
-  const double h = it->schedule.step, *w = system->inverse_mass;
-  for (int a = 0; a < 3; a++) {
-    if (system->has_gravity)
-      hooke_drift_then_kick(m->n, h, w, m->f[a], system->gravity[a], m->q[a], m->v[a]);
-    else
-      hooke_drift_then_kick_weightless(m->n, h, w, m->f[a], m->q[a], m->v[a]);
-  }
-  return HOOKE_OK;
+  return hooke_integrator_move(it, hooke_spring_set(0)->drift_then_kick);
 }
 
 const struct hooke_method hooke_forward_euler = {.name = "forward-euler",

@@ -7,14 +7,10 @@
 #define HOOKE_KERNEL_X86 0
 #endif
 
-extern hooke_spring_loop *const hooke_spring_loops_baseline[HOOKE_RUN_SHAPES];
-static const struct hooke_spring_set baseline = {"baseline", hooke_spring_loops_baseline};
+extern const struct hooke_spring_set hooke_spring_set_baseline;
 
 #if HOOKE_KERNEL_X86
-extern hooke_spring_loop *const hooke_spring_loops_avx2[HOOKE_RUN_SHAPES];
-extern hooke_spring_loop *const hooke_spring_loops_avx512[HOOKE_RUN_SHAPES];
-static const struct hooke_spring_set avx2 = {"avx2", hooke_spring_loops_avx2};
-static const struct hooke_spring_set avx512 = {"avx512", hooke_spring_loops_avx512};
+extern const struct hooke_spring_set hooke_spring_set_avx2, hooke_spring_set_avx512;
 #endif
 
 const struct hooke_spring_set *hooke_spring_set(int32_t set) {
@@ -23,11 +19,11 @@ const struct hooke_spring_set *hooke_spring_set(int32_t set) {
 #if HOOKE_KERNEL_X86
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) {
-    found[count++] = &avx512;
+    found[count++] = &hooke_spring_set_avx512;
   }
-  if (__builtin_cpu_supports("avx2")) found[count++] = &avx2;
+  if (__builtin_cpu_supports("avx2")) found[count++] = &hooke_spring_set_avx2;
 #endif
-  found[count++] = &baseline;
+  found[count++] = &hooke_spring_set_baseline;
   return set >= 0 && set < count ? found[set] : NULL;
 }
 

@@ -135,41 +135,121 @@ HOOKE_INLINE int64_t indexed_loop(const struct hooke_run *run, const struct hook
   return lost;
 }
 
-#define LOOP_NAME(layout, damped, mixed, pull) layout##_##damped##mixed##pull
-#define LOOP(layout, damped, mixed, pull)                                                                    \
-  static int64_t LOOP_NAME(layout, damped, mixed, pull)(const struct hooke_run *run,                         \
-                                                        const struct hooke_fields *f) {                      \
-    return layout##_loop(run, f, damped, mixed, pull);                                                       \
+/* ---- lanes: forces of springs into windows, and their sums at particles ---- */
+
+HOOKE_INLINE int64_t fill_window(const struct hooke_run *run, const struct hooke_fields *at, int64_t done,
+                                 ptrdiff_t count, double *const b[3], const int damped, const int mixed,
+                                 const int pull) {
+  struct springs springs = springs_from(run, done, mixed);
+  /* ends that change places change the sign of d, and of nothing else */
+  if (springs.offset < 0) springs.offset = -springs.offset;
+  return fill_block(b[0], b[1], b[2], at->q[0], at->q[1], at->q[2], at->v[0], at->v[1], at->v[2], springs,
+                    count, 0, damped, mixed, pull);
+}
+
+enum { LANES_AT_ONCE = 6 };
+
+HOOKE_INLINE void sum_lanes(ptrdiff_t count, const int lanes, const int first, const double *const *upper,
+                            const double *const *lower, double *restrict f) {
+  const double *u[LANES_AT_ONCE], *l[LANES_AT_ONCE];
+  for (int j = 0; j < lanes; j++) {
+    u[j] = upper[j];
+    l[j] = lower[j];
   }
-#define LOOPS_OF_LAYOUT(layout)                                                                              \
-  LOOP(layout, 0, 0, 0)                                                                                      \
-  LOOP(layout, 0, 0, 1)                                                                                      \
-  LOOP(layout, 0, 1, 0)                                                                                      \
-  LOOP(layout, 0, 1, 1)                                                                                      \
-  LOOP(layout, 1, 0, 0)                                                                                      \
-  LOOP(layout, 1, 0, 1)                                                                                      \
-  LOOP(layout, 1, 1, 0)                                                                                      \
-  LOOP(layout, 1, 1, 1)
+  VECTORISE
+  for (ptrdiff_t k = 0; k < count; k++) {
+    double sum = first ? 0.0 : f[k];
+    for (int j = 0; j < lanes; j++)
+      sum = (sum + u[j][k]) - l[j][k];
+    f[k] = sum;
+  }
+}
 
-LOOPS_OF_LAYOUT(offset)
-LOOPS_OF_LAYOUT(indexed)
+#define SUM(lanes, first)                                                                                    \
+  case lanes:                                                                                                \
+    sum_lanes(count, lanes, first, upper, lower, f);                                                         \
+    break;
 
-extern hooke_spring_loop *const JOIN(hooke_spring_loops_, HOOKE_ISA)[HOOKE_RUN_SHAPES];
-hooke_spring_loop *const JOIN(hooke_spring_loops_, HOOKE_ISA)[HOOKE_RUN_SHAPES] = {
-    [0] = offset_000,
-    [HOOKE_RUN_PULL_ONLY] = offset_001,
-    [HOOKE_RUN_MIXED] = offset_010,
-    [HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = offset_011,
-    [HOOKE_RUN_DAMPED] = offset_100,
-    [HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY] = offset_101,
-    [HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED] = offset_110,
-    [HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = offset_111,
-    [HOOKE_RUN_INDEXED] = indexed_000,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_PULL_ONLY] = indexed_001,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_MIXED] = indexed_010,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = indexed_011,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_DAMPED] = indexed_100,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY] = indexed_101,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED] = indexed_110,
-    [HOOKE_RUN_INDEXED | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = indexed_111,
+static void sum(ptrdiff_t count, int32_t lanes, const double *const *upper, const double *const *lower,
+                double *f) {
+  switch (lanes < LANES_AT_ONCE ? lanes : LANES_AT_ONCE) {
+    SUM(0, 1) SUM(1, 1) SUM(2, 1) SUM(3, 1) SUM(4, 1) SUM(5, 1) SUM(6, 1)
+  }
+  for (int32_t done = LANES_AT_ONCE; done < lanes; done++)
+    sum_lanes(count, 1, 0, upper + done, lower + done, f);
+}
+
+/* ---- steps ---- */
+
+static void kick_then_drift(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
+                            const double *g, double *restrict q, double *restrict v) {
+  const double gravity = g ? *g : 0.0;
+  for (ptrdiff_t k = 0; k < count && g; k++) {
+    v[k] += h * (w[k] * f[k] + gravity);
+    q[k] += h * v[k];
+  }
+  for (ptrdiff_t k = 0; k < count && !g; k++) {
+    v[k] += h * (w[k] * f[k]);
+    q[k] += h * v[k];
+  }
+}
+
+static void drift_then_kick(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
+                            const double *g, double *restrict q, double *restrict v) {
+  const double gravity = g ? *g : 0.0;
+  for (ptrdiff_t k = 0; k < count && g; k++) {
+    q[k] += h * v[k];
+    v[k] += h * (w[k] * f[k] + gravity);
+  }
+  for (ptrdiff_t k = 0; k < count && !g; k++) {
+    q[k] += h * v[k];
+    v[k] += h * (w[k] * f[k]);
+  }
+}
+
+/* ---- the set ---- */
+
+#define NAME(what, damped, mixed, pull) what##_##damped##mixed##pull
+#define LOOPS(damped, mixed, pull)                                                                           \
+  static int64_t NAME(offset, damped, mixed, pull)(const struct hooke_run *run,                              \
+                                                   const struct hooke_fields *f) {                           \
+    return offset_loop(run, f, damped, mixed, pull);                                                         \
+  }                                                                                                          \
+  static int64_t NAME(indexed, damped, mixed, pull)(const struct hooke_run *run,                             \
+                                                    const struct hooke_fields *f) {                          \
+    return indexed_loop(run, f, damped, mixed, pull);                                                        \
+  }                                                                                                          \
+  static int64_t NAME(fill, damped, mixed, pull)(const struct hooke_run *run, const struct hooke_fields *at, \
+                                                 int64_t done, ptrdiff_t count, double *const b[3]) {        \
+    return fill_window(run, at, done, count, b, damped, mixed, pull);                                        \
+  }
+LOOPS(0, 0, 0)
+LOOPS(0, 0, 1)
+LOOPS(0, 1, 0)
+LOOPS(0, 1, 1)
+LOOPS(1, 0, 0)
+LOOPS(1, 0, 1)
+LOOPS(1, 1, 0)
+LOOPS(1, 1, 1)
+
+#define BY_SHAPE(what, rest)                                                                                 \
+  [rest] = NAME(what, 0, 0, 0), [rest | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 0, 1),                          \
+  [rest | HOOKE_RUN_MIXED] = NAME(what, 0, 1, 0),                                                            \
+  [rest | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 1, 1),                                      \
+  [rest | HOOKE_RUN_DAMPED] = NAME(what, 1, 0, 0),                                                           \
+  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 0, 1),                                     \
+  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED] = NAME(what, 1, 1, 0),                                         \
+  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 1, 1)
+
+#define TEXT_OF(word) #word
+#define TEXT(word)    TEXT_OF(word)
+
+extern const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA);
+const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA) = {
+    .name = TEXT(HOOKE_ISA),
+    .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
+    .fill = {BY_SHAPE(fill, 0)},
+    .sum = sum,
+    .kick_then_drift = kick_then_drift,
+    .drift_then_kick = drift_then_kick,
 };

@@ -6,6 +6,7 @@
 #ifndef HOOKE_KERNEL_SPRING_LOOPS_H
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Positions, velocities and forces with x, y and z apart, one array of n doubles each. Velocities are read by
@@ -40,11 +41,30 @@ struct hooke_run {
   hooke_spring_loop *loop;
 };
 
+/* b = s d, with F = -s d on the end of the lower number and s d on the other, for springs done .. done + count - 1 of a
+ * run of constant offset; `at` begins at the lower end of the first of them. `count` may go on past the run where its
+ * material is shared: what is computed there is not a spring. Returns how many had a rest length but no direction. */
+typedef int64_t hooke_spring_fill(const struct hooke_run *run, const struct hooke_fields *at, int64_t done,
+                                  ptrdiff_t count, double *const b[3]);
+
+/* f[k] = sum over lanes, in their order, of upper[lane][k] - lower[lane][k], each added on its own: what springs that end at
+ * particle k do, and then those that begin there. */
+typedef void hooke_lane_sum(ptrdiff_t count, int32_t lanes, const double *const *upper,
+                            const double *const *lower, double *f);
+
+/* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g. Symplectic
+ * Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g is NULL, a = w f. */
+typedef void hooke_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
+                             double *q, double *v);
+
 /* The loops of one instruction set, by shape. Sets are named "avx512", "avx2", "baseline"; `set` counts from
  * the best that this machine has; NULL past the last. */
 struct hooke_spring_set {
   const char *name;
-  hooke_spring_loop *const *loop;
+  hooke_spring_loop *loop[HOOKE_RUN_SHAPES];
+  hooke_spring_fill *fill[HOOKE_RUN_SHAPES]; /* NULL for indexed runs */
+  hooke_lane_sum *sum;
+  hooke_step_loop *kick_then_drift, *drift_then_kick;
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
 

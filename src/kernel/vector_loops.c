@@ -2,6 +2,10 @@
 
 enum { PARTS = 8 };
 
+static double sum_of(const double part[PARTS]) {
+  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
 double hooke_dot(int64_t size, const double *restrict x, const double *restrict y) {
   double part[PARTS] = {0.0};
   const int64_t whole = size / PARTS * PARTS;
@@ -11,7 +15,61 @@ double hooke_dot(int64_t size, const double *restrict x, const double *restrict 
   }
   for (int64_t k = whole; k < size; k++)
     part[k - whole] += x[k] * y[k];
-  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+  return sum_of(part);
+}
+
+double hooke_dot_weighed(int64_t n, const double *restrict weight, const double *restrict x,
+                         const double *restrict y) {
+  double part[PARTS] = {0.0};
+  const int64_t whole = n / PARTS * PARTS;
+  for (int a = 0; a < 3; a++, x += n, y += n) {
+    for (int64_t k = 0; k < whole; k += PARTS) {
+      for (int p = 0; p < PARTS; p++)
+        part[p] += weight[k + p] * x[k + p] * y[k + p];
+    }
+    for (int64_t k = whole; k < n; k++)
+      part[k - whole] += weight[k] * x[k] * y[k];
+  }
+  return sum_of(part);
+}
+
+double hooke_lanczos_begin(int64_t n, const double *restrict mass, const double *restrict inverse, double a,
+                           double b, const double *restrict before, const double *restrict x,
+                           double *restrict out) {
+  double part[PARTS] = {0.0};
+  const int64_t whole = n / PARTS * PARTS;
+  for (int c = 0; c < 3; c++, x += n, out += n, before += n) {
+    for (int64_t k = 0; k < whole; k += PARTS) {
+      for (int p = 0; p < PARTS; p++) {
+        out[k + p] = a * inverse[k + p] * out[k + p] - b * before[k + p];
+        part[p] += mass[k + p] * out[k + p] * x[k + p];
+      }
+    }
+    for (int64_t k = whole; k < n; k++) {
+      out[k] = a * inverse[k] * out[k] - b * before[k];
+      part[k - whole] += mass[k] * out[k] * x[k];
+    }
+  }
+  return sum_of(part);
+}
+
+double hooke_lanczos_end(int64_t n, const double *restrict mass, double b, const double *restrict x,
+                         double *restrict out) {
+  double part[PARTS] = {0.0};
+  const int64_t whole = n / PARTS * PARTS;
+  for (int c = 0; c < 3; c++, x += n, out += n) {
+    for (int64_t k = 0; k < whole; k += PARTS) {
+      for (int p = 0; p < PARTS; p++) {
+        out[k + p] -= b * x[k + p];
+        part[p] += mass[k + p] * out[k + p] * out[k + p];
+      }
+    }
+    for (int64_t k = whole; k < n; k++) {
+      out[k] -= b * x[k];
+      part[k - whole] += mass[k] * out[k] * out[k];
+    }
+  }
+  return sum_of(part);
 }
 
 void hooke_add_multiple(int64_t size, double a, const double *restrict x, double *restrict y) {

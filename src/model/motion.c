@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force.h"
+#include "model/lane.h"
 
 #include <string.h>
 
@@ -22,13 +23,17 @@ int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **ou
   const int64_t still = 3 * system->held_count, driven = 6 * driven_count(system);
   struct hooke_motion *motion = hooke_new(1, sizeof *motion);
   double *block = hooke_new(components + rows + still + driven, sizeof(double));
-  if (motion == NULL || block == NULL) {
+  struct hooke_windows *windows = system->lanes.count ? hooke_windows_create(&system->lanes) : NULL;
+  if (motion == NULL || block == NULL || (system->lanes.count && windows == NULL)) {
+    hooke_windows_destroy(windows);
     hooke_free(motion);
     hooke_free(block);
     return HOOKE_NO_MEMORY;
   }
   motion->n = n;
-  motion->memory = (components + rows + still + driven) * (int64_t)sizeof(double);
+  motion->windows = windows;
+  motion->memory =
+      (components + rows + still + driven) * (int64_t)sizeof(double) + hooke_windows_memory(windows);
   for (int a = 0; a < 3; a++) {
     motion->q[a] = block + a * stride;
     motion->v[a] = block + (3 + a) * stride;
@@ -43,6 +48,7 @@ int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **ou
 
 void hooke_motion_destroy(struct hooke_motion *motion) {
   if (motion == NULL) return;
+  hooke_windows_destroy(motion->windows);
   hooke_free(motion->q[0]);
   hooke_free(motion);
 }

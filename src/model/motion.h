@@ -6,16 +6,18 @@
 #include "model/system.h"
 
 struct hooke_force_row;
+struct hooke_windows;
 
 struct hooke_motion {
   int64_t n;
-  double *q[3], *v[3], *f[3]; /* n each, in one block */
-  double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
-  double *still;              /* positions of pinned particles, 3 a held particle */
-  double *driven;             /* q and v of each drive in turn, 3 a particle each */
-  int64_t memory;             /* bytes */
-  int64_t coincident;         /* springs without direction in the last force evaluation */
-  int32_t stop_value;         /* what a force or drive callback returned, 0 while all go on */
+  double *q[3], *v[3], *f[3];    /* n each, in one block */
+  double *rows;                  /* 9n: q, v and force in rows, for a callback; NULL without one */
+  double *still;                 /* positions of pinned particles, 3 a held particle */
+  double *driven;                /* q and v of each drive in turn, 3 a particle each */
+  struct hooke_windows *windows; /* of the pass over lanes; NULL without lanes */
+  int64_t memory;                /* bytes */
+  int64_t coincident;            /* springs without direction in the last force evaluation */
+  int32_t stop_value;            /* what a force or drive callback returned, 0 while all go on */
 };
 
 int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **motion);

@@ -4,6 +4,7 @@
 
 #include "hooke/system.h"
 #include "model/drive.h"
+#include "model/lane.h"
 #include "model/spring.h"
 
 struct hooke_force_row;
@@ -27,6 +28,7 @@ struct hooke_system {
   struct hooke_group *group;
   int64_t part_count;
   struct hooke_springs springs; /* from commit on */
+  struct hooke_lanes lanes;     /* from commit on, of all springs or of none */
 
   double gravity[3];
   int32_t has_gravity;

@@ -98,6 +98,84 @@ static void compare_sets(struct random_source *source, int32_t shape, int64_t co
   }
 }
 
+/* The same springs through a window: what ends at a particle is added, then what begins there is subtracted. */
+static void compare_windows(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
+  double expected[3][PARTICLES], found[3][PARTICLES], window[3][LONGEST];
+  draw(source, shape, count, trial);
+  memset(trial->f, 0, sizeof trial->f);
+  memset(expected, 0, sizeof expected);
+  const int64_t lost = plain(trial, expected);
+  const struct hooke_run *run = &trial->run;
+  const int64_t low = run->offset > 0 ? run->start : run->start + run->offset, o = labs((long)run->offset);
+  const struct hooke_fields at = {{trial->q[0] + low, trial->q[1] + low, trial->q[2] + low},
+                                  {trial->v[0] + low, trial->v[1] + low, trial->v[2] + low},
+                                  {NULL, NULL, NULL}};
+  double *const b[3] = {window[0], window[1], window[2]};
+  const struct hooke_spring_set *set;
+  for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
+    memset(found, 0, sizeof found);
+    assert_int_equal(set->fill[shape](run, &at, 0, (ptrdiff_t)count, b), lost);
+    for (int a = 0; a < 3; a++) {
+      for (int64_t l = 0; l < count; l++)
+        found[a][low + l + o] += window[a][l];
+      for (int64_t l = 0; l < count; l++)
+        found[a][low + l] -= window[a][l];
+      check_same_bits(PARTICLES, found[a], expected[a]);
+    }
+  }
+}
+
+static void test_windows_agree(void **unused) {
+  (void)unused;
+  struct random_source source = {1234};
+  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
+  for (int32_t shape = 0; shape < HOOKE_RUN_SHAPES; shape++) {
+    for (int64_t count = 1; count <= 300 && !(shape & HOOKE_RUN_INDEXED); count += count < 20 ? 1 : 53)
+      compare_windows(&source, shape, count, trial);
+  }
+  free(trial);
+}
+
+/* Sums over lanes and moves, against one number at a time. */
+static void test_sums_and_moves_agree(void **unused) {
+  (void)unused;
+  enum { COUNT = 77, MOST = 15 };
+  struct random_source source = {99};
+  double value[2 * MOST + 3][COUNT], q[COUNT], v[COUNT], f[COUNT], expected_q[COUNT], expected_v[COUNT];
+  for (int k = 0; k < 2 * MOST + 3; k++) {
+    for (int p = 0; p < COUNT; p++)
+      value[k][p] = random_between(&source, -1.0, 1.0);
+  }
+  const double *upper[MOST], *lower[MOST], *w = value[2 * MOST], h = 0.01, gravity = -9.81;
+  for (int k = 0; k < MOST; k++)
+    upper[k] = value[2 * k], lower[k] = value[2 * k + 1];
+  const struct hooke_spring_set *set;
+  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+    for (int32_t lanes = 0; lanes <= MOST; lanes++) {
+      double sum[COUNT] = {0};
+      for (int p = 0; p < COUNT; p++) {
+        for (int k = 0; k < lanes; k++)
+          sum[p] = (sum[p] + upper[k][p]) - lower[k][p];
+      }
+      set->sum(COUNT, lanes, upper, lower, f);
+      check_same_bits(COUNT, f, sum);
+    }
+    for (int kick_first = 0; kick_first <= 1; kick_first++) {
+      for (int heavy = 0; heavy <= 1; heavy++) {
+        for (int p = 0; p < COUNT; p++) {
+          const double x = q[p] = value[2 * MOST + 1][p], u = v[p] = value[2 * MOST + 2][p];
+          expected_v[p] = u + h * (heavy ? w[p] * f[p] + gravity : w[p] * f[p]);
+          expected_q[p] = x + h * (kick_first ? expected_v[p] : u);
+        }
+        (kick_first ? set->kick_then_drift : set->drift_then_kick)(COUNT, h, w, f, heavy ? &gravity : NULL, q,
+                                                                   v);
+        check_same_bits(COUNT, q, expected_q);
+        check_same_bits(COUNT, v, expected_v);
+      }
+    }
+  }
+}
+
 static void test_sets_agree(void **unused) {
   (void)unused;
   struct random_source source = {4711};
@@ -128,6 +206,7 @@ static void test_sets_have_names(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets_have_names),
-                                     cmocka_unit_test(test_sets_agree)};
+                                     cmocka_unit_test(test_sets_agree), cmocka_unit_test(test_windows_agree),
+                                     cmocka_unit_test(test_sums_and_moves_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,20 @@
+/* The scenes of the table. */
+#ifndef BENCH_SCENES_H
+#define BENCH_SCENES_H
+
+#include "hooke.h"
+
+struct bench_scene {
+  const char *name;
+  int32_t (*build)(hooke_system *system, int64_t size, double damping);
+  int64_t size;
+  double damping; /* 0: none */
+};
+
+/* NULL past the last. */
+const struct bench_scene *bench_scene(int64_t number);
+
+/* Committed, with gravity; owned by the caller. A status. */
+int32_t bench_scene_create(const struct bench_scene *scene, hooke_system **system);
+
+#endif

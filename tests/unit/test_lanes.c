@@ -1,0 +1,187 @@
+/* Systems whose springs form lanes: sums and steps have the bits of the plain order, whatever the lanes are. */
+#include "canonical.h"
+#include "check.h"
+#include "random.h"
+#include "run.h"
+
+#include "model/system.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PARTICLES = 1500, MOST_STRETCH = 700 };
+
+/* One group: stretches of springs of one offset whose lower ends ascend, with gaps between them. */
+static void add_group(struct random_source *source, hooke_system *system, int64_t particles, int group,
+                      int sparse) {
+  const int mixed = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 1) == 0;
+  const int pulls = random_whole(source, 0, 3) == 0, turned = random_whole(source, 0, 1) == 0;
+  const int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 3 : particles / 4);
+  int64_t *ends = malloc((size_t)(2 * particles) * sizeof *ends), count = 0;
+  double *kappa = new_doubles(particles), *gamma = new_doubles(particles), *rest = new_doubles(particles);
+  for (int64_t l = random_whole(source, 0, 20); l + 8 + offset < particles;
+       l += sparse ? 90 : random_whole(source, 1, random_whole(source, 0, 1) ? 12 : 300)) {
+    const int64_t length = random_whole(source, 8, sparse ? 20 : MOST_STRETCH);
+    for (int64_t k = 0; k < length && l + offset < particles; k++, l++, count++) {
+      ends[2 * count] = turned ? l + offset : l;
+      ends[2 * count + 1] = turned ? l : l + offset;
+    }
+  }
+  for (int64_t k = 0; k < count; k++) {
+    kappa[k] = k == 0 || mixed ? random_between(source, 1.0, 100.0) : kappa[0];
+    gamma[k] = !damped ? 0.0 : k == 0 || mixed ? random_between(source, 0.0, 1.0) : gamma[0];
+    rest[k] = k == 0 || mixed ? random_between(source, 0.0, 2.0) : rest[0];
+  }
+  char name[32];
+  snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
+  hooke_options *options;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
+  check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
+  check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
+  check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
+  check_ok(hooke_system_add_springs(system, name, count, ends, options));
+  hooke_options_destroy(options);
+  free(ends);
+  free(kappa);
+  free(gamma);
+  free(rest);
+}
+
+static hooke_system *build(struct random_source *source, int64_t particles, int groups, int sparse, double *q,
+                           double *v, double *gravity, double *drag) {
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  for (int64_t p = 0; p < particles; p++) {
+    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
+    for (int a = 0; a < 3; a++) {
+      q[3 * p + a] = copy ? q[3 * p + a - 3] : random_between(source, -1.0, 1.0);
+      v[3 * p + a] = random_between(source, -1.0, 1.0);
+    }
+  }
+  double *mass = new_doubles(particles);
+  for (int64_t p = 0; p < particles; p++)
+    mass[p] = random_between(source, 0.5, 2.0);
+  const int64_t pinned[] = {3, particles - 1};
+  for (int a = 0; a < 3; a++)
+    v[3 * pinned[0] + a] = v[3 * pinned[1] + a] = 0.0;
+  check_ok(hooke_system_add_particles(system, particles, q, v, particles, mass, NULL));
+  check_ok(hooke_system_pin(system, 2, pinned));
+  for (int g = 0; g < groups; g++)
+    add_group(source, system, particles, g, sparse);
+  gravity[1] = random_whole(source, 0, 1) ? -9.81 : 0.0;
+  check_ok(hooke_system_set_gravity(system, gravity));
+  *drag = random_whole(source, 0, 1) ? 0.25 : 0.0;
+  check_ok(hooke_system_set_drag(system, *drag));
+  check_ok(hooke_system_commit(system));
+  free(mass);
+  return system;
+}
+
+static int64_t lost_springs(const struct canonical *c, const double *q) {
+  int64_t lost = 0;
+  for (int64_t s = 0; s < c->spring_count; s++) {
+    const double *i = q + 3 * c->ends[2 * s], *j = q + 3 * c->ends[2 * s + 1];
+    lost += c->rest_length[s] != 0.0 && i[0] == j[0] && i[1] == j[1] && i[2] == j[2];
+  }
+  return lost;
+}
+
+static void compare_steps(const hooke_system *system, const struct canonical *c, const char *method,
+                          const double *q0, const double *v0) {
+  const int64_t size = 3 * c->particle_count;
+  const double h = 0.0009765;
+  double *q = new_doubles(size), *v = new_doubles(size);
+  memcpy(q, q0, (size_t)size * sizeof *q);
+  memcpy(v, v0, (size_t)size * sizeof *v);
+  hooke_state *state = start_state(system);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
+  int64_t lost = 0;
+  for (int k = 0; k < 3; k++) {
+    lost = lost_springs(c, q);
+    assert_int_equal(canonical_step(c, method, k * h, (k + 1) * h, h, q, v), CANONICAL_STEPPED);
+  }
+  check_ok(hooke_integrator_step(integrator, state, 3));
+  check_same_bits(size, hooke_state_position(state), q);
+  check_same_bits(size, hooke_state_velocity(state), v);
+  if (strcmp(method, "rk4") != 0) {
+    assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), lost);
+    assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 3);
+  }
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  free(q);
+  free(v);
+}
+
+static void compare(uint64_t seed, int *in_lanes, int *most) {
+  struct random_source source = {seed};
+  const int64_t particles = random_whole(&source, 70, PARTICLES);
+  double *q = new_doubles(3 * particles), *v = new_doubles(3 * particles), gravity[3] = {0.0, 0.0, 0.0}, drag;
+  double *found = new_doubles(3 * particles), *expected = new_doubles(3 * particles);
+  hooke_system *system =
+      build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
+  *in_lanes += system->lanes.count > 0;
+  if (system->lanes.count > *most) *most = system->lanes.count;
+  struct canonical c;
+  canonical_create(system, &c);
+  c.gravity = gravity[1] != 0.0 ? gravity : NULL;
+  c.drag = drag;
+  check_ok(hooke_system_acceleration(system, 0.0, q, v, found));
+  canonical_acceleration(&c, 0.0, q, v, expected);
+  check_same_bits(3 * particles, found, expected);
+  compare_steps(system, &c, "symplectic-euler", q, v);
+  compare_steps(system, &c, "forward-euler", q, v);
+  compare_steps(system, &c, "rk4", q, v);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+  free(q);
+  free(v);
+  free(found);
+  free(expected);
+}
+
+static void test_same_bits(void **unused) {
+  (void)unused;
+  int in_lanes = 0, most = 0;
+  for (uint64_t seed = 1; seed <= 200; seed++)
+    compare(seed, &in_lanes, &most);
+  assert_in_range(in_lanes, 150, 170); /* sparse ones go by runs */
+  assert_true(most > 6);               /* more than are summed at once */
+}
+
+/* Ropes side by side are two lanes, not two a rope; springs of the same offset that come again after others are a third. */
+static void test_lanes_of_ropes(void **unused) {
+  (void)unused;
+  hooke_system *system;
+  hooke_options *options;
+  double q[3 * 90];
+  int64_t ends[2 * 29];
+  const double stiffness = 10.0, mass = 1.0;
+  for (int p = 0; p < 90; p++)
+    q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 90, q, NULL, 1, &mass, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
+  for (int group = 0; group < 7; group++) {
+    const int rope = group / 2 % 3, offset = group % 2 + 1;
+    for (int k = 0; k < 30 - offset; k++)
+      ends[2 * k] = 30 * rope + k, ends[2 * k + 1] = 30 * rope + k + offset;
+    check_ok(hooke_system_add_springs(system, NULL, 30 - offset, ends, options));
+  }
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(system->lanes.count, 3);
+  assert_int_equal(system->lanes.lane[0].run_count, 3);
+  assert_int_equal(system->lanes.lane[1].run_count, 3);
+  assert_int_equal(system->lanes.lane[2].run_count, 1);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_lanes_of_ropes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
