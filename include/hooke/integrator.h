@@ -81,8 +81,8 @@ HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrato
  * that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and drives,
  * the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps; the state
  * is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.
- * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`.
- */
+ * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`,
+ * one that does not change the time of an error-controlled method, or a state with numbers that are not finite. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
 /* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
@@ -97,6 +97,12 @@ HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_stat
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
+/* States of this run that passed the check (see hooke_integrator_run()), for a look at how it went wrong: the last one
+ * always, and those before it as far as 16 MB hold them, eight in all at most. `place` 0 is the last, 1 the one before;
+ * it is copied into `state`. HOOKE_BAD_VALUE if there is none, or if the state is of another size. */
+HOOKE_API int64_t hooke_integrator_recent_count(const hooke_integrator *integrator);
+HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
+                                          hooke_state *state);
 /* What the callback that stopped the run returned; 0 if none did. */
 HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
 /* Time at which divergence was noticed [s], NaN if it was not. */

@@ -157,8 +157,8 @@ HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, in
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
 
-/* Energies [J] of the springs and of the free particles; gravity's is the sum of -m g.q. A callback has none.
- */
+/* Energies [J] of the springs and of the free particles; gravity's is the sum of -m g.q. A callback has none. Sums keep
+ * what each addition rounds off (Neumaier 1974). Beyond the largest number they are infinite. */
 HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
 HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);

@@ -88,11 +88,10 @@ static void read_counts(hooke_integrator *it) {
  * steps. */
 static int32_t step(hooke_integrator *it) {
   struct hooke_sundials *own = it->own;
-  const double duration = it->schedule.duration;
-  const double towards = it->t + (isnan(duration) ? 1.0 : duration);
   realtype reached = it->t;
   int flag = ARKStepSetStopTime(own->memory, fmin(it->goal, DBL_MAX));
-  if (flag == ARK_SUCCESS) flag = ARKStepEvolve(own->memory, towards, own->y, &reached, ARK_ONE_STEP);
+  if (flag == ARK_SUCCESS)
+    flag = ARKStepEvolve(own->memory, hooke_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
   read_counts(it);
   return hooke_sundials_advance(it, "ARKODE", flag, reached);
 }

@@ -207,7 +207,8 @@ static int32_t newton_step(hooke_integrator *it, double allowed, double *square,
   hooke_reduced_set(&own->reduced, hooke_integrator_next_time(it), h * h, h);
   const int32_t status = hooke_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
   *found = *last = 0;
-  if (status != HOOKE_OK || solution.residual > FAR_ENOUGH || downhill(it) < 0.0) return status;
+  /* a correction with numbers that are none leads nowhere */
+  if (status != HOOKE_OK || solution.residual > FAR_ENOUGH || !(downhill(it) >= 0.0)) return status;
   *last = is_last_correction(it);
   for (int64_t j = 0; *last && j < it->size; j++)
     own->v[j] += own->change[j];

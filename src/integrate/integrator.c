@@ -65,7 +65,7 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
     status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
   if (status == HOOKE_OK) status = hooke_motion_create(system, &it->motion);
-  if (status == HOOKE_OK) status = hooke_state_create(system, &it->good);
+  if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, &it->recent);
   return finish(it, status, out);
 }
 
@@ -83,7 +83,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
         HOOKE_UNSUITED, "method", "%s %s; take one of the methods that do not, such as rk4", it->method->name,
         why ? why : "steps positions and velocities apart, and x' = phi(t, x) has no such parts");
   }
-  if (status == HOOKE_OK) status = hooke_state_create_first_order(size, &it->good);
+  if (status == HOOKE_OK) status = hooke_recent_create(size, 0, &it->recent);
   if (status == HOOKE_OK) {
     it->x = hooke_new(2 * size, sizeof(double));
     it->slope = it->x ? it->x + size : NULL;
@@ -96,7 +96,8 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
   if (it->own && it->method->destroy) it->method->destroy(it);
   hooke_motion_destroy(it->motion);
-  hooke_state_destroy(it->good);
+  hooke_recent_release(&it->recent);
+  if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hooke_free(it->x);
   hooke_free(it);
@@ -120,14 +121,30 @@ int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, h
   return HOOKE_OK;
 }
 
+void hooke_integrator_set_checker(hooke_integrator *it, struct hooke_checker checker) {
+  if (it->checker.release) it->checker.release(it->checker.own);
+  it->checker = checker;
+}
+
+int64_t hooke_integrator_recent_count(const hooke_integrator *it) {
+  return it->recent.count;
+}
+
+int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
+  const hooke_state *kept = hooke_recent_state(&it->recent, place, NULL);
+  if (kept) return hooke_state_copy(kept, state);
+  return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld",
+                    (long long)place, (long long)it->recent.count);
+}
+
 int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
   return integrator->schedule.frames;
 }
 
 static int64_t memory_of(const hooke_integrator *it) {
-  const int64_t per_number = it->system ? 2 : 3; /* the last good state; x and its rate besides */
+  const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
   return (int64_t)sizeof *it + it->own_memory + (it->motion ? it->motion->memory : 0) +
-         per_number * it->size * (int64_t)sizeof(double);
+         own * (int64_t)sizeof(double) + hooke_recent_memory(&it->recent);
 }
 
 int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {

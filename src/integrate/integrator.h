@@ -4,6 +4,7 @@
 
 #include "core/option.h"
 #include "integrate/method.h"
+#include "integrate/recent.h"
 #include "model/motion.h"
 #include "model/state.h"
 
@@ -17,12 +18,20 @@ struct hooke_schedule {
   double step, duration, every; /* NaN where not given */
   int64_t steps, frame_steps;   /* fixed step: in all, and between frames */
   int64_t frames;               /* the initial one included; 0 without a duration */
+  int32_t every_given;          /* 0: `every` was chosen here */
 };
 
 struct hooke_watch {
   hooke_observer *observer;
   void *ctx;
   int64_t stride;
+};
+
+/* Whoever looks at every state that passed the check; anything but 0 stops the run. */
+struct hooke_checker {
+  int32_t (*look)(const hooke_integrator *integrator, const hooke_state *state, void *own);
+  void (*release)(void *own);
+  void *own;
 };
 
 struct hooke_integrator {
@@ -45,14 +54,18 @@ struct hooke_integrator {
   double t0, t; /* where the run began, and where it is */
   double goal;  /* the time that the run loop wants next; a method that does not interpolate stops there */
   int64_t k;    /* steps since t0 */
-  hooke_state *good;                               /* the last state that passed the check */
+  struct hooke_recent recent;                      /* the newest is the last state that passed the check */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
 
   struct hooke_watch on_frame, on_step;
+  struct hooke_checker checker;
+  int32_t thorough; /* 1: every check looks at the energy, too */
   struct hooke_counts count;
   double wall_seconds;
   int32_t stop_value;
+  int32_t outcome;   /* of the last run or steps, with its message */
+  char message[512]; /* "" after success */
 };
 
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
@@ -64,6 +77,9 @@ int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hooke_integrator_forces_without(hooke_integrator *integrator, double t,
                                         const struct hooke_force_row *left_out);
+/* Forces at the present time, and every particle moved under them by a loop of the kernel: in one pass over memory where
+ * the forces allow it. */
+int32_t hooke_integrator_move(hooke_integrator *integrator, hooke_step_loop *loop);
 /* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
 int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);
@@ -75,6 +91,18 @@ int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const doub
 /* `begin` and `store` of every fixed-step method. */
 int32_t hooke_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
+
+/* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that run did from
+ * there, to the bit. An error-controlled method starts anew. */
+int32_t hooke_integrator_run_on(hooke_integrator *integrator, const hooke_state *first, hooke_state *state);
+/* Makes `to` stand at `state`, the one after `step` steps of the run of `from`; both of one method and step. */
+int32_t hooke_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
+                               hooke_state *state);
+/* Hands the integrator a checker, which it releases; an older one is released first. */
+void hooke_integrator_set_checker(hooke_integrator *integrator, struct hooke_checker checker);
+
+/* 1 if every number is finite. */
+int32_t hooke_all_finite(int64_t count, const double *value);
 
 /* Divergence: remembers the energy at the start; then HOOKE_DIVERGED, with the last good state put back into
  * `state`, if the state has left every physical bound. Without `energy` only numbers that are not finite are

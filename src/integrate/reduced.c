@@ -187,6 +187,23 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
   return status;
 }
 
+/* The power of two that brings numbers whose squares would overflow or underflow to about 1; 1 for all others. */
+static double scale_of(int64_t size, const double *b) {
+  static const double SAFE = 1e100;
+  double most = 0.0;
+  int exponent;
+  for (int64_t k = 0; k < size; k++)
+    most = fmax(most, fabs(b[k]));
+  if (!(most > 0.0 && most < INFINITY) || (most > 1.0 / SAFE && most < SAFE)) return 1.0;
+  frexp(most, &exponent);
+  return ldexp(1.0, exponent > -1000 ? -exponent : 1000);
+}
+
+static void multiply(int64_t size, double factor, double *x) {
+  for (int64_t k = 0; k < size && factor != 1.0; k++)
+    x[k] *= factor;
+}
+
 static int32_t solve(struct hooke_reduced *reduced, int symmetric, const double *b, double tolerance,
                      double *x, struct hooke_solution *solution) {
   hooke_integrator *it = reduced->integrator;
@@ -195,10 +212,13 @@ static int32_t solve(struct hooke_reduced *reduced, int symmetric, const double 
   const struct hooke_operator a = {size, apply, reduced};
   memcpy(reduced->right, b, (size_t)size * sizeof(double));
   hooke_apply_factor(n, reduced->factor, reduced->right);
+  const double scale = scale_of(size, reduced->right);
+  multiply(size, scale, reduced->right);
   const int32_t status = (symmetric ? hooke_solve_symmetric : hooke_solve_general)(
       &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
   hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  multiply(size, 1.0 / scale, x);
   return status;
 }
 

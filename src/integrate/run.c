@@ -5,6 +5,7 @@
 #include "core/status.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { CHECK_STEPS = 1000 };
@@ -25,11 +26,28 @@ static int32_t place_driven(hooke_integrator *it, hooke_state *state) {
   return status;
 }
 
+static int32_t check_numbers(const hooke_integrator *it, const hooke_state *state) {
+  const int64_t count = (state->has_v ? 2 : 1) * state->size;
+  if (!isfinite(*state->t))
+    return hooke_fail(HOOKE_BAD_VALUE, "time", "%g is not allowed; a run starts at a finite number",
+                      *state->t);
+  for (int64_t k = 0; k < count; k++) {
+    if (isfinite(state->q[k])) continue;
+    const long long at = (long long)(k % state->size);
+    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
+    if (it->system == NULL) return hooke_fail_within(HOOKE_BAD_VALUE, "x[%lld]", at);
+    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", k < state->size ? "position" : "velocity",
+                             at / 3, at % 3);
+  }
+  return HOOKE_OK;
+}
+
 static int32_t begin(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
   it->k = 0;
   it->stop_value = 0;
   int32_t status = place_driven(it, state);
+  if (status == HOOKE_OK) status = check_numbers(it, state);
   if (status == HOOKE_OK) status = hooke_divergence_begin(it, state);
   return status == HOOKE_OK ? it->method->begin(it, state) : status;
 }
@@ -96,7 +114,7 @@ static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last,
     const int32_t stored = store(it, it->t0 + (double)it->k * it->schedule.step, state);
     if (status == HOOKE_OK) status = stored;
     const int frame = frame_steps && it->k % frame_steps == 0;
-    const int thorough = frame || it->k % CHECK_STEPS == 0;
+    const int thorough = frame || it->thorough || it->k % CHECK_STEPS == 0;
     if (status == HOOKE_OK && (thorough || it->k == last))
       status = hooke_divergence_check(it, state, thorough);
     if (status == HOOKE_OK && it->on_step.observer && it->k % it->on_step.stride == 0) {
@@ -116,8 +134,10 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state, int64_t lim
   if (status == HOOKE_OK && checked) status = hooke_divergence_check(it, state, 1);
   if (status == HOOKE_OK && watched) status = observe(it, &it->on_step, state);
   if (status == HOOKE_OK && it->k >= limit) {
-    status = hooke_fail(HOOKE_STEP_LIMIT, NULL, "the run used up max_steps = %lld at t = %.17g s",
-                        (long long)limit, it->t);
+    status = hooke_fail(
+        HOOKE_STEP_LIMIT, NULL,
+        "the run used up max_steps = %lld at t = %.17g s; give it more steps, or try looser tolerances",
+        (long long)limit, it->t);
   }
   return status;
 }
@@ -133,12 +153,20 @@ static double next_goal(const hooke_integrator *it, const struct hooke_schedule 
   return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
 }
 
+static int32_t refuse_duration(const hooke_integrator *it, const struct hooke_schedule *schedule) {
+  return hooke_fail(HOOKE_BAD_VALUE, "duration",
+                    "%.17g s does not change the time t = %.17g s; take a longer one, or a fixed-step method",
+                    schedule->duration, it->t0);
+}
+
 /* Internal steps to the end of the run; frames 1, 2, ... are asked of the step that reaches or passes them. */
 static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const struct hooke_schedule *schedule) {
   const double end = it->t0 + schedule->duration, steps = hooke_options_number(it->options, "max_steps");
   const int64_t limit = isnan(steps) ? INT64_MAX : (int64_t)steps;
-  int32_t status = HOOKE_OK;
+  int32_t status = end > it->t0 ? HOOKE_OK : refuse_duration(it, schedule);
   int64_t frame = 1;
+  while (frame < schedule->frames && next_goal(it, schedule, frame, end) <= it->t)
+    frame++;
   while (it->t < end && status == HOOKE_OK) {
     it->goal = next_goal(it, schedule, frame, end);
     status = take_adaptive_step(it, state);
@@ -154,33 +182,81 @@ static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const stru
   return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
 }
 
-int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
-  int32_t status = check_state(it, state);
-  if (status == HOOKE_OK && it->schedule.frames == 0) {
-    status = hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
-  }
-  if (status == HOOKE_OK) status = begin(it, state);
-  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK) status = observe(it, &it->on_frame, state);
-  if (status != HOOKE_OK) return status;
+/* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. */
+static int32_t end(hooke_integrator *it, hooke_state *state, int32_t status) {
+  it->outcome = status;
+  snprintf(it->message, sizeof it->message, "%s", status == HOOKE_OK ? "" : hooke_last_error());
+  const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+  if (reached && hooke_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
+    hooke_recent_keep(&it->recent, state, it->k);
+  return status;
+}
+
+static int32_t check_duration(const hooke_integrator *it) {
+  if (it->schedule.frames > 0) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+}
+
+static int32_t run_to_end(hooke_integrator *it, hooke_state *state) {
   const struct hooke_schedule *s = &it->schedule;
   if (!it->method->adaptive) return run_fixed(it, state, s->steps, s->frame_steps);
   return run_adaptive(it, state, s);
 }
 
+int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
+  int32_t status = check_state(it, state);
+  if (status == HOOKE_OK) status = check_duration(it);
+  if (status != HOOKE_OK) return status;
+  status = begin(it, state);
+  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
+  if (status == HOOKE_OK) status = observe(it, &it->on_frame, state);
+  if (status == HOOKE_OK) status = run_to_end(it, state);
+  return end(it, state, status);
+}
+
+int32_t hooke_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
+                               hooke_state *state) {
+  const int32_t status = begin(to, state);
+  to->t0 = from->t0;
+  to->k = to->recent.step[to->recent.newest] = step;
+  to->energy0 = from->energy0;
+  to->scale0 = from->scale0;
+  to->gravity0 = from->gravity0;
+  to->gravity_swing = from->gravity_swing;
+  return status;
+}
+
+int32_t hooke_integrator_run_on(hooke_integrator *it, const hooke_state *first, hooke_state *state) {
+  int32_t status = check_state(it, state);
+  if (status == HOOKE_OK) status = check_state(it, first);
+  if (status == HOOKE_OK) status = check_duration(it);
+  if (status != HOOKE_OK) return status;
+  hooke_state *start = NULL;
+  status = hooke_state_create_sized(first->size, first->has_v, &start);
+  if (status == HOOKE_OK) status = hooke_state_copy(first, start);
+  if (status == HOOKE_OK) status = begin(it, start);
+  if (status == HOOKE_OK) {
+    const int fixed = !it->method->adaptive;
+    const int64_t step = fixed ? (int64_t)llround((*state->t - *start->t) / it->schedule.step) : 0;
+    const hooke_integrator begun = *it;
+    status = hooke_integrator_place(it, &begun, step, state);
+    if (it->recent.first) hooke_state_copy(start, it->recent.first);
+  }
+  hooke_state_destroy(start);
+  if (status == HOOKE_OK) status = run_to_end(it, state);
+  return end(it, state, status);
+}
+
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
 static int goes_on(const hooke_integrator *it, const hooke_state *state) {
   const size_t bytes = (size_t)(1 + (state->has_v ? 2 : 1) * state->size) * sizeof(double);
-  return it->k > 0 && isnan(it->diverged_at) && memcmp(it->good->t, state->t, bytes) == 0;
+  const hooke_state *last = hooke_recent_state(&it->recent, 0, NULL);
+  return it->k > 0 && (it->outcome == HOOKE_OK || it->outcome == HOOKE_STOPPED) && last &&
+         memcmp(last->t, state->t, bytes) == 0;
 }
 
-int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
-  int32_t status = check_state(it, state);
-  if (status == HOOKE_OK && steps < 0) {
-    status = hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
-  }
-  if (status == HOOKE_OK && !goes_on(it, state)) status = begin(it, state);
-  if (status != HOOKE_OK) return status;
+static int32_t take_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
+  int32_t status = HOOKE_OK;
   if (!it->method->adaptive) return run_fixed(it, state, it->k + steps, 0);
   it->goal = INFINITY;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
@@ -188,5 +264,16 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
     if (status == HOOKE_OK) status = report_step(it, state, INT64_MAX);
   }
   if (status == HOOKE_OK) status = store(it, it->t, state);
-  return status == HOOKE_OK ? hooke_divergence_check(it, state, 0) : status;
+  return status == HOOKE_OK ? hooke_divergence_check(it, state, it->thorough) : status;
+}
+
+int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
+  int32_t status = check_state(it, state);
+  if (status == HOOKE_OK && steps < 0) {
+    status = hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
+  }
+  if (status != HOOKE_OK) return status;
+  if (!goes_on(it, state)) status = begin(it, state);
+  if (status == HOOKE_OK) status = take_steps(it, state, steps);
+  return end(it, state, status);
 }

@@ -64,7 +64,8 @@ static const struct hooke_option_row run_rows[] = {
      .high = 12,
      .whole = 1,
      .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
-            "arkode-esdirk (3 to 5); the highest if not given"},
+            "arkode-esdirk (3 to 5); if not given the highest, which cvode-bdf at rtol >= 1e-6 lowers to 2 "
+            "where stiff springs are weakly damped"},
     {.name = "max_steps",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,
@@ -144,6 +145,7 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
   *s = (struct hooke_schedule){.step = step,
                                .duration = hooke_options_number(options, "duration"),
                                .every = hooke_options_number(options, "every")};
+  s->every_given = !isnan(s->every);
   if (!method->adaptive) {
     const int32_t status = read_fixed(s, step);
     if (status != HOOKE_OK) return status;

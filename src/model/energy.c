@@ -1,18 +1,19 @@
 /* Energies, momentum and heat of a state: sums over the force table. */
 #include "model/force.h"
 
+#include "core/sum.h"
+
 #include <math.h>
-#include <string.h>
 
 double hooke_system_kinetic_energy(const hooke_system *system, const double *v) {
   if (!system->committed) return NAN;
-  double sum = 0.0;
+  struct hooke_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    sum += 0.5 * system->mass[p] *
-           ((v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
+    const double square = (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];
+    hooke_sum_add(&sum, 0.5 * system->mass[p] * square);
   }
-  return sum;
+  return hooke_sum_value(&sum);
 }
 
 static double energy_of(const hooke_system *system, const struct hooke_force_row *row, const double *q) {
@@ -51,22 +52,26 @@ double hooke_system_dissipated_power(const hooke_system *system, const double *q
 }
 
 void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum) {
-  memset(momentum, 0, 3 * sizeof(double));
+  struct hooke_sum sum[3] = {{0.0, 0.0}};
   for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
     if (system->held[p]) continue;
     for (int a = 0; a < 3; a++)
-      momentum[a] += system->mass[p] * v[3 * p + a];
+      hooke_sum_add(&sum[a], system->mass[p] * v[3 * p + a]);
   }
+  for (int a = 0; a < 3; a++)
+    momentum[a] = hooke_sum_value(&sum[a]);
 }
 
 void hooke_system_angular_momentum(const hooke_system *system, const double *q, const double *v,
                                    double *angular_momentum) {
-  memset(angular_momentum, 0, 3 * sizeof(double));
+  struct hooke_sum sum[3] = {{0.0, 0.0}};
   for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
     if (system->held[p]) continue;
     const double *x = q + 3 * p, *u = v + 3 * p, m = system->mass[p];
-    angular_momentum[0] += m * (x[1] * u[2] - x[2] * u[1]);
-    angular_momentum[1] += m * (x[2] * u[0] - x[0] * u[2]);
-    angular_momentum[2] += m * (x[0] * u[1] - x[1] * u[0]);
+    hooke_sum_add(&sum[0], m * (x[1] * u[2] - x[2] * u[1]));
+    hooke_sum_add(&sum[1], m * (x[2] * u[0] - x[0] * u[2]));
+    hooke_sum_add(&sum[2], m * (x[0] * u[1] - x[1] * u[0]));
   }
+  for (int a = 0; a < 3; a++)
+    angular_momentum[a] = hooke_sum_value(&sum[a]);
 }

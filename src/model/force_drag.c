@@ -1,6 +1,8 @@
 /* Ether drag f = -c v on every free particle. It brakes free fall too; spring damping does not. */
 #include "model/force.h"
 
+#include "core/sum.h"
+
 static int32_t present(const hooke_system *system) {
   return system->drag > 0.0;
 }
@@ -28,12 +30,12 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
   (void)q;
-  double sum = 0.0;
+  struct hooke_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    sum += (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];
+    hooke_sum_add(&sum, (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
   }
-  return system->drag * sum;
+  return system->drag * hooke_sum_value(&sum);
 }
 
 static int32_t add_product(const hooke_system *system, const struct hooke_point *point, double *out) {

@@ -2,18 +2,20 @@
  * here. */
 #include "model/force.h"
 
+#include "core/sum.h"
+
 static int32_t present(const hooke_system *system) {
   return system->has_gravity;
 }
 
 static double energy(const hooke_system *system, const double *q) {
   const double *g = system->gravity;
-  double sum = 0.0;
+  struct hooke_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    sum -= system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]);
+    hooke_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
-  return sum;
+  return hooke_sum_value(&sum);
 }
 
 const struct hooke_force_row hooke_force_gravity = {.name = "gravity", .present = present, .energy = energy};

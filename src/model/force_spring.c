@@ -2,6 +2,8 @@
  *   df/dx = -(u (kappa u + gamma P v / r)^T + (T/r) P)     df/dv = -gamma u u^T */
 #include "model/force.h"
 
+#include "core/sum.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -9,8 +11,19 @@ static int32_t present(const hooke_system *system) {
   return system->springs.count > 0;
 }
 
+/* Forces are zero before springs are added, so sums are the forces. */
+static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
+  struct hooke_motion *motion = ctx;
+  for (int a = 0; a < 3; a++)
+    memcpy(motion->f[a] + from, f[a], (size_t)count * sizeof(double));
+}
+
 static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
   (void)t;
+  if (system->lanes.count > 0) {
+    motion->coincident = hooke_lanes_pass(&system->lanes, motion, keep_tile, motion);
+    return HOOKE_OK;
+  }
   struct hooke_fields fields;
   for (int a = 0; a < 3; a++) {
     fields.q[a] = motion->q[a];
@@ -27,7 +40,7 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  double sum = 0.0;
+  struct hooke_sum sum = {0.0, 0.0};
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     const struct hooke_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
@@ -35,24 +48,24 @@ static double energy(const hooke_system *system, const double *q) {
       struct hooke_stretch s;
       hooke_spring_stretch(&spring, q, NULL, &s);
       if (spring.pull_only && s.length <= spring.rest_length) continue;
-      sum += 0.5 * s.elastic * (s.length - spring.rest_length);
+      hooke_sum_add(&sum, 0.5 * s.elastic * (s.length - spring.rest_length));
     }
   }
-  return sum;
+  return hooke_sum_value(&sum);
 }
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
-  double sum = 0.0;
+  struct hooke_sum sum = {0.0, 0.0};
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     const struct hooke_run *run = &system->springs.run[r];
     for (int64_t k = 0; (run->shape & HOOKE_RUN_DAMPED) && k < run->count; k++) {
       const struct hooke_spring spring = hooke_run_spring(run, k);
       struct hooke_stretch s;
       hooke_spring_stretch(&spring, q, v, &s);
-      sum += (s.tension - s.elastic) * s.rate;
+      hooke_sum_add(&sum, (s.tension - s.elastic) * s.rate);
     }
   }
-  return sum;
+  return hooke_sum_value(&sum);
 }
 
 /* The two numbers and two vectors that df/dx = -(u c^T + b P) and df/dv = -gamma u u^T are made of. */

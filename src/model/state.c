@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-static int32_t create(int64_t size, int32_t has_v, hooke_state **out) {
+int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
   hooke_state *state = hooke_new(1, sizeof *state);
   double *block = hooke_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
   if (state == NULL || block == NULL) {
@@ -42,7 +42,7 @@ static int32_t place_driven(const hooke_system *system, hooke_state *state) {
 int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
   hooke_state *state = NULL;
   int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = create(3 * system->particle_count, 1, &state);
+  if (status == HOOKE_OK) status = hooke_state_create_sized(3 * system->particle_count, 1, &state);
   if (status != HOOKE_OK) return status;
   if (system->particle_count > 0) {
     const size_t bytes = (size_t)state->size * sizeof(double);
@@ -60,7 +60,7 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
 int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
   if (size < 1)
     return hooke_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
-  return create(size, 0, state);
+  return hooke_state_create_sized(size, 0, state);
 }
 
 void hooke_state_destroy(hooke_state *state) {

@@ -10,4 +10,7 @@ struct hooke_state {
   double *t, *q, *v; /* one block; v is NULL for a first-order problem */
 };
 
+/* A state of zeros with `size` numbers in q, and as many in v if it has one. HOOKE_NO_MEMORY. */
+int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **state);
+
 #endif

@@ -10,7 +10,8 @@
 
 /* The rule, on the canonical steps: the first check (every `stride` steps and every 1000) at which a number is not
  * finite or E - E(0) > 100 (T(0) + U_springs(0) + the largest |U_gravity - U_gravity(0)| so far + M g^2 h^2 / 2), the
- * last being what gravity gives free particles at rest in one step. 0 if there is none. */
+ * last being what gravity gives free particles at rest in one step. What rounding may give them is left out: it is nothing
+ * here. 0 if there is none. */
 struct verdict {
   int64_t step, good; /* where it shows, and the check before */
 };

@@ -136,6 +136,30 @@ static void one_step_is_the_formula(void **unused) {
   }
 }
 
+/* A scene that has come to rest: velocities whose squares are 0 are damped like any other. */
+static void hardly_any_velocity(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  small_springs(system, 1, ends,
+                (struct springs){.law = "length", .stiffness = 1.0, .damping = gamma, .rest_length = 1.0});
+  check_ok(hooke_system_commit(system));
+  const double speeds[] = {1e-3, 1e-99, 1e-101, 1e-150, 1e-200, 1e-300};
+  for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; k++) {
+    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = h});
+    hooke_state *state = start_state(system);
+    hooke_state_velocity(state)[3] = speeds[k];
+    check_ok(hooke_integrator_step(integrator, state, 1));
+    const double half = 1.0 - h / 2.0 * gamma, stretch = k == 0 ? h * half : 0.0; /* else it rounds to none */
+    const double expected = (half - h / 2.0 * stretch) / (1.0 + h / 2.0 * gamma);
+    check_close(hooke_state_velocity(state)[3] / speeds[k], expected, 1e-12);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
 static int32_t run_long(const hooke_system *system, double step, double *reach) {
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
   hooke_state *state = start_state(system);
@@ -208,7 +232,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(force_evaluations),       cmocka_unit_test(callback_sees_the_velocity_half_way),
       cmocka_unit_test(one_step_is_the_formula), cmocka_unit_test(damping_leaves_the_limit),
-      cmocka_unit_test(energy_stays_bounded),
+      cmocka_unit_test(energy_stays_bounded),    cmocka_unit_test(hardly_any_velocity),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,91 @@
+#include "oscillator.h"
+
+#include <math.h>
+#include <string.h>
+
+void oscillator_solution(long double zeta, long double tau, const long double start[2], long double end[2]) {
+  const long double x = start[0], v = start[1];
+  if (zeta < 1.0L) {
+    const long double w = sqrtl((1.0L - zeta) * (1.0L + zeta)), decay = expl(-zeta * tau);
+    const long double c = cosl(w * tau), s = sinl(w * tau) / w;
+    end[0] = decay * (x * (c + zeta * s) + v * s);
+    end[1] = decay * (v * (c - zeta * s) - x * s);
+  } else if (zeta == 1.0L) {
+    const long double decay = expl(-tau);
+    end[0] = decay * (x + (x + v) * tau);
+    end[1] = decay * (v - (x + v) * tau);
+  } else {
+    /* rates of both decays; the slow one without cancellation */
+    const long double root = sqrtl((zeta - 1.0L) * (zeta + 1.0L)), fast = -(zeta + root), slow = 1.0L / fast;
+    const long double b = (v - slow * x) / (fast - slow), a = x - b;
+    end[0] = a * expl(slow * tau) + b * expl(fast * tau);
+    end[1] = a * slow * expl(slow * tau) + b * fast * expl(fast * tau);
+  }
+}
+
+static void multiply(const long double a[4], const long double b[4], long double out[4]) {
+  const long double product[4] = {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
+                                  a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3]};
+  memcpy(out, product, sizeof product);
+}
+
+static void apply(const long double a[4], const long double x[2], long double out[2]) {
+  const long double product[2] = {a[0] * x[0] + a[1] * x[1], a[2] * x[0] + a[3] * x[1]};
+  memcpy(out, product, sizeof product);
+}
+
+/* R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 of z = h A. */
+static void runge_kutta(long double zeta, long double h, long double m[4]) {
+  const long double z[4] = {0.0L, h, -h, -2.0L * zeta * h};
+  long double sum[4] = {1.0L, 0.0L, 0.0L, 1.0L};
+  for (int k = 4; k >= 1; k--) { /* Horner */
+    multiply(z, sum, m);
+    for (int j = 0; j < 4; j++)
+      sum[j] = m[j] / (long double)k + (j % 3 == 0 ? 1.0L : 0.0L);
+  }
+  memcpy(m, sum, sizeof sum);
+}
+
+int32_t oscillator_step(const char *method, long double zeta, long double h, long double m[4]) {
+  const long double c = 2.0L * zeta;
+  if (strcmp(method, "forward-euler") == 0) {
+    memcpy(m, (long double[4]){1.0L, h, -h, 1.0L - c * h}, 4 * sizeof *m);
+  } else if (strcmp(method, "symplectic-euler") == 0) {
+    memcpy(m, (long double[4]){1.0L - h * h, h * (1.0L - c * h), -h, 1.0L - c * h}, 4 * sizeof *m);
+  } else if (strcmp(method, "verlet") == 0) {
+    const long double kick[4] = {1.0L, 0.0L, -h / 2.0L, 1.0L - c * h / 2.0L},
+                      drift[4] = {1.0L, h, 0.0L, 1.0L};
+    const long double brake = 1.0L + c * h / 2.0L, last[4] = {1.0L, 0.0L, -h / 2.0L / brake, 1.0L / brake};
+    multiply(drift, kick, m);
+    multiply(last, m, m);
+  } else if (strcmp(method, "rk4") == 0) {
+    runge_kutta(zeta, h, m);
+  } else if (strcmp(method, "backward-euler") == 0) {
+    const long double d = 1.0L / (1.0L + c * h + h * h);
+    memcpy(m, (long double[4]){(1.0L + c * h) * d, h * d, -h * d, d}, 4 * sizeof *m);
+  } else {
+    return 0;
+  }
+  return 1;
+}
+
+void oscillator_power(const long double matrix[4], int64_t count, const long double start[2],
+                      long double end[2]) {
+  long double power[4], x[2] = {start[0], start[1]};
+  memcpy(power, matrix, sizeof power);
+  for (; count > 0; count /= 2) {
+    if (count % 2 == 1) apply(power, x, x);
+    multiply(power, power, power);
+  }
+  memcpy(end, x, sizeof x);
+}
+
+int64_t oscillator_diverges(const long double matrix[4], int64_t count, const long double start[2]) {
+  long double x[2] = {start[0], start[1]};
+  const long double first = x[0] * x[0] + x[1] * x[1];
+  for (int64_t k = 1; k <= count; k++) {
+    apply(matrix, x, x);
+    if (!(x[0] * x[0] + x[1] * x[1] <= 101.0L * first)) return k;
+  }
+  return 0;
+}
