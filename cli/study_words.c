@@ -26,22 +26,17 @@ static void print_fact(const char *label, const char *format, ...) {
 
 /* ---- the reference ---- */
 
-static void print_trust(const hooke_study *study, double agreement) {
-  double until = hooke_study_figure(study, "trusted_until");
-  double growth = hooke_study_figure(study, "growth");
-  double duration = hooke_study_figure(study, "duration");
-  char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
-  hooke_format_number(until, time);
-  hooke_format_number(duration, all);
-  int32_t whole = until >= duration * (1.0 - 1e-9);
-  print_fact("agreement",
-             "%.3g m%s: no error below that means anything; those within ten times of it are marked *",
-             agreement, whole ? "" : ", until they part");
-  print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
-  if (!isnan(growth))
-    print_fact("growth", "a small displacement of the start grows at most %.3g times", growth);
-  if (whole) return;
-  if (growth > CHAOTIC) {
+/* Why errors are not judged over the whole run. */
+static void print_why_not_all(const hooke_study *study, const char *time) {
+  const double until = hooke_study_figure(study, "trusted_until");
+  const int32_t spent = hooke_study_figure(study, "budget_spent") == 1.0;
+  if (until >= hooke_study_figure(study, "checked_until")) {
+    print_fact(
+        "WARNING",
+        "the budget left no time to check the reference beyond %s s. Errors and energy drift are those "
+        "up to %s s; a larger --budget or a shorter --duration checks all of it.",
+        time, time);
+  } else if (hooke_study_figure(study, "growth") > CHAOTIC) {
     print_fact(
         "WARNING",
         "this motion is chaotic: small differences grow so much that the two integrators part after %s s, "
@@ -51,10 +46,27 @@ static void print_trust(const hooke_study *study, double agreement) {
   } else {
     print_fact("WARNING",
                "the two integrators part after %s s, although differences do not grow much: their tolerances "
-               "do not reach "
-               "the wanted digits%s. Errors and energy drift are those up to %s s.",
-               time, hooke_study_figure(study, "budget_spent") == 1.0 ? "; a larger --budget may" : "", time);
+               "do not reach the wanted digits%s. Errors and energy drift are those up to %s s.",
+               time, spent ? "; a larger --budget may" : "", time);
   }
+}
+
+static void print_trust(const hooke_study *study, double agreement) {
+  double until = hooke_study_figure(study, "trusted_until");
+  double growth = hooke_study_figure(study, "growth");
+  double duration = hooke_study_figure(study, "duration");
+  char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
+  hooke_format_number(until, time);
+  hooke_format_number(duration, all);
+  int32_t whole = until >= duration * (1.0 - 1e-9);
+  int32_t parted = until < hooke_study_figure(study, "checked_until");
+  print_fact("agreement",
+             "%.3g m%s: no error below that means anything; those within ten times of it are marked *",
+             agreement, parted ? ", until they part" : "");
+  print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
+  if (!isnan(growth))
+    print_fact("growth", "a small displacement of the start grows at most %.3g times", growth);
+  if (!whole) print_why_not_all(study, time);
 }
 
 static void print_reference(const hooke_study *study) {
@@ -155,7 +167,7 @@ void hooke_study_results_print(const struct hooke_study_results *results) {
     print_legend(&rows);
   }
   if (hooke_study_figure(results->study, "budget_spent") == 1.0)
-    printf("the budget is spent: rows that it left no time for are missing\n");
+    printf("the budget is spent: what it left no time for is missing\n");
   if (rows.count > 0) print_orders(results, width);
   if (hooke_study_results_recommend(results)) {
     print_recommendation(results);

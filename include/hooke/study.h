@@ -29,8 +29,10 @@ HOOKE_API void hooke_study_destroy(hooke_study *study);
 HOOKE_API void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx);
 
 /* Makes the reference, runs the ladders, fits the orders and, if `want` is set, recommends. Runs that diverge stay as
- * rows. When the budget is spent, rows not begun are left out and hooke_study_figure("budget_spent") is 1. HOOKE_STOPPED
- * keeps what is done so far. HOOKE_BAD_VALUE without a duration. */
+ * rows. Two fifths of a budget, and at least half a second, are for the reference: what they leave no time to check is not
+ * trusted. When the budget is spent, rows not begun or not finished are left out and hooke_study_figure("budget_spent") is
+ * 1. HOOKE_STOPPED keeps what is done so far. HOOKE_BAD_VALUE without a duration, or if the reference ran out of budget
+ * before it had a frame to check. */
 HOOKE_API int32_t hooke_study_run(hooke_study *study);
 
 /* ---- the reference ---- */
@@ -40,7 +42,8 @@ HOOKE_API const char *hooke_study_reference(const hooke_study *study, const char
 
 /* "agreement": twice the largest root mean square distance between the two over the frames that are trusted [m]: they may
  * be off in the same direction. No error below it means anything, and none within ten times of it much. "trusted_until":
- * time up to which they agree to the wanted digits [s]; errors are judged up to there. "growth": the factor by which a
+ * time up to which they agree to the wanted digits [s]; errors are judged up to there. "checked_until": time up to which
+ * they were compared [s]; before the end where the budget was spent. "growth": the factor by which a
  * small displacement of the start grows, at most. "duration" [s], "frames" (those that are judged), "budget_spent" (0 or
  * 1). NaN for another word. */
 HOOKE_API double hooke_study_figure(const hooke_study *study, const char *what);
@@ -71,7 +74,8 @@ HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const cha
 /* Finds the cheapest step or tolerance whose error is at most `want` [m] by running it; may be called again with another
  * want. HOOKE_OK also when nothing meets it; hooke_study_recommendation_text("note") then says what is in the way. */
 HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
-/* "method" (that of the closest row if nothing meets the want), "note" ("" if the want is met); NULL before any. */
+/* "method" (that of the closest run if nothing meets the want; NULL if no run finished), "note" ("" if the want is met);
+ * NULL before any. */
 HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
 /* "met" (0 or 1), "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"; NaN where it does not apply. */
 HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);

@@ -53,6 +53,12 @@ int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double 
     hooke_study_on_progress(study, progress, ctx);
     status = hooke_study_run(study);
   }
+  /* judged for less than that time, a run may be off by less */
+  const double judged = study ? hooke_study_figure(study, "trusted_until") / study->duration : 1.0;
+  if (status == HOOKE_OK && judged < 1.0) {
+    share *= judged;
+    status = hooke_study_recommend(study, want * share);
+  }
   if (status == HOOKE_OK && hooke_study_recommendation_number(study, "met") == 1.0) {
     status = take_over(study, run);
   } else if (status == HOOKE_OK) {

@@ -1,7 +1,8 @@
 /* The recommendation: the cheapest step or tolerance whose error is at most what is wanted. Predicted on the measured
  * curves, then searched for by runs, so that what is recommended has been seen to hold. */
-#include "measure/study.h"
+#include "measure/study_search.h"
 
+#include "core/clock.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -9,132 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_METHODS = 3, MOST_RUNS = 8 };
-static const double CLOSE_STEP = 1.1,
-                    CLOSE_TOLERANCE = 1.6; /* a search ends when its bracket is this narrow */
-static const double FARTHEST = 64.0;       /* beyond the finest row, times in step */
+/* Those whose times are this close are measured again, by turns. */
+enum { MOST_ROUNDS = 7 };
+static const double CONTENDS = 1.6, RACE_SECONDS = 0.5;
 
-/* What is known of a method: the coarsest value that meets the want, and the finest coarser one that does not. */
-struct candidate {
-  int32_t method;
-  double meets, fails; /* NaN: none */
-  double error_at_fails, error_at_meets;
-  double cost;                 /* predicted wall time of the best value [s] */
-  struct hooke_study_row best; /* the row at `meets`, its trial owned if `owned` */
-  int32_t owned;
-};
-
-static double floor_of(const hooke_study *study) {
-  return study->reference.agreement;
-}
-
-/* The reference is only known to its agreement, so that much is added to every error. */
-static int32_t meets(const hooke_study *study, const struct hooke_trial *trial, double want) {
-  return trial->error + floor_of(study) <= want;
-}
-
-static struct candidate look_up(const hooke_study *study, int32_t method, double want) {
-  struct candidate c = {.method = method, .meets = NAN, .fails = NAN, .cost = INFINITY};
-  for (int64_t k = study->row_count - 1; k >= 0; k--) {
-    const struct hooke_study_row *row = &study->row[k];
-    if (row->method != method) continue;
-    if (meets(study, &row->trial, want)) {
-      c.meets = row->value;
-      c.error_at_meets = row->trial.error;
-      c.best = *row;
-      c.fails = NAN;
-    } else if (isnan(c.fails)) {
-      c.fails = row->value;
-      c.error_at_fails = row->trial.error;
-      if (isnan(c.meets)) c.best = *row;
-    }
-  }
-  return c;
-}
-
-/* Where the straight line between two points in logarithms has the error that is wanted, with a little to spare. */
-static double interpolate(const struct candidate *c, double want) {
-  const double goal = log(0.9 * want), high = log(c->error_at_fails), low = log(c->error_at_meets);
-  if (!(c->error_at_fails > c->error_at_meets) || !(c->error_at_meets > 0.0))
-    return sqrt(c->meets * c->fails);
-  const double share = fmin(0.95, fmax(0.05, (goal - low) / (high - low)));
-  return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
-}
-
-/* Wall time in proportion to the steps; an error-controlled method's goes as rtol to the -1/6 or so. */
-static void predict_cost(const hooke_study *study, struct candidate *c, double want) {
-  const double power = hooke_study_is_adaptive(study, c->method) ? 1.0 / 6.0 : 1.0;
-  const double seconds = c->best.trial.wall_seconds;
-  if (!isnan(c->meets)) {
-    const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c, want);
-    c->cost = seconds * pow(c->meets / value, power);
-  } else if (!isnan(c->fails) && c->error_at_fails > 0.0 && want > floor_of(study)) {
-    c->cost = seconds * fmin(FARTHEST, c->error_at_fails / want);
-  }
-}
-
-/* ---- searching by runs ---- */
-
-static int32_t try_value(hooke_study *study, struct candidate *c, double value, double want) {
-  struct hooke_study_row row;
-  const int32_t status = hooke_study_measure(study, c->method, value, &row);
-  if (status != HOOKE_OK || row.trial.status == NULL) {
-    hooke_trial_release(&row.trial);
-    return status;
-  }
-  if (meets(study, &row.trial, want)) {
-    if (c->owned) hooke_trial_release(&c->best.trial);
-    c->best = row;
-    c->owned = 1;
-    c->meets = row.value;
-    c->error_at_meets = row.trial.error;
-  } else {
-    c->fails = row.value;
-    c->error_at_fails = row.trial.error;
-    hooke_trial_release(&row.trial);
-  }
-  return HOOKE_OK;
-}
-
-/* Beyond the finest row, by the slope of the order that the method has; NaN when it leads too far. */
-static double extrapolate(const hooke_study *study, const struct candidate *c, double want, double finest) {
-  const double order = study->order[c->method].order;
-  const double slope = isnan(order) || order < 0.5 ? 1.0 : order;
-  const double value = c->fails * pow(0.8 * want / c->error_at_fails, 1.0 / slope);
-  return value >= finest / FARTHEST && value < c->fails ? value : NAN;
-}
-
-static double next_value(const hooke_study *study, const struct candidate *c, double want, double finest,
-                         int32_t run) {
-  const int32_t adaptive = hooke_study_is_adaptive(study, c->method);
-  double value;
-  if (isnan(c->meets))
-    value = extrapolate(study, c, want, finest);
-  else if (isnan(c->fails))
-    return NAN;
-  else if (c->fails / c->meets <= (adaptive ? CLOSE_TOLERANCE : CLOSE_STEP))
-    return NAN;
-  else
-    value = run == 0 && !isnan(c->error_at_fails) ? interpolate(c, want) : sqrt(c->meets * c->fails);
-  if (isnan(value) || adaptive) return value;
-  value = hooke_study_fitting_step(study, value);
-  return value < c->fails && !(value <= c->meets) ? value : NAN;
-}
-
-static int32_t search(hooke_study *study, struct candidate *c, double want) {
-  const double finest = c->best.value;
-  int32_t status = HOOKE_OK;
-  for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
-    const double value = next_value(study, c, want, finest, run);
-    if (isnan(value)) break;
-    status = try_value(study, c, value, want);
-  }
-  return status;
-}
-
-/* ---- choosing ---- */
-
-static void keep(hooke_study *study, const struct candidate *c, int32_t met) {
+static void keep(hooke_study *study, const struct hooke_study_candidate *c, int32_t met) {
   struct hooke_study_recommendation *r = &study->recommendation;
   r->met = met;
   r->method = c->method;
@@ -145,40 +25,150 @@ static void keep(hooke_study *study, const struct candidate *c, int32_t met) {
   r->force_evaluations = c->best.trial.force_evaluations;
 }
 
-static void keep_closest(hooke_study *study, double want) {
+/* ---- when nothing meets the want ---- */
+
+static void explain_no_rows(hooke_study *study) {
   struct hooke_study_recommendation *r = &study->recommendation;
-  const struct hooke_study_row *closest = NULL;
+  const struct hooke_study_row *finest = NULL;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hooke_study_row *row = &study->row[k];
-    if (row->trial.error >= 0.0 && (closest == NULL || row->trial.error < closest->trial.error))
-      closest = row;
+    if (finest == NULL || row->value < finest->value) finest = row;
   }
-  if (closest) {
-    const struct candidate c = {.method = closest->method, .best = *closest};
-    keep(study, &c, 0);
-  }
-  if (want <= floor_of(study)) {
-    snprintf(r->note, sizeof r->note,
-             "%.3g m is below %.3g m, to which the reference itself is known; want more than that", want,
-             floor_of(study));
-  } else if (closest) {
-    snprintf(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", want,
-             closest->trial.error,
-             study->budget_spent ? "a larger budget would try finer steps"
-                                 : "more points would try finer steps");
+  if (finest == NULL && study->budget_spent) {
+    snprintf(r->note, sizeof r->note, "the budget of %g s ended before the first run did; give a larger one",
+             study->budget);
+  } else if (finest == NULL) {
+    snprintf(r->note, sizeof r->note, "there are no runs to choose from");
   } else {
-    snprintf(r->note, sizeof r->note, "no run finished: every step tried is too large");
+    const int adaptive = hooke_study_is_adaptive(study, finest->method);
+    snprintf(
+        r->note, sizeof r->note,
+        "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
+        study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
+        adaptive ? "" : " s");
   }
 }
 
-static void sort_by_cost(struct candidate *c, int32_t count) {
+static void keep_closest(hooke_study *study, const struct hooke_study_candidate *candidates) {
+  struct hooke_study_recommendation *r = &study->recommendation;
+  const struct hooke_study_candidate *closest = NULL;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    const double error = candidates[m].best.trial.error;
+    if (error >= 0.0 && (closest == NULL || error < closest->best.trial.error)) closest = &candidates[m];
+  }
+  if (closest == NULL) {
+    explain_no_rows(study);
+    return;
+  }
+  keep(study, closest, 0);
+  if (r->want <= study->reference.agreement) {
+    snprintf(r->note, sizeof r->note,
+             "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
+             study->reference.agreement);
+  } else {
+    snprintf(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
+             r->error,
+             study->budget_spent ? "a larger budget would try finer steps"
+                                 : "finer steps or tighter tolerances, or other methods, might");
+  }
+}
+
+/* ---- choosing ---- */
+
+static void sort_by_prediction(struct hooke_study_candidate *c, int32_t count) {
   for (int32_t k = 1; k < count; k++) {
-    for (int32_t i = k; i > 0 && c[i].cost < c[i - 1].cost; i--) {
-      const struct candidate swap = c[i];
+    for (int32_t i = k; i > 0 && c[i].predicted < c[i - 1].predicted; i--) {
+      const struct hooke_study_candidate swap = c[i];
       c[i] = c[i - 1];
       c[i - 1] = swap;
     }
   }
+}
+
+static struct hooke_study_candidate *cheapest_of(struct hooke_study_candidate *c, int32_t count) {
+  struct hooke_study_candidate *best = NULL;
+  for (int32_t k = 0; k < count; k++) {
+    if (isnan(c[k].meets)) continue;
+    if (best == NULL || hooke_study_candidate_cost(&c[k]) < hooke_study_candidate_cost(best)) best = &c[k];
+  }
+  return best;
+}
+
+/* One more run, for its time. */
+static int32_t run_again(hooke_study *study, struct hooke_study_candidate *c, double *seconds) {
+  const struct hooke_listener listener = {.on_progress = hooke_study_tell_row, .ctx = study};
+  struct hooke_study_row again;
+  study->late = 0;
+  study->under_way = study->method[c->method];
+  const int32_t status = hooke_study_run_row(study, c->method, c->best.value, &listener, &again);
+  if (status == HOOKE_OK) *seconds = fmin(*seconds, again.trial.wall_seconds);
+  hooke_trial_release(&again.trial);
+  return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
+}
+
+/* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once more. */
+static int32_t race(hooke_study *study, struct hooke_study_candidate *c,
+                    struct hooke_study_candidate **best) {
+  double seconds[HOOKE_STUDY_METHODS], most;
+  int32_t status = HOOKE_OK, contenders = 0;
+  *best = cheapest_of(c, study->method_count);
+  if (*best == NULL) return HOOKE_OK;
+  most = CONTENDS * hooke_study_candidate_cost(*best);
+  for (int32_t k = 0; k < study->method_count; k++) {
+    seconds[k] = !isnan(c[k].meets) && hooke_study_candidate_cost(&c[k]) <= most ? INFINITY : NAN;
+    contenders += isinf(seconds[k]) != 0;
+  }
+  const double begun = hooke_clock_seconds();
+  for (int32_t round = 0; contenders > 1 && round < MOST_ROUNDS && status == HOOKE_OK; round++) {
+    if (hooke_clock_seconds() > fmin(begun + RACE_SECONDS, study->deadline)) break;
+    for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++)
+      if (!isnan(seconds[k])) status = run_again(study, &c[k], &seconds[k]);
+  }
+  for (int32_t k = 0; k < study->method_count; k++) {
+    double *least = &c[k].best.trial.wall_seconds;
+    *least = fmin(*least, seconds[k]); /* fmin leaves a NaN out */
+    if (seconds[k] < seconds[*best - c]) *best = &c[k];
+  }
+  return status;
+}
+
+/* The most promising first; one that cannot become cheaper than what was found is left alone. */
+static int32_t search_all(hooke_study *study, struct hooke_study_candidate *c) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
+    const struct hooke_study_candidate *best = cheapest_of(c, k);
+    status = hooke_study_candidate_search(study, &c[k], best ? hooke_study_candidate_cost(best) : INFINITY);
+  }
+  return status;
+}
+
+int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
+  struct hooke_study_candidate c[HOOKE_STUDY_METHODS];
+  for (int32_t m = 0; m < study->method_count; m++)
+    hooke_study_candidate_create(study, m, want, &c[m]);
+  sort_by_prediction(c, study->method_count);
+  study->recommendation = (struct hooke_study_recommendation){.made = 1,
+                                                              .method = -1,
+                                                              .want = want,
+                                                              .value = NAN,
+                                                              .atol = NAN,
+                                                              .error = NAN,
+                                                              .wall_seconds = NAN,
+                                                              .force_evaluations = NAN};
+  study->work_ahead = 0.0;
+  struct hooke_study_candidate *best = NULL;
+  int32_t status = search_all(study, c);
+  if (status == HOOKE_OK)
+    status = race(study, c, &best);
+  else
+    best = cheapest_of(c, study->method_count);
+  if (best)
+    keep(study, best, 1);
+  else
+    keep_closest(study, c);
+  for (int32_t k = 0; k < study->method_count; k++)
+    hooke_study_candidate_release(&c[k]);
+  return status;
 }
 
 int32_t hooke_study_recommend(hooke_study *study, double want) {
@@ -187,28 +177,9 @@ int32_t hooke_study_recommend(hooke_study *study, double want) {
   }
   if (!(want > 0.0))
     return hooke_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
-  struct candidate c[HOOKE_STUDY_METHODS];
-  for (int32_t m = 0; m < study->method_count; m++) {
-    c[m] = look_up(study, m, want);
-    predict_cost(study, &c[m], want);
-  }
-  sort_by_cost(c, study->method_count);
-  study->recommendation = (struct hooke_study_recommendation){.made = 1, .method = -1, .want = want};
-  study->work_ahead = 0.0;
-  int32_t status = HOOKE_OK;
-  const struct candidate *best = NULL;
-  for (int32_t k = 0; k < study->method_count && k < MOST_METHODS && status == HOOKE_OK; k++) {
-    if (isinf(c[k].cost)) break;
-    status = search(study, &c[k], want);
-    if (isnan(c[k].meets)) continue;
-    if (best == NULL || c[k].best.trial.wall_seconds < best->best.trial.wall_seconds) best = &c[k];
-  }
-  if (best)
-    keep(study, best, 1);
-  else
-    keep_closest(study, want);
-  for (int32_t k = 0; k < study->method_count; k++) {
-    if (c[k].owned) hooke_trial_release(&c[k].best.trial);
-  }
-  return status;
+  /* a budget counts anew */
+  study->begun = hooke_clock_seconds();
+  study->deadline = study->begun + study->budget;
+  study->told = 0.0;
+  return hooke_study_find_cheapest(study, want);
 }

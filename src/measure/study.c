@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The reference may take this share of a budget. */
-static const double REFERENCE_SHARE = 0.4;
+/* The reference may take this share of a budget, and in any case so many seconds. */
+static const double REFERENCE_SHARE = 0.4, REFERENCE_SECONDS = 0.5;
 
 static const struct hooke_option_row study_rows[] = {
     {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
@@ -158,16 +158,20 @@ static int compare_rows(const void *a, const void *b) {
 }
 
 static int32_t make_reference(hooke_study *study) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell, .ctx = study};
+  const struct hooke_listener listener = {.on_progress = hooke_study_tell_reference, .ctx = study};
   const double want = hooke_options_number(study->options, "want");
   const struct hooke_reference_request request = {
       .run = study->run,
       .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
       .digits = isnan(want) ? NAN : want / 10.0,
-      .budget = REFERENCE_SHARE * study->budget,
+      .budget = fmax(REFERENCE_SECONDS, REFERENCE_SHARE * study->budget),
       .listener = &listener};
   study->under_way = "reference";
-  return hooke_reference_create(study->system, &request, &study->reference);
+  const int32_t status = hooke_reference_create(study->system, &request, &study->reference);
+  if (status == HOOKE_OK && study->reference.hurried &&
+      study->reference.trusted < study->reference.frames.count)
+    study->budget_spent = 1;
+  return status;
 }
 
 int32_t hooke_study_run(hooke_study *study) {
@@ -175,12 +179,15 @@ int32_t hooke_study_run(hooke_study *study) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
   }
   study->begun = hooke_clock_seconds();
-  int32_t status = make_reference(study);
+  int32_t status = hooke_study_find_safe_steps(study);
+  if (status == HOOKE_OK) status = hooke_study_prepare_guesses(study);
+  if (status == HOOKE_OK) status = make_reference(study);
   if (status == HOOKE_OK) status = hooke_study_run_ladders(study);
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
   for (int32_t m = 0; m < study->method_count; m++)
     hooke_study_fit_order(study, m);
   const double want = hooke_options_number(study->options, "want");
-  if (status == HOOKE_OK && !isnan(want)) status = hooke_study_recommend(study, want);
+  study->deadline = study->begun + study->budget;
+  if (status == HOOKE_OK && !isnan(want)) status = hooke_study_find_cheapest(study, want);
   return status;
 }

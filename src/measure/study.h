@@ -43,12 +43,22 @@ struct hooke_study {
   struct hooke_study_row *row;
   struct hooke_study_recommendation recommendation;
 
+  double safe_step
+      [HOOKE_STUDY_METHODS]; /* where a method's ladder begins; error-controlled methods have none [s] */
+
   hooke_progress *progress;
   void *progress_ctx;
-  double begun, budget; /* clock at the start, and seconds from there [s] */
-  int32_t budget_spent;
-  double work_ahead; /* wall seconds of the rows to come, for progress */
   const char *under_way;
+  double told;          /* the largest share told */
+  double evaluation;    /* of forces, about [s] */
+  double fixed_rows;    /* of the ladders, about [s] */
+  double adaptive_rows; /* how many */
+  double work_ahead;    /* wall seconds of the rows to come */
+  double begun;         /* clock at the start [s] */
+  double budget;        /* seconds from there, infinity for none */
+  double deadline;      /* clock at which rows end [s] */
+  int32_t late;         /* a row met the deadline */
+  int32_t budget_spent;
 };
 
 /* 1 if the method takes its steps from a tolerance. */
@@ -58,21 +68,38 @@ int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method);
 double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k);
 /* The step nearest to `step` that frames and duration are whole multiples of. */
 double hooke_study_fitting_step(const hooke_study *study, double step);
+/* Finds the safe step of each method. */
+int32_t hooke_study_find_safe_steps(hooke_study *study);
 /* Finds `unit` and checks the ladders that the caller gave. */
 int32_t hooke_study_check_ladder(hooke_study *study);
 
-/* A listener's word to the caller's progress; the context is the study. */
+/* ---- progress (study_progress.c) ---- */
+
+/* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the study. The
+ * last one stops a row at the deadline, too, and marks the study as late. */
+int32_t hooke_study_tell_reference(double share, void *ctx);
 int32_t hooke_study_tell(double share, void *ctx);
+int32_t hooke_study_tell_row(double share, void *ctx);
+/* Times a force evaluation at the start, and looks at the ladders. */
+int32_t hooke_study_prepare_guesses(hooke_study *study);
+/* Seconds that a row is going to take, very roughly: for a method that no row has been run of. */
+double hooke_study_guess(const hooke_study *study, int32_t method, double value);
+
+/* ---- rows ---- */
 
 /* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The row's trial
  * must be released. Only the first may be called from several threads at a time. */
 int32_t hooke_study_run_row(const hooke_study *study, int32_t method, double value,
                             const struct hooke_listener *listener, struct hooke_study_row *row);
 int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row);
+/* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row);
 
-/* All rows, level by level, within the budget. */
+/* All rows, level by level, until the deadline. */
 int32_t hooke_study_run_ladders(hooke_study *study);
+
+/* The recommendation, until the deadline. */
+int32_t hooke_study_find_cheapest(hooke_study *study, double want);
 
 /* Least squares of log error on log step for a method (order_gsl.c). */
 void hooke_study_fit_order(hooke_study *study, int32_t method);

@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COARSEST_EXPONENT = 3 }; /* rtol 1e-3 */
+enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
+static const double FARTHEST_BELOW = 128.0; /* that a ladder begins below the safe step of symplectic Euler */
 
 int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method) {
   return hooke_method_is_adaptive(study->method[method]);
@@ -21,19 +22,39 @@ double hooke_study_fitting_step(const hooke_study *study, double step) {
   return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
 }
 
-/* A step that is stable for certain; where no step is, the one that symplectic Euler would take, for a start. */
-static double safe_step(const hooke_study *study, const char *method) {
+/* NaN where none is known. */
+static double bound_of(const hooke_study *study, const char *method, const double *q) {
   double bound = NAN;
-  const double *q = study->reference.frames.position;
-  if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK) bound = NAN;
-  if (bound == 0.0 && hooke_step_bound(study->system, "symplectic-euler", q, &bound) != HOOKE_OK) bound = NAN;
-  return isnan(bound) || isinf(bound) || bound <= 0.0 ? study->unit : bound;
+  if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
+  return bound;
+}
+
+/* A step that is stable for certain; where a method has none, or a very small one for which the bound is to blame, a part
+ * of the one that symplectic Euler would take. */
+static double safe_step(const hooke_study *study, const char *method, const double *q) {
+  double bound = bound_of(study, method, q);
+  const double other = bound_of(study, "symplectic-euler", q);
+  if (bound == 0.0) bound = other;
+  if (bound < other / FARTHEST_BELOW) bound = other / FARTHEST_BELOW;
+  return bound > 0.0 ? bound : study->unit;
+}
+
+int32_t hooke_study_find_safe_steps(hooke_study *study) {
+  hooke_state *state = NULL;
+  const int32_t status = hooke_state_create(study->system, &state);
+  if (status != HOOKE_OK) return status;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    if (hooke_study_is_adaptive(study, m)) continue;
+    const double step = safe_step(study, study->method[m], hooke_state_position(state));
+    study->safe_step[m] = hooke_study_fitting_step(study, fmin(study->unit, step));
+  }
+  hooke_state_destroy(state);
+  return HOOKE_OK;
 }
 
 /* From twice the safe step, which may still be stable, since the bound is not sharp. */
 static double fixed_ladder(const hooke_study *study, int32_t method, int32_t k) {
-  const double safe =
-      hooke_study_fitting_step(study, fmin(study->unit, safe_step(study, study->method[method])));
+  const double safe = study->safe_step[method];
   const double start =
       safe < study->unit ? hooke_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
   const int32_t above = start > safe;

@@ -1,28 +1,16 @@
 /* One row of a study: a run for its error, repeated for its time. */
 #include "measure/study.h"
 
-#include "core/clock.h"
 #include "core/status.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A short run is repeated until its time is steady or this much has been spent on it. */
-static const double REPEAT_SECONDS = 0.3;
+/* A short run is repeated until its time is steady or this much has been spent on it, and this share of a budget. */
+static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
-/* Of a study, for progress: what a run counts for before anything is known of the others. */
-static const double FIRST_SHARE = 0.1;
-
-int32_t hooke_study_tell(double share, void *ctx) {
-  const hooke_study *study = ctx;
-  if (study->progress == NULL) return 0;
-  /* what the rows are going to take is known when their first ones have been run */
-  const double spent = hooke_clock_seconds() - study->begun;
-  const double done = study->work_ahead > 0.0 ? spent / (spent + study->work_ahead) : FIRST_SHARE * share;
-  return study->progress(done, study->under_way, study->progress_ctx);
-}
-
 static int32_t row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
   hooke_options *options = NULL;
   const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
@@ -53,7 +41,8 @@ static int32_t repeat_for_time(hooke_study *study, const hooke_options *options,
   double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
   int32_t count = 0, status = HOOKE_OK;
   const struct hooke_reference *r = &study->reference;
-  while (status == HOOKE_OK && count < MOST_REPEATS && spent < REPEAT_SECONDS) {
+  const double most = fmin(REPEAT_SECONDS, REPEAT_SHARE * study->budget);
+  while (status == HOOKE_OK && count < MOST_REPEATS && spent < most) {
     status = hooke_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
     seconds[count++] = row->trial.wall_seconds;
     spent += row->trial.wall_seconds;
@@ -93,8 +82,14 @@ int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row) {
 }
 
 int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell, .ctx = study};
+  const struct hooke_listener listener = {.on_progress = hooke_study_tell_row, .ctx = study};
   study->under_way = study->method[method];
+  study->late = 0;
   const int32_t status = hooke_study_run_row(study, method, value, &listener, row);
+  if (status == HOOKE_STOPPED && study->late) {
+    hooke_trial_release(&row->trial);
+    study->budget_spent = 1;
+    return HOOKE_OK;
+  }
   return status == HOOKE_OK ? hooke_study_time_row(study, row) : status;
 }

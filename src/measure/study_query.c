@@ -15,6 +15,13 @@ const char *hooke_study_reference(const hooke_study *study, const char *what) {
   return strcmp(what, "check") == 0 ? study->reference.check : NULL;
 }
 
+/* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */
+static double time_until(const hooke_study *study, int64_t count) {
+  const struct hooke_frames *frames = &study->reference.frames;
+  if (count <= 0) return NAN;
+  return count == frames->count ? frames->time[0] + study->duration : frames->time[count - 1];
+}
+
 double hooke_study_figure(const hooke_study *study, const char *what) {
   const struct hooke_reference *r = &study->reference;
   const int made = r->frames.count > 0;
@@ -22,9 +29,13 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
     const char *name;
     double value;
   } figures[] = {
-      {"agreement", made ? r->agreement : NAN},    {"trusted_until", made ? r->trusted_until : NAN},
-      {"growth", made ? r->growth : NAN},          {"duration", study->duration},
-      {"frames", made ? (double)r->trusted : NAN}, {"budget_spent", (double)study->budget_spent},
+      {"agreement", made ? r->agreement : NAN},
+      {"trusted_until", made ? time_until(study, r->trusted) : NAN},
+      {"checked_until", made ? time_until(study, r->checked) : NAN},
+      {"growth", made ? r->growth : NAN},
+      {"duration", study->duration},
+      {"frames", made ? (double)r->trusted : NAN},
+      {"budget_spent", (double)study->budget_spent},
   };
   for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++) {
     if (strcmp(figures[k].name, what) == 0) return figures[k].value;

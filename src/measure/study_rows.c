@@ -10,9 +10,13 @@
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
-/* Seconds that the next row of a method is going to take: the last one's, scaled by the steps. */
+static const double SEARCH_SHARE = 0.2; /* of a budget, kept for the search where a length is wanted */
+static const double REPEATS = 4.0, REPEAT_SECONDS = 0.3; /* short rows are repeated, for their time */
+
+/* Seconds that the next row of a method is going to take: the last one's, scaled by the steps; NaN before the first. */
 static double predict_seconds(const hooke_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hooke_study_row *row = &study->row[k];
@@ -20,14 +24,20 @@ static double predict_seconds(const hooke_study *study, int32_t method, double v
     const double growth = hooke_study_is_adaptive(study, method) ? 1.6 : row->value / value;
     return row->trial.wall_seconds * growth;
   }
-  return 0.0;
+  return NAN;
+}
+
+static double expect_seconds(const hooke_study *study, int32_t method, double value) {
+  const double predicted = predict_seconds(study, method, value);
+  return isnan(predicted) ? hooke_study_guess(study, method, value) : predicted;
 }
 
 static double seconds_ahead(const hooke_study *study, int32_t level) {
   double sum = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     for (int32_t k = level; !isnan(hooke_study_ladder(study, m, k)); k++) {
-      sum += predict_seconds(study, m, hooke_study_ladder(study, m, k));
+      const double once = expect_seconds(study, m, hooke_study_ladder(study, m, k));
+      sum += once + fmin(REPEATS * once, REPEAT_SECONDS);
     }
   }
   return sum;
@@ -37,7 +47,7 @@ static double seconds_ahead(const hooke_study *study, int32_t level) {
 
 struct job {
   int32_t method;
-  double value;
+  double value, expected; /* step or rtol; seconds */
   struct hooke_study_row row;
   int32_t status;
   char message[512]; /* messages belong to the thread that failed */
@@ -87,17 +97,21 @@ static int32_t run_side_by_side(struct level *level, int32_t threads) {
     work(level);
   }
   level->study->under_way = "rows side by side";
+  level->study->late = 0;
   while (atomic_load(&level->running) > 0) {
     const struct timespec moment = {0, 20000000};
     nanosleep(&moment, NULL);
-    if (hooke_study_tell(0.0, level->study) != 0) atomic_store(&level->stop, 1);
+    if (hooke_study_tell_row(0.0, level->study) != 0) atomic_store(&level->stop, 1);
   }
   for (int32_t k = 0; k < started; k++)
     pthread_join(thread[k], NULL);
+  if (level->study->late) level->study->budget_spent = 1;
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
     struct job *job = &level->job[k];
-    if (job->status != HOOKE_OK)
+    if (job->status == HOOKE_STOPPED && level->study->late) {
+      hooke_trial_release(&job->row.trial);
+    } else if (job->status != HOOKE_OK)
       status = hooke_fail(job->status, NULL, "%s", job->message);
     else if (job->row.trial.status)
       status = hooke_study_time_row(level->study, &job->row);
@@ -109,8 +123,9 @@ static int32_t run_one_by_one(struct level *level) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
     struct job *job = &level->job[k];
+    const double begun = hooke_clock_seconds();
     status = hooke_study_measure(level->study, job->method, job->value, &job->row);
-    level->study->work_ahead -= job->row.trial.wall_seconds;
+    level->study->work_ahead = fmax(0.0, level->study->work_ahead - (hooke_clock_seconds() - begun));
   }
   return status;
 }
@@ -134,20 +149,29 @@ static int32_t keep_rows(struct level *level) {
   return status;
 }
 
-/* The rows of a level that the budget still allows. */
+static int compare_jobs(const void *a, const void *b) {
+  const struct job *x = a, *y = b;
+  return (x->expected > y->expected) - (x->expected < y->expected);
+}
+
+/* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none of the others
+ * from being run. */
 static void plan_level(hooke_study *study, int32_t number, struct level *level) {
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     const double value = hooke_study_ladder(study, m, number);
     if (isnan(value)) continue;
-    const double spent = hooke_clock_seconds() - study->begun, next = predict_seconds(study, m, value);
-    if (spent + ahead + next > study->budget) {
+    /* of a first row nothing is known: it is begun, and ends at the deadline */
+    const double next = fmax(0.0, predict_seconds(study, m, value));
+    if (hooke_clock_seconds() + ahead + next > study->deadline) {
       study->budget_spent = 1;
       continue;
     }
     ahead += next;
-    level->job[level->count++] = (struct job){.method = m, .value = value};
+    level->job[level->count++] =
+        (struct job){.method = m, .value = value, .expected = expect_seconds(study, m, value)};
   }
+  qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);
 }
 
 int32_t hooke_study_run_ladders(hooke_study *study) {
@@ -155,6 +179,8 @@ int32_t hooke_study_run_ladders(hooke_study *study) {
   int32_t status = HOOKE_OK;
   struct level *level = hooke_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;
+  const int wanted = !isnan(hooke_options_number(study->options, "want"));
+  study->deadline = study->begun + (wanted ? 1.0 - SEARCH_SHARE : 1.0) * study->budget;
   for (int32_t number = 0; status == HOOKE_OK; number++) {
     *level = (struct level){.study = study};
     study->work_ahead = seconds_ahead(study, number);

@@ -6,6 +6,7 @@ import math
 import shlex
 import signal
 import time
+from pathlib import Path
 
 import h5py
 import pytest
@@ -161,6 +162,62 @@ def test_recommended_command_gives_the_error_that_was_promised(hooke, write, tmp
         assert run["force_evaluations"] == found["force_evaluations"]
 
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples/scenes"
+PAIRS = [
+    ("six-particles", 1, "symplectic-euler", 1e-2),
+    ("six-particles", 1, "rk4", 1e-6),
+    ("rope", 1, "symplectic-euler,rk4", 1e-2),
+    ("oscillator", 5, "cvode-adams", 2e-2),
+]
+
+
+@everything
+@pytest.mark.parametrize("name, duration, methods, want", PAIRS)
+def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, duration, methods, want):
+    """As in tests/long/recommendation.py, for a few scenes that take no time."""
+    scene = EXAMPLES / f"{name}.json"
+    every = json.loads(scene.read_text())["run"]["every"]
+    words = ["study", scene, "--duration", duration, "--json", "--methods"]
+    found = hooke(*words, methods, "--want", want).json["recommendation"]
+    assert found["met"] is True and 0.01 * want < found["error"] <= want
+    if found["step"]:
+        parts = sorted({round(2 ** (k / 4)) for k in range(48)})
+        ladder = ["--steps", ",".join(repr(every / m) for m in parts if every / m > found["step"] / 3)]
+    else:
+        ladder = ["--tolerances", ",".join(repr(0.1 * 10 ** (-k / 4)) for k in range(20))]
+    finer = hooke(*words, found["method"], *ladder).json
+    fits = [row["force_evaluations"] for row in finer["rows"] if row["error"] is not None and row["error"] <= want]
+    assert len(fits) >= 3
+    assert 0.5 * min(fits) <= found["force_evaluations"] <= 1.3 * min(fits)
+
+
+@everything
+def test_numbers_of_no_run_are_null(hooke, write):
+    """Forward Euler diverges at every step on an undamped spring: nothing comes close, and nothing claims to."""
+    words = ["study", write(STIFF_PAIR, duration=20, every=0.25), "--methods", "forward-euler", "--steps", "250ms"]
+    value = hooke(*words, "--want", "1mm", "--json").json
+    assert [row["status"] for row in value["rows"]] == ["diverged"]
+    found = value["recommendation"]
+    assert found["met"] is False and found["want"] == 1e-3
+    for key in ["method", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations", "command"]:
+        assert found[key] is None, key
+    assert "no run finished" in found["note"] and "forward-euler diverged" in found["note"]
+    answer = hooke(*words, "--want", "1mm")
+    assert answer.code == 0 and "no run finished" in answer.out and "closest  " not in answer.out
+    assert "nan" not in answer.out
+
+
+@everything
+def test_a_recommendation_looks_beyond_the_ladder(hooke, write):
+    """Coarser than its first row, and finer than one that diverges."""
+    scene = write(STIFF_PAIR, duration=10, every=0.25)
+    words = ["study", scene, "--methods", "symplectic-euler", "--json", "--want"]
+    found = hooke(*words, "5cm", "--steps", "1ms,0.5ms").json["recommendation"]
+    assert found["met"] is True and 1.5e-3 < found["step"] <= 0.0625 and found["error"] <= 0.05
+    found = hooke(*words, "5cm", "--steps", "250ms").json["recommendation"]
+    assert found["met"] is True and 1.5e-3 < found["step"] <= 0.0625 and 0.005 < found["error"] <= 0.05
+
+
 @everything
 def test_what_cannot_be_had_is_said(hooke, write):
     scene = write(SIX_PARTICLES)
@@ -230,11 +287,69 @@ def test_chaos_is_called_so(hooke, write):
 @everything
 def test_budget_that_is_spent_is_said(hooke, write):
     scene = write(SIX_PARTICLES)
-    words = ["study", scene, "--steps", "1ms,1us", "--methods", "verlet", "--duration", "1s", "--budget", "100ms"]
+    words = ["study", scene, "--steps", "1ms,1ns", "--methods", "verlet", "--duration", "1s", "--budget", "2s"]
     value = hooke(*words, "--json").json
     assert value["budget_spent"] is True
     assert [row["step"] for row in value["rows"]] == [1e-3]
     assert "the budget is spent" in hooke(*words).out
+
+
+# 64 particles so stiffly damped that the second integrator needs minutes, with a frame every few of its steps.
+DAMPED_CLOTH = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "parts": [
+        {
+            "kind": "cloth",
+            "origin": [0, 0, 0],
+            "edges": [[1, 0, 0], [0, -0.8, 0.6]],
+            "size": [8, 8],
+            "mass": 0.2,
+            "pinned": "top",
+            "structural": {"stiffness": 1e5, "damping": 200},
+            "shear": {"stiffness": 1e5, "damping": 200},
+            "bend": {"stiffness": 1e5, "damping": 200},
+        }
+    ],
+    "run": {"duration": 1, "every": 5e-4},
+}
+
+
+@everything
+def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
+    """What it came to is used, and said to be a part."""
+    words = ["study", write(DAMPED_CLOTH), "--methods", "backward-euler", "--budget", "4s", "--want", "1cm"]
+    begun = time.monotonic()
+    answer = hooke(*words, "--json")
+    assert answer.code == 0 and time.monotonic() - begun < 20
+    value = answer.json
+    assert value["budget_spent"] is True and 0 < value["reference"]["trusted_until"] < 1
+    assert 0 < value["reference"]["agreement"] < 1e-3
+    assert value["reference"]["growth"] is None or value["reference"]["growth"] > 0
+    out = hooke(*words).out
+    assert "the budget left no time to check the reference" in out and "larger --budget" in out
+    assert "chaotic" not in out and "the whole run" not in out
+
+
+@everything
+def test_a_budget_too_small_for_any_reference(hooke, write):
+    words = ["study", write(DAMPED_CLOTH, duration=100, every=100), "--budget", "1us"]
+    answer = hooke(*words, "--json")
+    assert answer.code == 3 and answer.json["error"]["exit"] == 3
+    for word in ["budget", "is too small", "larger budget", "shorter duration"]:
+        assert word in answer.json["error"]["message"] and word in answer.err, word
+    assert hooke(*words).out == ""
+
+
+@everything
+def test_ctrl_c_while_the_reference_is_checked(start, write):
+    """The first integrator takes a second or two, the second would take minutes."""
+    process = start("study", write(DAMPED_CLOTH), "--json")
+    time.sleep(6)
+    begun = time.monotonic()
+    value = interrupt(process, 0)
+    assert time.monotonic() - begun < 10
+    assert value["rows"] == [] and value["reference"]["agreement"] is None
 
 
 @everything

@@ -276,6 +276,76 @@ static void chaos_is_trusted_for_a_while(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- progress and budgets ---- */
+
+struct told {
+  double last, end_of_reference;
+  int64_t count, back, of_reference;
+};
+
+static int32_t listen(double done, const char *what, void *ctx) {
+  struct told *told = ctx;
+  const int reference = strcmp(what, "reference") == 0;
+  told->back += !(done >= told->last && done <= 1.0);
+  told->of_reference += reference;
+  if (reference) told->end_of_reference = done;
+  told->last = done;
+  told->count++;
+  return 0;
+}
+
+/* The share told is that of the whole study: it never goes back, not where one run ends and the next begins. */
+static void progress_is_of_the_whole_study(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("rope-12"));
+  hooke_study *study = start_study(system, NULL, 1.0, 0.05, 1e-3);
+  struct told told = {.last = 0.0};
+  hooke_study_on_progress(study, listen, &told);
+  check_ok(hooke_study_run(study));
+  check_between((double)told.of_reference, 100.0, (double)told.count - 100.0);
+  check_between((double)told.back, 0.0, 0.0);
+  check_between(told.end_of_reference, 1e-3, 0.95);
+  check_between(told.last, told.end_of_reference, 1.0);
+  check_between(told.last, 0.7, 1.0);
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+/* Half a second does not do for the first frame of a very long run, and a minute does for all of a short one. */
+static void a_budget_binds_the_reference(void **unused) {
+  (void)unused;
+  const double every[] = {1e5, 0.05};
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = crumpling_cloth();
+    hooke_study *study = NULL;
+    hooke_options *run = run_options((struct run){.duration = every[k], .every = every[k]}), *options;
+    check_ok(hooke_study_options_create(&options));
+    check_ok(hooke_options_set_number(options, "budget", k == 0 ? 0.1 : 60.0));
+    check_ok(hooke_options_set_text(options, "methods", "symplectic-euler"));
+    const int32_t status = hooke_study_create(system, run, options, &study);
+    hooke_options_destroy(run);
+    hooke_options_destroy(options);
+    if (status == HOOKE_NOT_BUILT) {
+      hooke_system_destroy(system);
+      skip();
+    }
+    check_status(status, HOOKE_OK);
+    check_status(hooke_study_run(study), k == 0 ? HOOKE_BAD_VALUE : HOOKE_OK);
+    if (k == 0) {
+      check_message("budget");
+      assert_true(isnan(hooke_study_figure(study, "agreement")));
+      assert_true(isnan(hooke_study_figure(study, "checked_until")));
+      assert_int_equal(hooke_study_row_count(study), 0);
+    } else {
+      check_close(hooke_study_figure(study, "checked_until"), every[k], 1e-12);
+      check_close(hooke_study_figure(study, "trusted_until"), every[k], 1e-12);
+      check_between((double)hooke_study_row_count(study), 6.0, 7.0);
+    }
+    hooke_study_destroy(study);
+    hooke_system_destroy(system);
+  }
+}
+
 /* ---- stopping ---- */
 
 static int32_t stop_after_some(double done, const char *what, void *ctx) {
@@ -312,6 +382,8 @@ int main(void) {
       cmocka_unit_test(bad_requests),
       cmocka_unit_test(recommendations_hold),
       cmocka_unit_test(chaos_is_trusted_for_a_while),
+      cmocka_unit_test(progress_is_of_the_whole_study),
+      cmocka_unit_test(a_budget_binds_the_reference),
       cmocka_unit_test(a_stopped_study_keeps_its_rows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,196 @@
+#include "measure/study_search.h"
+
+#include "core/clock.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { MOST_RUNS = 16 };
+static const double CLOSE_STEP = 1.1,
+                    CLOSE_TOLERANCE = 1.5; /* a search ends when its bracket is this narrow */
+static const double CLOSE_ERROR = 0.85;    /* or when the error is at least this share of what is allowed */
+static const double GOAL = 0.92,
+                    BEYOND = 0.8;    /* what is aimed at, in that share, between rows and beyond the finest */
+static const double FARTHEST = 64.0; /* beyond the finest row, times in step */
+static const double LOOSEST = 0.1;   /* the largest rtol that a run takes */
+static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0; /* while the coarsest row meets the want */
+static const double FINER = 4.0;                                  /* while runs diverge */
+
+/* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
+static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
+
+static int is_adaptive(const hooke_study *study, const struct hooke_study_candidate *c) {
+  return hooke_study_is_adaptive(study, c->method);
+}
+
+/* Evaluations of forces and products with their derivatives: what the time goes with, but the same in every run. */
+static double work_of(const struct hooke_trial *trial) {
+  return trial->force_evaluations + fmax(0.0, trial->linear_iterations);
+}
+
+double hooke_study_candidate_cost(const struct hooke_study_candidate *c) {
+  return work_of(&c->best.trial) * c->rate;
+}
+
+/* ---- what the ladder says ---- */
+
+/* Where the straight line between two points in logarithms has the error that is allowed, with a little to spare. */
+static double interpolate(const struct hooke_study_candidate *c) {
+  const double goal = log(GOAL * c->most), high = log(c->error_at_fails), low = log(c->error_at_meets);
+  if (!(c->error_at_fails > c->error_at_meets) || !(c->error_at_meets > 0.0))
+    return sqrt(c->meets * c->fails);
+  const double share = fmin(0.95, fmax(0.05, (goal - low) / (high - low)));
+  return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
+}
+
+static void predict(const hooke_study *study, struct hooke_study_candidate *c) {
+  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0, seconds = hooke_study_candidate_cost(c);
+  c->predicted = INFINITY;
+  if (!isnan(c->meets)) {
+    const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
+    c->predicted = seconds * pow(c->best.value / value, power);
+  } else if (c->error_at_fails > 0.0 && c->most > 0.0) {
+    c->predicted = seconds * fmin(FARTHEST, c->error_at_fails / c->most);
+  }
+}
+
+/* A row joins what is known. 1 if it is the best so far. */
+static int learn(struct hooke_study_candidate *c, const struct hooke_study_row *row) {
+  const struct hooke_trial *trial = &row->trial, *best = &c->best.trial;
+  const int had = !isnan(c->meets);
+  c->rate = fmin(c->rate, trial->wall_seconds / work_of(trial));
+  if (isnan(c->finest) || (!c->finished && !isnan(trial->error))) c->finest = row->value;
+  c->finished |= !isnan(trial->error);
+  if (trial->error <= c->most) {
+    if (!had || row->value > c->meets) {
+      c->meets = row->value;
+      c->error_at_meets = trial->error;
+      if (c->fails <= c->meets) c->fails = NAN;
+    }
+    return !had || work_of(trial) < work_of(best);
+  }
+  /* a coarser row that meets the want wins over a finer one that does not */
+  if ((!had || row->value > c->meets) && !(row->value >= c->fails)) {
+    c->fails = row->value;
+    c->error_at_fails = trial->error;
+  }
+  return !had && (best->status == NULL || isnan(best->error) || trial->error < best->error);
+}
+
+void hooke_study_candidate_create(const hooke_study *study, int32_t method, double want,
+                                  struct hooke_study_candidate *c) {
+  *c = (struct hooke_study_candidate){.method = method,
+                                      .most = want - study->reference.agreement,
+                                      .meets = NAN,
+                                      .fails = NAN,
+                                      .error_at_meets = NAN,
+                                      .error_at_fails = NAN,
+                                      .finest = NAN,
+                                      .rate = INFINITY};
+  c->best.value = NAN;
+  c->best.trial.error = NAN;
+  /* rows go from coarse to fine */
+  for (int64_t k = study->row_count - 1; k >= 0; k--) {
+    const struct hooke_study_row *row = &study->row[k];
+    if (row->method != method) continue;
+    if (learn(c, row)) c->best = *row;
+  }
+  predict(study, c);
+}
+
+void hooke_study_candidate_release(struct hooke_study_candidate *c) {
+  if (c->owned) hooke_trial_release(&c->best.trial);
+  c->owned = 0;
+}
+
+/* ---- searching by runs ---- */
+
+static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, double value) {
+  struct hooke_study_row row;
+  const int32_t status = hooke_study_measure(study, c->method, value, &row);
+  if (status == HOOKE_OK && row.trial.status && learn(c, &row)) {
+    hooke_study_candidate_release(c);
+    c->best = row;
+    c->owned = 1;
+  } else {
+    hooke_trial_release(&row.trial);
+  }
+  return status;
+}
+
+/* Beyond the finest row, by the slope of the order that the method has, or until a run does not diverge; NaN when that
+ * leads too far. */
+static double finer(const hooke_study *study, const struct hooke_study_candidate *c) {
+  if (c->most <= 0.0) return NAN;
+  const double order = study->order[c->method].order;
+  const double slope = isnan(order) || order < 0.5 ? 1.0 : order;
+  const double value = isnan(c->error_at_fails)
+                           ? c->fails / FINER
+                           : c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
+  return value >= c->finest / FARTHEST && value < c->fails ? value : NAN;
+}
+
+static double coarser(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const int adaptive = is_adaptive(study, c);
+  const double largest = adaptive ? LOOSEST : study->unit;
+  const double value = c->meets * (adaptive ? COARSER_TOLERANCE : COARSER_STEP);
+  return c->meets < largest * (1.0 - 1e-9) ? fmin(value, largest) : NAN;
+}
+
+/* The step that fits next to `step`, strictly between those that are known; NaN if there is none. */
+static double fit_between(const hooke_study *study, const struct hooke_study_candidate *c, double step) {
+  const double most = isnan(c->meets) ? INFINITY : round(study->unit / c->meets) - 1.0;
+  const double least = isnan(c->fails) ? 1.0 : round(study->unit / c->fails) + 1.0;
+  const double parts = fmax(least, fmin(most, round(study->unit / step)));
+  return parts <= most ? study->unit / parts : NAN;
+}
+
+static int is_close(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double close = is_adaptive(study, c) ? CLOSE_TOLERANCE : CLOSE_STEP;
+  return c->fails / c->meets <= close || c->error_at_meets >= CLOSE_ERROR * c->most;
+}
+
+/* Between the two by turns where the error should be right, and the middle, so that both ends move. */
+static double next_value(const hooke_study *study, const struct hooke_study_candidate *c, int32_t run) {
+  double value;
+  if (isnan(c->meets))
+    value = isnan(c->fails) ? NAN : finer(study, c);
+  else if (isnan(c->fails))
+    value = coarser(study, c);
+  else if (is_close(study, c))
+    return NAN;
+  else
+    value = isnan(c->error_at_fails) || run % 2 == 1 ? sqrt(c->meets * c->fails) : interpolate(c);
+  return isnan(value) || is_adaptive(study, c) ? value : fit_between(study, c, value);
+}
+
+/* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse to fine. */
+static double least_cost(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double seconds = hooke_study_candidate_cost(c);
+  if (isnan(c->meets)) return isnan(c->error_at_fails) ? 0.0 : seconds;
+  const double power = is_adaptive(study, c) ? LARGEST_POWER : 1.0;
+  return isnan(c->fails) ? 0.0 : seconds * pow(c->best.value / c->fails, power);
+}
+
+/* Seconds that a run of the next value is going to take, for the deadline. */
+static double next_cost(const hooke_study *study, const struct hooke_study_candidate *c, double value) {
+  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
+  return hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
+}
+
+int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *c, double cost) {
+  int32_t status = HOOKE_OK;
+  for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
+    const double value = next_value(study, c, run);
+    /* where no run has come to its end, only if no other method has done better */
+    const int hopeless = isnan(c->meets) && isnan(c->error_at_fails) && !isinf(cost);
+    if (isnan(value) || hopeless || least_cost(study, c) >= cost) break;
+    if (hooke_clock_seconds() + next_cost(study, c, value) > study->deadline) {
+      study->budget_spent = 1;
+      break;
+    }
+    status = try_value(study, c, value);
+    if (study->late) break;
+  }
+  return status;
+}
