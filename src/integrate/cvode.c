@@ -5,13 +5,12 @@
 #if HOOKE_HAVE_SUNDIALS
 
 #include "core/status.h"
-#include "integrate/sundials_problem.h"
+#include "integrate/cvode_order.h"
 
 #include <cvode/cvode.h>
-#include <math.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-enum { BDF_ORDER = 5, ADAMS_ORDER = 12 };
+enum { LOW_ORDER = 2, BDF_ORDER = 5, ADAMS_ORDER = 12 };
 
 static int is_bdf(const hooke_integrator *it) {
   return it->method == &hooke_cvode_bdf;
@@ -20,6 +19,7 @@ static int is_bdf(const hooke_integrator *it) {
 static void destroy(hooke_integrator *it) {
   struct hooke_sundials *own = it->own;
   if (own->memory) CVodeFree(&own->memory);
+  hooke_order_choice_release(own->choice);
   hooke_sundials_release(it);
 }
 
@@ -52,6 +52,7 @@ static int32_t create(hooke_integrator *it) {
   int order;
   int32_t status = hooke_sundials_order(it, 1, highest, &order);
   if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + highest);
+  if (status == HOOKE_OK && is_bdf(it)) status = hooke_order_choice_create(it);
   if (status != HOOKE_OK) return status;
   struct hooke_sundials *own = it->own;
   const int flag = set_up(it, own, order);
@@ -60,12 +61,31 @@ static int32_t create(hooke_integrator *it) {
                     "CVODE could not be set up: %s", own->message);
 }
 
+static int32_t start(hooke_integrator *it, double t) {
+  struct hooke_sundials *own = it->own;
+  int flag = CVodeReInit(own->memory, t, own->y);
+  if (flag == CV_SUCCESS && own->choice)
+    flag = CVodeSetMaxOrd(own->memory, own->choice->low ? LOW_ORDER : BDF_ORDER);
+  if (flag == CV_SUCCESS) return HOOKE_OK;
+  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.17g s: %s", t, own->message);
+}
+
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   struct hooke_sundials *own = it->own;
   hooke_sundials_load(it, state);
-  if (CVodeReInit(own->memory, *state->t, own->y) == CV_SUCCESS) return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.17g s: %s", *state->t,
-                    own->message);
+  if (own->choice) hooke_order_choice_begin(own->choice, *state->t);
+  return start(it, *state->t);
+}
+
+/* CVODE writes over its history if the highest order falls below the present one, so it starts again. */
+static int32_t choose_order(hooke_integrator *it) {
+  struct hooke_sundials *own = it->own;
+  const int32_t low = own->choice->low;
+  if (CVodeGetDky(own->memory, it->t, 0, own->y) != CV_SUCCESS) return HOOKE_OK;
+  const int32_t status = hooke_order_choice_look(it, N_VGetArrayPointer(own->y));
+  if (status != HOOKE_OK || own->choice->low == low) return status;
+  own->before = it->count;
+  return start(it, it->t);
 }
 
 static void read_counts(hooke_integrator *it) {
@@ -86,11 +106,12 @@ static void read_counts(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   struct hooke_sundials *own = it->own;
-  const double duration = it->schedule.duration;
-  /* only the first step looks at this time, for its direction and size */
-  const double towards = it->t + (isnan(duration) ? 1.0 : duration);
+  if (own->choice && it->k > 0 && hooke_order_choice_is_due(own->choice, it->t)) {
+    const int32_t status = choose_order(it);
+    if (status != HOOKE_OK) return status;
+  }
   realtype reached = it->t;
-  const int flag = CVode(own->memory, towards, own->y, &reached, CV_ONE_STEP);
+  const int flag = CVode(own->memory, hooke_sundials_towards(it), own->y, &reached, CV_ONE_STEP);
   read_counts(it);
   return hooke_sundials_advance(it, "CVODE", flag, reached);
 }

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 static int32_t no_memory(const hooke_integrator *it, int64_t size) {
@@ -77,16 +78,36 @@ void hooke_sundials_count(hooke_integrator *it, struct hooke_counts since) {
   it->count.linear_iterations = before->linear_iterations + since.linear_iterations;
 }
 
+/* Not the end of a run that is very long: the solvers try no first step below 1e-14 of the way, and one that is 1e16
+ * times too long leaves nothing of the state when it is taken back. */
+static const double FARTHEST = 1e9;
+
+double hooke_sundials_towards(const hooke_integrator *it) {
+  const double duration = it->schedule.duration;
+  return it->t + (isnan(duration) ? 1.0 : fmin(duration, FARTHEST));
+}
+
+/* The solver's complaint without its full stop. */
+static int complaint_length(const char *message) {
+  size_t length = strlen(message);
+  while (length > 0 && (message[length - 1] == '.' || message[length - 1] == ' '))
+    length--;
+  return (int)length;
+}
+
 int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
   const struct hooke_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
   if (flag < 0) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "%s gave up at t = %.17g s: %s", solver, it->t,
-                      own->message);
+    return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
+                      "%s gave up at t = %.17g s: %.*s; try other tolerances, or a fixed-step method", solver,
+                      it->t, complaint_length(own->message), own->message);
   }
   if (!(reached > it->t)) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
-                      "%s gave up at t = %.17g s: its step is too small to change the time", solver, it->t);
+                      "%s gave up at t = %.17g s: its step is too small to change the time; try looser "
+                      "tolerances or a fixed-step method",
+                      solver, it->t);
   }
   it->t = reached;
   return HOOKE_OK;

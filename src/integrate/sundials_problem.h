@@ -12,6 +12,8 @@
 /* Krylov vectors kept; stiff scenes need more than the default of 5. */
 enum { HOOKE_KRYLOV_VECTORS = 30 };
 
+struct hooke_order_choice;
+
 struct hooke_sundials {
   struct hooke_unknowns unknowns;
   SUNContext context;
@@ -19,8 +21,9 @@ struct hooke_sundials {
   N_Vector y, tolerance;
   SUNLinearSolver linear;
   SUNNonlinearSolver nonlinear;
-  struct hooke_counts before; /* counts when the solver's own were last set to zero */
-  char message[512];          /* the solver's last complaint */
+  struct hooke_order_choice *choice; /* of cvode-bdf where it chooses its highest order, else NULL */
+  struct hooke_counts before;        /* counts when the solver's own were last set to zero */
+  char message[512];                 /* the solver's last complaint */
 };
 
 /* Makes integrator->own with context, vectors and tolerances. `implicit`: with GMRES and room for products of the
@@ -39,6 +42,8 @@ double hooke_sundials_linear_share(const hooke_integrator *integrator);
 void hooke_sundials_load(hooke_integrator *integrator, const hooke_state *state);
 void hooke_sundials_count(hooke_integrator *integrator, struct hooke_counts since);
 int32_t hooke_sundials_advance(hooke_integrator *integrator, const char *solver, int flag, double reached);
+/* A time ahead. Only the first step of a solver looks at it, for its direction and size. */
+double hooke_sundials_towards(const hooke_integrator *integrator);
 
 /* Callbacks; the context is the integrator, that of the message its `own`. */
 int hooke_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx);

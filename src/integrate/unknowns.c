@@ -2,6 +2,7 @@
 #include "integrate/unknowns.h"
 
 #include "core/memory.h"
+#include "model/force.h"
 
 #include <string.h>
 
@@ -160,6 +161,18 @@ int hooke_unknowns_linearise(hooke_integrator *it, const struct hooke_unknowns *
   return HOOKE_SLOPE_FINE;
 }
 
+/* out = (df/dq) dq + (df/dv) dv of all forces, the value of a callback that stops kept. */
+static int32_t multiply(hooke_integrator *it, const struct hooke_point *point, double *out) {
+  memset(out, 0, (size_t)it->size * sizeof(double));
+  for (int32_t k = 0; k < it->system->force_row_count; k++) {
+    const struct hooke_force_row *row = it->system->force_row[k];
+    const int32_t status = row->add_product ? row->add_product(it->system, point, out) : HOOKE_OK;
+    if (status == HOOKE_STOPPED) it->stop_value = *point->stop_value;
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}
+
 int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u, double t,
                            const double *direction, double *product) {
   if (u->free_count == 0) {
@@ -169,8 +182,9 @@ int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u,
   double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
   unpack(u, direction, dq, dv); /* held particles: zero from the start */
   it->count.derivative_products++;
-  if (hooke_system_derivative_product(it->system, t, q, v, dq, dv, out) != HOOKE_OK)
-    return HOOKE_SLOPE_STOPPED;
+  int32_t stop_value = 0;
+  const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
+  if (multiply(it, &point, out) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->free_count;
   memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
   for (int64_t k = 0; k < m; k++) {

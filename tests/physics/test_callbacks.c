@@ -200,11 +200,43 @@ static void test_force_stops(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* A pull to the origin that stops at one call, whatever that call was for. */
+static int32_t stop_at_call(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)t, (void)v;
+  int64_t *calls = ctx;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] -= 10.0 * q[k];
+  return --*calls == 0 ? 77 : 0;
+}
+
+/* Be it for a step, a residual or a difference quotient: the run stops, and says with what. */
+static void test_every_call_may_stop(void **unused) {
+  (void)unused;
+  const double q[] = {1, 0, 0};
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!hooke_method_is_built(method)) continue;
+    for (int64_t call = 1; call <= 40; call++) {
+      int64_t calls = call;
+      hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+      check_ok(hooke_system_set_force(system, stop_at_call, NULL, &calls));
+      check_ok(hooke_system_commit(system));
+      hooke_integrator *integrator =
+          start_run(system, (struct run){.method = method, .step = 0.125, .duration = 20.0});
+      hooke_state *state = start_state(system);
+      check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+      assert_int_equal(hooke_integrator_stop_value(integrator), 77);
+      hooke_state_destroy(state);
+      hooke_integrator_destroy(integrator);
+      hooke_system_destroy(system);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_same_solution_with_product),
-      cmocka_unit_test(test_difference_quotients),
-      cmocka_unit_test(test_what_a_callback_sees),
+      cmocka_unit_test(test_every_call_may_stop),  cmocka_unit_test(test_same_solution_with_product),
+      cmocka_unit_test(test_difference_quotients), cmocka_unit_test(test_what_a_callback_sees),
       cmocka_unit_test(test_force_stops),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
