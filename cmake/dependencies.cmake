@@ -29,7 +29,11 @@ function(hooke_find_library name)
   endforeach()
 
   list(POP_FRONT arg_VERSION version_file version_pattern)
-  file(STRINGS "${HOOKE_${NAME}_INCLUDE_DIR}/${version_file}" version REGEX "${version_pattern}" LIMIT_COUNT 1)
+  cmake_path(ABSOLUTE_PATH version_file BASE_DIRECTORY "${HOOKE_${NAME}_INCLUDE_DIR}")
+  set(version "")
+  if(EXISTS "${version_file}")
+    file(STRINGS "${version_file}" version REGEX "${version_pattern}" LIMIT_COUNT 1)
+  endif()
   string(REGEX REPLACE ".*${version_pattern}.*" "\\1" version "${version}")
   if(version STREQUAL "")
     set(version unknown)
@@ -61,7 +65,7 @@ function(hooke_find_chartjs)
 endfunction()
 
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
-# looked up by name. One of them ("sundials", "gsl", "hdf5", "jansson") per call.
+# looked up by name. One of them ("sundials", "gsl", "arpack", "hdf5", "jansson") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
@@ -75,6 +79,14 @@ macro(hooke_find name)
       HEADER gsl/gsl_version.h
       LIBRARIES gsl gslcblas
       VERSION gsl/gsl_version.h "GSL_VERSION \"([^\"]+)\"")
+  elseif("${name}" STREQUAL "arpack") # its headers do not tell its version
+    find_file(HOOKE_ARPACK_VERSION_FILE arpack.pc
+      PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig lib/pkgconfig share/pkgconfig)
+    mark_as_advanced(HOOKE_ARPACK_VERSION_FILE)
+    hooke_find_library(arpack
+      HEADER arpack/arpack.h
+      LIBRARIES arpack
+      VERSION "${HOOKE_ARPACK_VERSION_FILE}" "^Version: *([0-9.]+)")
   elseif("${name}" STREQUAL "hdf5")
     hooke_find_library(hdf5 # the serial one
       HEADER hdf5.h

@@ -1,9 +1,8 @@
-/* The page of a study: a template with the style, the drawing library, the data and the script put in. */
+/* Pages: a frame with the style, the drawing library, the data, the body and the scripts put in. */
 #include "io/report.h"
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "hooke/io.h"
 #include "io/place.h"
 #include "io/share.h"
 
@@ -16,26 +15,44 @@
 
 /* ---- the page ---- */
 
-struct request {
-  const hooke_study *study;
-  const char *scene, *command;
-};
-
-/* What stands in the template as {{name}}: the data, or a file that is installed with it. */
-static int32_t add_part(struct hooke_text *page, const char *mark, const struct request *request) {
-  char name[64];
-  snprintf(name, sizeof name, "%.*s", (int)strcspn(mark, "}"), mark);
-  if (strcmp(name, "data") != 0) return hooke_share_read(name, page);
-  hooke_report_add_data(page, request->study, request->scene, request->command);
-  return page->status;
+static int32_t add_data(struct hooke_text *page, const struct hooke_report *report) {
+  struct hooke_text data = {.bytes = NULL};
+  hooke_text_open(&data, NULL, '{');
+  hooke_text_word(&data, "scene", report->scene);
+  hooke_report_add_facts(&data);
+  report->add_data(&data, report->ctx);
+  hooke_text_close(&data, '}');
+  if (data.status == HOOKE_OK) hooke_text_add(page, data.bytes, data.length);
+  const int32_t status = data.status != HOOKE_OK ? data.status : page->status;
+  hooke_text_release(&data);
+  return status;
 }
 
-static int32_t fill(struct hooke_text *page, const struct hooke_text *form, const struct request *request) {
+/* A file of the report that is called as the report, and `ending`. */
+static int32_t add_own(struct hooke_text *page, const struct hooke_report *report, const char *ending) {
+  char name[64];
+  snprintf(name, sizeof name, "%s%s", report->name, ending);
+  return hooke_share_read(name, page);
+}
+
+/* What stands in the frame as {{mark}}: a part of the report, or a file that all reports have. */
+static int32_t add_part(struct hooke_text *page, const char *mark, const struct hooke_report *report) {
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(mark, "}"), mark);
+  if (strcmp(name, "data") == 0) return add_data(page, report);
+  if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
+  if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
+  if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
+  return hooke_share_read(name, page);
+}
+
+static int32_t fill(struct hooke_text *page, const struct hooke_text *form,
+                    const struct hooke_report *report) {
   const char *from = form->bytes, *mark;
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && (mark = strstr(from, "{{")) != NULL) {
     hooke_text_add(page, from, mark - from);
-    status = add_part(page, mark + 2, request);
+    status = add_part(page, mark + 2, report);
     from = mark + strcspn(mark, "}");
     from += strspn(from, "}");
   }
@@ -43,12 +60,12 @@ static int32_t fill(struct hooke_text *page, const struct hooke_text *form, cons
   return status == HOOKE_OK ? page->status : status;
 }
 
-static int32_t make_page(struct hooke_text *page, const struct request *request) {
+static int32_t make_page(struct hooke_text *page, const struct hooke_report *report) {
   struct hooke_text form = {.bytes = NULL};
-  int32_t status = hooke_share_read("study.html", &form);
+  int32_t status = hooke_share_read("page.html", &form);
   hooke_text_add(&form, "", 1); /* ends it */
   if (status == HOOKE_OK) status = form.status;
-  if (status == HOOKE_OK) status = fill(page, &form, request);
+  if (status == HOOKE_OK) status = fill(page, &form, report);
   hooke_text_release(&form);
   return status;
 }
@@ -66,12 +83,10 @@ static int32_t write_page(const char *path, const char *temporary, const struct 
   return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
 }
 
-int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
-                                 const char *command) {
-  const struct request request = {study, scene, command};
+int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
   struct hooke_text page = {.bytes = NULL};
   char *place = NULL, *temporary = NULL;
-  int32_t status = make_page(&page, &request);
+  int32_t status = make_page(&page, report);
   if (status == HOOKE_OK) status = hooke_place_find(path, &place, &temporary);
   if (status == HOOKE_OK) status = write_page(path, temporary, &page);
   if (status == HOOKE_OK) status = hooke_place_take(place, &temporary);
@@ -84,9 +99,8 @@ int32_t hooke_study_write_report(const hooke_study *study, const char *path, con
 
 #else
 
-int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
-                                 const char *command) {
-  (void)study, (void)path, (void)scene, (void)command;
+int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
+  (void)report, (void)path;
   return hooke_fail(
       HOOKE_NOT_BUILT, NULL,
       "reports need Chart.js (on Debian: apt-get install libjs-chart.js, then configure again), and "

@@ -1,12 +1,20 @@
-/* What a report of a study is made of. */
+/* Pages of HTML: one frame for all of them, and in it the body, the scripts and the data of one. */
 #ifndef HOOKE_IO_REPORT_H
 #define HOOKE_IO_REPORT_H
 
-#include "hooke/study.h"
 #include "io/text.h"
 
-/* Adds all that the page shows as one JSON object; `scene` and `command` as in hooke_study_write_report(). */
-void hooke_report_add_data(struct hooke_text *text, const hooke_study *study, const char *scene,
-                           const char *command);
+struct hooke_report {
+  const char *name;  /* its files in share/hooke: <name>.html, <name>.js, <name>_tables.js */
+  const char *scene; /* the name over it */
+  void (*add_data)(struct hooke_text *data, const void *ctx); /* adds its keys to a JSON object */
+  const void *ctx;
+};
+
+/* Writes the page. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+int32_t hooke_report_write(const struct hooke_report *report, const char *path);
+
+/* Adds date, machine and versions. */
+void hooke_report_add_facts(struct hooke_text *data);
 
 #endif

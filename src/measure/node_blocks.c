@@ -48,6 +48,17 @@ int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
     hooke_node_blocks_release(blocks);
     return HOOKE_NO_MEMORY;
   }
+  hooke_node_blocks_fill(blocks, q);
+  return HOOKE_OK;
+}
+
+void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
+  const hooke_system *system = blocks->system;
+  const size_t bytes = 6 * (size_t)system->particle_count * sizeof(double);
+  memset(blocks->stiffness, 0, bytes);
+  memset(blocks->damping, 0, bytes);
+  blocks->least_ratio = INFINITY;
+  blocks->across = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
       const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
@@ -59,7 +70,6 @@ int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
     for (int a = 0; a < 3 && !system->held[p]; a++)
       blocks->damping[6 * p + a] += system->drag;
   }
-  return HOOKE_OK;
 }
 
 void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
@@ -69,11 +79,32 @@ void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
   memset(blocks, 0, sizeof *blocks);
 }
 
-/* The largest eigenvalue over particles of block/m. */
+/* By the pivots of an elimination; what is not finite is not positive. */
+static int is_positive(const double m[6]) {
+  const double first = m[0], xy = m[3] / first, xz = m[4] / first;
+  const double second = m[1] - xy * m[3], yz = m[5] - xy * m[4];
+  return first > 0.0 && second > 0.0 && m[2] - xz * m[4] - yz * yz / second > 0.0;
+}
+
+/* 1 if no eigenvalue of a B + b G at particle p reaches `most`. */
+static int stays_below(const struct hooke_node_blocks *blocks, int64_t p, double a, double b, double most) {
+  const double *stiffness = blocks->stiffness + 6 * p, *damping = blocks->damping + 6 * p;
+  double gap[6];
+  for (int k = 0; k < 6; k++)
+    gap[k] = (k < 3 ? most : 0.0) - (a * stiffness[k] + b * damping[k]);
+  return is_positive(gap);
+}
+
+/* Particles alike differ by rounding: eigenvalues are not worth their time for that. */
+static const double ALIKE = 1.0 + 1e-15;
+
+/* The largest eigenvalue over particles of block/m, B or G. */
 static double largest_rate(const struct hooke_node_blocks *blocks, const double *block) {
+  const int stiff = block == blocks->stiffness;
   double most = 0.0;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
     if (blocks->system->held[p]) continue;
+    if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
     most = fmax(most, hooke_eigen_largest(blocks->eigen, block + 6 * p) * blocks->system->inverse_mass[p]);
   }
   return most;
@@ -85,6 +116,18 @@ double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks) {
 
 double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks) {
   return largest_rate(blocks, blocks->damping);
+}
+
+int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, double a, double b, double limit,
+                                     int64_t *particle) {
+  const hooke_system *system = blocks->system;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->held[p]) continue;
+    if (stays_below(blocks, p, a, b, limit * system->mass[p])) continue;
+    *particle = p;
+    return 0;
+  }
+  return 1;
 }
 
 /* The largest eigenvalue of (h^2 B + 2 h G)/m at particle p. */
@@ -113,6 +156,9 @@ double hooke_node_blocks_step(const struct hooke_node_blocks *blocks) {
     const double start = too_large(blocks, p);
     double high = fmin(best, start), low = 0.0;
     if (isinf(high)) continue;
+    if (best < INFINITY &&
+        stays_below(blocks, p, best * best, 2.0 * best, ALIKE * 4.0 * blocks->system->mass[p]))
+      continue;
     if (growth(blocks, p, high) <= 4.0) low = high;
     while (high - low > 1e-12 * high) {
       const double middle = 0.5 * (low + high);

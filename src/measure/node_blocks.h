@@ -19,11 +19,18 @@ struct hooke_node_blocks {
 /* At positions q (3n). HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks);
+/* The same again at other positions, in the memory there is. */
+void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q);
 void hooke_node_blocks_release(struct hooke_node_blocks *blocks);
 
 /* Bounds of the largest frequency [rad/s] and of the largest damping rate [1/s]. */
 double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks);
 double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks);
+
+/* 1 if no eigenvalue of (a K + b C)/m is above `limit` at any particle by these blocks, else 0, and `particle` is the first
+ * one at which one is. Far quicker than eigenvalues. */
+int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, double a, double b, double limit,
+                                     int64_t *particle);
 
 /* The largest h at which h^2 K + 2 h C stays below 4 M by these blocks; infinity if none limits it. */
 double hooke_node_blocks_step(const struct hooke_node_blocks *blocks);

@@ -1,6 +1,6 @@
 /* Safe steps, one rule for each fixed-step method: a row here goes with a row in the table of methods. */
 #include "core/status.h"
-#include "measure/node_blocks.h"
+#include "measure/step_bound.h"
 
 #include "hooke/measure.h"
 
@@ -37,33 +37,79 @@ static double rk4(const struct hooke_node_blocks *blocks) {
   return fastest > 0.0 ? 2.6156 / fastest : INFINITY;
 }
 
+/* ---- the same, asked of one step ---- */
+
+static int32_t forward_euler_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
+  double heaviest = 0.0;
+  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
+    if (!blocks->system->held[p]) heaviest = fmax(heaviest, blocks->system->mass[p]);
+  }
+  if (!hooke_node_blocks_stay_below(blocks, 0.0, h, 2.0, particle)) return 0;
+  if (!blocks->across && h <= blocks->least_ratio) return 1;
+  return hooke_node_blocks_stay_below(blocks, h, 0.0, blocks->system->drag / heaviest, particle);
+}
+
+static int32_t symplectic_euler_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
+  return hooke_node_blocks_stay_below(blocks, h * h, 2.0 * h, 4.0, particle);
+}
+
+static int32_t verlet_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
+  return hooke_node_blocks_stay_below(blocks, h * h, 0.0, 4.0, particle);
+}
+
+static int32_t rk4_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
+  return hooke_node_blocks_stay_below(blocks, h * h, 0.0, 2.6156 * 2.6156, particle) &&
+         hooke_node_blocks_stay_below(blocks, 0.0, h, 2.6156, particle);
+}
+
 /* Without a limit where `bound` is NULL. */
-static const struct {
+static const struct rule {
   const char *method;
   double (*bound)(const struct hooke_node_blocks *blocks);
+  int32_t (*allows)(const struct hooke_node_blocks *blocks, double h, int64_t *particle);
 } rules[] = {
-    {"forward-euler", forward_euler},
-    {"symplectic-euler", hooke_node_blocks_step},
-    {"verlet", verlet},
-    {"rk4", rk4},
-    {"backward-euler", NULL},
+    {"forward-euler", forward_euler, forward_euler_allows},
+    {"symplectic-euler", hooke_node_blocks_step, symplectic_euler_allows},
+    {"verlet", verlet, verlet_allows},
+    {"rk4", rk4, rk4_allows},
+    {"backward-euler", NULL, NULL},
 };
+
+static const struct rule *rule_of(const char *method) {
+  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
+    if (rules[k].bound && strcmp(rules[k].method, method) == 0) return &rules[k];
+  }
+  return NULL;
+}
+
+int32_t hooke_step_is_bounded(const char *method) {
+  return rule_of(method) != NULL;
+}
+
+int32_t hooke_step_is_safe(const struct hooke_node_blocks *blocks, const char *method, double h,
+                           int64_t *particle) {
+  const struct rule *rule = rule_of(method);
+  return rule == NULL || rule->allows(blocks, h, particle);
+}
+
+double hooke_step_bound_of(const struct hooke_node_blocks *blocks, const char *method) {
+  if (hooke_method_is_adaptive(method)) return INFINITY;
+  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
+    if (strcmp(rules[k].method, method) == 0)
+      return rules[k].bound ? rules[k].bound(blocks) : (double)INFINITY;
+  }
+  return NAN;
+}
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
   const int32_t adaptive = hooke_method_is_adaptive(method);
   if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  *bound = adaptive ? INFINITY : NAN;
-  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
-    if (strcmp(rules[k].method, method) != 0) continue;
-    *bound = INFINITY;
-    if (rules[k].bound == NULL) break;
-    struct hooke_node_blocks blocks;
-    status = hooke_node_blocks_create(system, q, &blocks);
-    if (status != HOOKE_OK) return status;
-    *bound = rules[k].bound(&blocks);
-    hooke_node_blocks_release(&blocks);
-  }
+  struct hooke_node_blocks blocks = {.system = system};
+  if (rule_of(method)) status = hooke_node_blocks_create(system, q, &blocks);
+  if (status != HOOKE_OK) return status;
+  *bound = hooke_step_bound_of(&blocks, method);
+  if (rule_of(method)) hooke_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

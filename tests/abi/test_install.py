@@ -68,11 +68,14 @@ def test_report(prefix, tmp_path):
         pytest.skip("this build writes no reports")
     sources = {p.name for p in (ROOT / "src/io/report").iterdir()}
     assert pages == sources | {"chart.js"}
-    command = [prefix / "bin/hooke", "study", prefix / "share/hooke/examples/scenes/oscillator.json", "--duration", "0.5",
-               "--methods", "rk4", "--report", tmp_path / "page.html"]
-    run(*command)
-    for name in pages - {"study.html"}:
-        assert (prefix / "share/hooke" / name).read_text() in (tmp_path / "page.html").read_text()
+    seen = set()
+    for verb in ("limit", "study"):
+        command = [prefix / "bin/hooke", verb, prefix / "share/hooke/examples/scenes/oscillator.json", "--duration", "0.5",
+                   "--methods", "rk4", "--report", tmp_path / "page.html"]
+        run(*command)
+        text = (tmp_path / "page.html").read_text()
+        seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
+    assert pages - seen == {"page.html"}, "the frame, with marks where the others are put in"
     (prefix / "share/hooke/study.js").rename(prefix / "share/hooke/away.js")
     assert "share/hooke/study.js" in run(*command, expect=6)
     (prefix / "share/hooke/away.js").rename(prefix / "share/hooke/study.js")

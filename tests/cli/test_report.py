@@ -2,72 +2,20 @@
 
 import copy
 import json
-import re
-import shutil
 import subprocess
-from html.parser import HTMLParser
 
 import pytest
 
-from conftest import CLI, MINIMAL, STIFF_PAIR
+from conftest import CLI, STIFF_PAIR
+from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, check_planted_faults, count_pixels
+from pages import fetches, needs_browser, needs_page
 
-BROWSER = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
-VERSION = subprocess.run([CLI, "--version"], capture_output=True, text=True, check=True).stdout
-DRAWS = not re.search(r"Chart\.js +not in this build", VERSION)
-
-needs_page = pytest.mark.skipif(MINIMAL or not DRAWS, reason="this build writes no reports: it has no Chart.js")
-needs_browser = pytest.mark.skipif(BROWSER is None, reason="there is no Chromium to open the page with")
-
-TITLE = "a pair </script><script>throw 1</script><!-- \"&amp;\" \\ \u00b5"
 METHODS = ["forward-euler", "symplectic-euler", "rk4", "cvode-adams"]
 # Symplectic Euler diverges at 0.1, and rk4 reaches the floor of the reference.
 STEPS = "0.1,0.05,0.02,0.01,0.005,1e-5"
 
-# Reads the pixels of a diagram inside its axes: how many have the colour of each method.
-COUNT_PIXELS = """
-for (const id of ["work-precision", "convergence", "error-over-time", "energy-over-time"]) {
-  const chart = Chart.getChart(id), { left, top, width, height } = chart.chartArea, scale = chart.currentDevicePixelRatio;
-  const { data } = chart.ctx.getImageData(left * scale, top * scale, width * scale, height * scale);
-  const seen = {};
-  for (let k = 0; k < data.length; k += 4) {
-    const name = "#" + [0, 1, 2].map((i) => data[k + i].toString(16).padStart(2, "0")).join("");
-    seen[name] = (seen[name] || 0) + 1;
-  }
-  chart.canvas.dataset.pixels = methods.map((method) => seen[colourOf(method)] || 0).join(" ");
-}
-"""
+DIAGRAMS = ["work-precision", "convergence", "error-over-time", "energy-over-time"]
 PRESS = """document.querySelector('[data-key="force_evaluations"]').click();"""
-
-
-class Page(HTMLParser):
-    """The page as the browser has it after its scripts: attributes and text of the elements that have an id."""
-
-    def __init__(self, dom, console):
-        super().__init__()
-        self.console, self.attributes, self.text, self.open = console, {}, {}, []
-        self.feed(dom)
-
-    def handle_starttag(self, tag, attributes):
-        values = dict(attributes)
-        self.open.append((tag, values.get("id")))
-        if "id" in values:
-            self.attributes[values["id"]] = values
-            self.text[values["id"]] = ""
-
-    def handle_endtag(self, tag):
-        while self.open and self.open.pop()[0] != tag:
-            pass
-
-    def handle_data(self, data):
-        for _, name in self.open:
-            if name:
-                self.text[name] += data
-
-    def drawn(self, name):
-        """What the page says that Chart.js drew: a dictionary of counts."""
-        data = {key[5:]: value for key, value in self.attributes[name].items() if key.startswith("data-")}
-        return {key: int(value) for key, value in data.items() if value.isdigit()} | {
-            key: value for key, value in data.items() if not value.isdigit()}
 
 
 @pytest.fixture(scope="module")
@@ -85,19 +33,6 @@ def study(tmp_path_factory):
     return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
 
 
-def browse(folder, page, script="", body=""):
-    """Opens the page, with a script and markup added at its end, and gives it back as it is afterwards."""
-    added = body + (f"<script>{script}</script>" if script else "")
-    (folder / "page.html").write_text(page.replace("</body>", added + "</body>"), encoding="utf-8")
-    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-               "--disable-background-networking", "--disable-component-update", "--disable-sync",
-               f"--user-data-dir={folder}/profile", "--force-color-profile=srgb", "--window-size=1200,1000",
-               "--virtual-time-budget=5000", "--enable-logging=stderr", "--dump-dom", f"file://{folder}/page.html"]
-    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=200)
-    assert done.returncode == 0, done.stderr
-    return Page(done.stdout, [line for line in done.stderr.splitlines() if "CONSOLE" in line])
-
-
 def rows_with(value, **wanted):
     return [row for row in value["rows"] if all(row[key] == want for key, want in wanted.items())]
 
@@ -106,7 +41,7 @@ def rows_with(value, **wanted):
 @needs_browser
 def test_what_is_drawn(study, tmp_path):
     page, value = study
-    seen = browse(tmp_path, page, COUNT_PIXELS)
+    seen = browse(tmp_path, page, count_pixels(DIAGRAMS))
     assert seen.console == []
     diverged = rows_with(value, status="diverged")
     near = [row for row in value["rows"] if row["error"] is not None and
@@ -155,7 +90,7 @@ def test_words(study, tmp_path):
     assert chosen["command"] in seen.text["recommendation"]
     assert chosen["method"] in seen.text["recommendation"]
     for name in value["reference"]["methods"]:
-        assert name in seen.text["reference"]
+        assert name in seen.text["about"]
     assert VERSION.split()[1] in seen.text["machine"]
     for row in value["rows"]:
         assert seen.text["rows"].count(row["method"]) == len(rows_with(value, method=row["method"]))
@@ -164,34 +99,16 @@ def test_words(study, tmp_path):
 
 @needs_page
 @needs_browser
-def test_planted_faults(study, tmp_path):
-    """A fault in a script is seen, and the page refuses to fetch anything."""
-    page, _ = study
-    seen = browse(tmp_path, page, "throw new Error('planted');", '<img src="http://127.0.0.1:9/planted.png">')
-    assert any("planted" in line and "Error" in line for line in seen.console)
-    assert any("Content Security Policy" in line for line in seen.console)
-
-
-@needs_page
-def test_nothing_is_fetched(study):
-    page, _ = study
-    code = re.sub(r"/\*.*?\*/", "", page, flags=re.DOTALL)
-    assert not re.findall(r"https?://\S{0,40}", code)
-    assert not re.findall(r"<(?:link|img|iframe|object|embed)\b|<script[^>]+src|@import|url\(", page)
-    assert "{{" not in re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
+def test_sealed(study, tmp_path):
+    assert fetches(study[0]) == []
+    check_planted_faults(tmp_path, study[0])
 
 
 @needs_page
 def test_places_that_cannot_be_written(hooke, write):
-    scene = write(STIFF_PAIR)
-    assert hooke("study", scene, "--report", "nowhere/page.html").code == 5
-    assert hooke("study", scene, "--report", "/dev/null").code == 5
-    answer = hooke("study", scene, "--report", scene)
-    assert answer.code == 2 and "the scene itself" in answer.err
+    check_places(hooke, write(STIFF_PAIR), "study")
 
 
 @pytest.mark.skipif(DRAWS, reason="this build writes reports")
 def test_not_in_this_build(hooke, write):
-    answer = hooke("study", write(STIFF_PAIR), "--report", "page.html")
-    assert answer.code == 6
-    assert "libjs-chart.js" in answer.err
+    check_not_built(hooke, write(STIFF_PAIR), "study")

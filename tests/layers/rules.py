@@ -23,6 +23,8 @@ PUBLIC = {
     "hooke/integrator.h": "integrate",
     "hooke/measure.h": "measure",
     "hooke/study.h": "measure",
+    "hooke/limit.h": "measure",
+    "hooke/why.h": "measure",
     "hooke/io.h": "io",
 }
 
@@ -33,6 +35,7 @@ FENCES = [
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
     (r"gsl/.*", r"src/(integrate|measure)/\w+_gsl\.[ch]"),
+    (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
 ]
 

@@ -1,37 +1,15 @@
 "use strict";
-/* Draws a study with Chart.js. The data are those of the element #study, in SI units. */
+/* The diagrams of a study. */
 
-const study = JSON.parse(document.getElementById("study").textContent);
-const methods = [...new Set(study.rows.map((row) => row.method))];
+const study = data;
 const floor = study.reference.agreement;
 const recommended = study.recommendation;
 const want = recommended ? recommended.want : null;
 const trusted = study.reference.trusted_until, duration = study.reference.duration;
 const wholeRun = trusted === null || trusted >= duration * (1 - 1e-9);
 
-/* ---- numbers as words ---- */
-
-const RAISED = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075",
-  6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079" };
-const power = (exponent) => "10" + [...String(exponent)].map((c) => RAISED[c]).join("");
-
-function words(value, digits = 3) {
-  if (value === null || value === undefined) return "\u2013";
-  const size = Math.abs(value);
-  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(digits)));
-  const [head, exponent] = value.toExponential(digits - 1).split("e");
-  return (Number(head) === 1 ? "" : `${Number(head)}\u00b7`) + power(Number(exponent));
-}
-const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
 const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);
 
-/* ---- what a method looks like ---- */
-
-const COLOURS = ["#0072b2", "#d55e00", "#00875f", "#c2408f", "#7a5195", "#b8860b", "#2aa1c9", "#8b3a3a", "#5b6770",
-  "#3d7a1f"];
-const MARKS = ["circle", "rect", "triangle", "rectRot"];
-const colourOf = (method) => COLOURS[methods.indexOf(method) % COLOURS.length];
-const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
 const rowsOf = (method) => study.rows.filter((row) => row.method === method);
 const finished = (row) => row.status === "finished" && row.error !== null;
 
@@ -116,64 +94,7 @@ function curve(method, rows, what, range, edge) {
   };
 }
 
-/* ---- charts ---- */
-
-Chart.defaults.animation = false;
-Chart.defaults.maintainAspectRatio = false;
-Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
-Chart.defaults.font.size = 13;
-Chart.defaults.color = "#1c2126";
-
-/* Says in the element what Chart.js has drawn, for whoever looks from outside. */
-const tell = {
-  id: "tell",
-  afterDraw(chart) {
-    const area = chart.chartArea;
-    let lines = 0, points = 0, outside = 0, crosses = 0, hollow = 0;
-    chart.data.datasets.forEach((line, k) => {
-      if (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k)) return;
-      const seen = chart.getDatasetMeta(k).data.filter((point) => !point.skip);
-      lines += seen.length > 0;
-      points += seen.length;
-      crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
-      hollow += seen.filter((point) => point.options.backgroundColor === "#fff").length;
-      outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
-        point.y < area.top - 1 || point.y > area.bottom + 1).length;
-    });
-    const across = chart.options.scales.x.title.text;
-    Object.assign(chart.canvas.dataset, { across, lines, points, outside, crosses, hollow });
-  },
-};
-
-function legendLabels(chart) {
-  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label) => {
-    const line = chart.data.datasets[label.datasetIndex];
-    const pointed = Array.isArray(line.pointStyle);
-    return { ...label, pointStyle: pointed ? markOf(line.label) : line.pointStyle, fillStyle: line.backgroundColor,
-      strokeStyle: line.borderColor, lineWidth: 2 };
-  });
-}
-
-function draw(id, lines, x, y, describe) {
-  const canvas = document.getElementById(id);
-  const old = Chart.getChart(canvas);
-  if (old) old.destroy();
-  return new Chart(canvas, {
-    type: "scatter",
-    data: { datasets: lines.map((line) => ({ showLine: true, ...line })) },
-    plugins: [tell],
-    options: {
-      scales: { x, y },
-      layout: { padding: { top: 4, right: 12 } },
-      interaction: { mode: "nearest", intersect: true },
-      plugins: {
-        legend: { position: "bottom", labels: { usePointStyle: true, boxHeight: 8, padding: 14,
-          generateLabels: legendLabels, filter: (label) => label.text !== "" } },
-        tooltip: { callbacks: { title: (items) => items[0].dataset.label, label: describe } },
-      },
-    },
-  });
-}
+/* ---- error against cost and step ---- */
 
 function describeRow(item) {
   const row = item.raw.row;
@@ -264,21 +185,4 @@ function drawTimes(how) {
   };
   draws("error-over-time", "error_at", "error [m]", want === null ? [] : [want]);
   draws("energy-over-time", "energy_drift_at", "|E \u2212 E of the reference| [J]", []);
-}
-
-/* Buttons of which one is pressed, `first` to begin with; `show` is called with its key. */
-function choice(id, options, first, show) {
-  const box = document.getElementById(id);
-  const press = (key) => {
-    for (const button of box.children) button.setAttribute("aria-pressed", String(button.dataset.key === key));
-    show(key);
-  };
-  for (const [key, [label]] of options) {
-    const button = document.createElement("button");
-    button.textContent = label;
-    button.dataset.key = key;
-    button.onclick = () => press(key);
-    box.append(button);
-  }
-  press(first);
 }

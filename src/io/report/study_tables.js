@@ -1,28 +1,15 @@
 "use strict";
-/* The words and tables of the page, and the start of everything. Text is set as text, never as markup. */
-
-function element(kind, text, options = {}) {
-  const made = Object.assign(document.createElement(kind), options);
-  if (text !== undefined) made.textContent = text;
-  return made;
-}
-
-function fact(list, name, value) {
-  if (value === null || value === undefined || value === "") return;
-  document.getElementById(list).append(element("dt", name), element("dd", value));
-}
+/* The words and tables of a study, and the start of everything. */
 
 /* ---- the head ---- */
 
 function writeHead() {
-  document.title = `hooke study: ${study.scene}`;
-  document.getElementById("scene").textContent = study.scene;
-  document.getElementById("lead").textContent =
+  writeLead("study",
     `How accurate each method is for what it costs, over ${words(duration, 6)} s. ` +
     `${study.rows.length} runs of ${methods.length} methods, ${study.date}.` +
-    (wholeRun ? "" : ` The two integrators of the reference part after ${words(trusted, 6)} s: ` +
+    (wholeRun ? "" : ` The two integrators of the reference agree up to ${words(trusted, 6)} s: ` +
       "all errors are those up to there.") +
-    (study.reference.budget_spent ? " The time that the study was given ran out before its last rows." : "");
+    (study.reference.budget_spent ? " The time that the study was given ran out." : ""));
   document.getElementById("crosses").hidden = study.rows.every(finished);
   document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== 0);
 }
@@ -31,11 +18,11 @@ function writeRecommendation() {
   const box = document.getElementById("recommendation");
   box.append(element("h2", !recommended || recommended.met ? "Recommendation" : "Nothing meets what is wanted"));
   if (!recommended) {
-    box.className = "none";
+    box.classList.add("none");
     box.append(element("p", "None was asked for. Say how large an error you can live with, such as --want 1mm."));
     return;
   }
-  box.className = recommended.met ? "met" : "unmet";
+  box.classList.add(recommended.met ? "met" : "unmet");
   if (recommended.note) box.append(element("p", recommended.note + "."));
   if (recommended.method) {
     const cost = `it takes ${words(recommended.wall_seconds)} s of wall time and ` +
@@ -57,26 +44,6 @@ const COLUMNS = [["setting", "step [s]", "or rtol"], ["error", "error", "[m]"],
   ["force_evaluations", "force", "evaluations"], ["steps", "steps", ""], ["linear_iterations", "solver", "iterations"],
   ["wall_seconds", "wall time", "[s]"], ["wall_median", "median", "[s]"], ["repeats", "repeats", ""]];
 const COUNTS = new Set(["force_evaluations", "steps", "linear_iterations", "repeats"]);
-
-function headOf(columns) {
-  const row = element("tr");
-  for (const [, name, unit, kind] of columns) {
-    const cell = element("th", name, { className: kind || "" });
-    if (unit) cell.append(element("br"), element("small", unit));
-    row.append(cell);
-  }
-  const head = element("thead");
-  head.append(row);
-  return head;
-}
-
-function methodCell(method) {
-  const cell = element("td", undefined, { className: "word" });
-  const swatch = element("span", undefined, { className: "swatch" });
-  swatch.style.background = colourOf(method);
-  cell.append(swatch, method);
-  return cell;
-}
 
 function numberCell(row, what) {
   const value = what === "setting" ? row.step ?? row.rtol : row[what];
@@ -121,28 +88,17 @@ function writeOrders() {
 /* ---- facts ---- */
 
 function writeReference() {
+  document.getElementById("about-head").textContent = "Reference";
   const { method, check, agreement, growth, frames } = study.reference;
-  fact("reference", "made by", method);
-  fact("reference", "checked by", check);
-  fact("reference", "agreement", agreement === null ? ""
+  fact("about", "made by", method);
+  fact("about", "checked by", check);
+  fact("about", "agreement", agreement === null ? ""
     : `${words(agreement)} m, the floor: no error below it means anything`);
-  fact("reference", "trusted until", trusted === null ? "" : `${words(trusted, 6)} s, ` +
+  fact("about", "trusted until", trusted === null ? "" : `${words(trusted, 6)} s, ` +
     (wholeRun ? "the whole run" : `of ${words(duration, 6)} s: there the two part, and errors are judged up to there`));
-  fact("reference", "growth", growth === null ? ""
+  fact("about", "growth", growth === null ? ""
     : `${words(growth)} times, what a small displacement of the start grows at most`);
-  fact("reference", "frames", whole(frames));
-}
-
-function writeMachine() {
-  const { machine, versions } = study;
-  fact("machine", "processor", machine.processor);
-  fact("machine", "cores", whole(machine.cores));
-  fact("machine", "system", machine.system);
-  fact("machine", "instructions", versions.instructions);
-  fact("machine", "hooke", versions.hooke);
-  const names = { sundials: "SUNDIALS", gsl: "GSL", hdf5: "HDF5", jansson: "jansson", chartjs: "Chart.js" };
-  for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
-  fact("machine", "licence", versions.licence);
+  fact("about", "frames", whole(frames));
 }
 
 /* ---- all of it ---- */

@@ -1,0 +1,254 @@
+"""Limits: the largest stable step of each method on one scene, predicted and measured, and what it hangs on."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterable
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+
+from ._callback import listening
+from ._library import lib
+from ._memory import Handle, address_of, text, view
+from ._prototypes import LIMIT, RECORD
+from ._status import OUTCOMES
+from ._tables import read_rows
+from .options import Options
+from .results import Path, Runnable, WorkProgress, prepare
+from .state import State
+from .system import System
+from .why import Blame
+
+#: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
+Place = Union[State, np.ndarray, Path, "tuple[Path, int]"]
+
+_ROW = np.dtype(
+    [("method", "U32")]
+    + [(name, float) for name in ("bound", "predicted", "measured", "ratio", "steps_run")]
+    + [("smallest", float), ("smallest_time", float)]
+    + [("exact", bool), ("never_stable", bool), ("by_eigenvalue", bool), ("note", "U640")]
+)
+_COLUMNS = (
+    ("bound", "safe bound [s]"),
+    ("predicted", "predicted [s]"),
+    ("measured", "measured [s]"),
+    ("ratio", "ratio"),
+    ("steps_run", "steps run"),
+    ("smallest", "smallest met [s]"),
+    ("smallest_time", "at time [s]"),
+)
+
+
+class Mover(NamedTuple):
+    """A particle that moves in the limiting mode: its number, its share of the kinetic energy, its mass [kg]."""
+
+    particle: int
+    share: float
+    mass: float
+
+
+class Remedy(NamedTuple):
+    """What it would buy to change the springs or particles to blame, in a sentence. `kind` is "soften" or "heavier";
+    "" where no small set is to blame, and the numbers are then NaN: how many springs or particles to change, the
+    factor by which, what they cost (a factor of the step), and what the change gains, found again with the change
+    made and by first-order perturbation."""
+
+    kind: str
+    sentence: str
+    springs: float
+    particles: float
+    factor: float
+    cost: float
+    gain: float
+    gain_predicted: float
+
+
+class Limit:
+    """The largest stable steps of a scene, linearised at its positions and at rest.
+
+    `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
+    (measured to predicted), steps_run (steps taken to measure), smallest [s] and smallest_time [s] (met along a run);
+    exact, never_stable, by_eigenvalue (stable where ``step * modes`` is within one region), note. A step is infinite
+    where nothing limits it, 0 where none is stable, NaN where it does not apply.
+
+    `modes` (k,) [1/s] are the eigenvalues that are known, complex, of conjugates the one with the positive imaginary
+    part, the largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x
+    = 0, of which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a
+    limit, if that has none), its largest displacement 1; None where nothing is limited. `blame` has the springs that
+    it hangs on, at most 100, and `movers` the particles that move in it, each the largest share first; `remedy` what
+    it would buy to change them, None where nothing is limited.
+
+    `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of compressed
+    springs whose sideways push was left out, `time` [s] that of the state, `step` [s] the step of the scene (NaN if it
+    names none), `outcome` "finished", or as the run along which limits were found ended.
+    """
+
+    outcome: str
+    time: float
+    step: float
+    rows: np.ndarray
+    modes: np.ndarray
+    frequency: np.ndarray
+    decay: np.ndarray
+    shape: np.ndarray | None
+    frequency_max: float
+    rate_max: float
+    clamped: int
+    blame: list[Blame]
+    movers: list[Mover]
+    remedy: Remedy | None
+
+    def __init__(self, handle: Handle, state: State, step: float, status: int):
+        self.outcome = OUTCOMES.get(status, "stopped")
+        self.time, self.step = state.t, step
+        count = lib.hooke_limit_row_count(handle)
+        self.rows = read_rows(handle, count, _ROW, lib.hooke_limit_text, lib.hooke_limit_number)
+        self.frequency_max = lib.hooke_limit_figure(handle, b"frequency_max")
+        self.rate_max = lib.hooke_limit_figure(handle, b"rate_max")
+        clamped = lib.hooke_limit_figure(handle, b"clamped")
+        self.clamped = 0 if np.isnan(clamped) else int(clamped)
+        real, imaginary, self.frequency, self.decay = _read_modes(handle)
+        self.modes = real + 1j * imaginary
+        shape = address_of(lib.hooke_limit_shape(handle))
+        self.shape = view(shape, state.q.shape).copy() if shape else None
+        self.blame = [_blame(handle, place) for place in range(lib.hooke_limit_blame_count(handle))]
+        self.movers = [_mover(handle, place) for place in range(lib.hooke_limit_mover_count(handle))]
+        self.remedy = _remedy(handle)
+
+    @property
+    def methods(self) -> list[str]:
+        """The methods in the order of the rows."""
+        return [str(name) for name in self.rows["method"]]
+
+    def __getitem__(self, method: str) -> np.void:
+        """The row of a method."""
+        if method not in self.methods:
+            raise KeyError(f"{method!r}; there are {', '.join(self.methods)}")
+        return self.rows[self.methods.index(method)]
+
+    def plot(self, axes: Any = None, **options: Any) -> Any:
+        """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
+        from .plot import limit as draw
+
+        return draw(self, axes, **options)
+
+    def __str__(self) -> str:
+        shown = [(name, head) for name, head in _COLUMNS if not np.isnan(self.rows[name]).all()]
+        lines = [f"{'method':18}" + "".join(f"{head:>18}" for _, head in shown)]
+        for row in self.rows:
+            lines.append(f"{row['method']:18}" + "".join(f"{_cell(name, row[name]):>18}" for name, _ in shown))
+        if self.blame:
+            first = self.blame[0]
+            group = f", group {first.group}" if first.group else ""
+            lines.append(
+                f"the most to blame: spring {first.spring}, between particles {first.ends[0]} and {first.ends[1]}"
+                f"{group}, {100 * first.share:.1f} %"
+            )
+        if self.remedy is not None:
+            lines.append(self.remedy.sentence)
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"
+
+
+def limit(
+    problem: Runnable,
+    at: Place | None = None,
+    methods: str | Iterable[str] | None = None,
+    *,
+    predict: bool = False,
+    along: bool = False,
+    nonlinear: bool = False,
+    accuracy: float | None = None,
+    budget: float | None = None,
+    progress: WorkProgress | None = None,
+    **options: Any,
+) -> Limit:
+    """Finds the largest stable step of each of `methods` (all of fixed step, if None) on a scene (or the path of one)
+    or a system: predicted from the eigenvalues of the scene linearised `at` its positions (at the start, if None) and
+    at rest, and then measured by running the method, unless `predict` is True.
+
+    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
+    the number of a frame. ``along=True`` predicts at every frame of the run and tells the smallest limits met and when;
+    ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the measuring.
+    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0. The
+    keywords `options` are those of a run. ``hooke limit --report FILE.html`` makes a page with diagrams.
+    """
+    _, system, run = prepare("limit", problem, None, options)
+    if methods is not None and not isinstance(methods, str):
+        methods = ",".join(methods)
+    chosen = Options.for_limit().set(
+        methods=methods, predict=predict, nonlinear=nonlinear, accuracy=accuracy, budget=budget
+    )
+    state = _state_at(system, at)
+    pointer = LIMIT()
+    lib.hooke_limit_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
+    handle = Handle(pointer, lib.hooke_limit_destroy, system._handle)
+    with listening(lib.hooke_limit_on_progress, handle, progress):
+        status = (lib.hooke_limit_along if along else lib.hooke_limit_find)(handle, state._handle)
+    return Limit(handle, state, _own_step(run), status)
+
+
+def _own_step(run: Options) -> float:
+    step = run["step"]
+    adaptive = lib.hooke_method_is_adaptive(str(run["method"]).encode())
+    return float(step) if isinstance(step, (int, float)) and not adaptive else np.nan
+
+
+def _state_at(system: System, at: Place | None) -> State:
+    """A state of its own, since a run may move it."""
+    state = system.state()
+    if isinstance(at, State):
+        lib.hooke_state_copy(at._handle, state._handle)
+    elif isinstance(at, (tuple, str, os.PathLike)):
+        path, frame = at if isinstance(at, tuple) else (at, -1)
+        pointer = RECORD()
+        lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
+        lib.hooke_record_read(Handle(pointer, lib.hooke_record_close), frame, state._handle)
+    elif at is not None:
+        state.q = at
+    return state
+
+
+def _read_modes(handle: Handle) -> list[np.ndarray]:
+    count = range(lib.hooke_limit_mode_count(handle))
+    return [
+        np.array([lib.hooke_limit_mode_number(handle, mode, what) for mode in count], float)
+        for what in (b"real", b"imaginary", b"frequency", b"decay")
+    ]
+
+
+def _blame(handle: Handle, place: int) -> Blame:
+    def number(what: bytes) -> float:
+        return lib.hooke_limit_blame_number(handle, place, what)
+
+    group = text(lib.hooke_limit_blame_text(handle, place, b"group"))
+    return Blame(int(number(b"spring")), (int(number(b"first")), int(number(b"second"))), group, number(b"share"))
+
+
+def _mover(handle: Handle, place: int) -> Mover:
+    particle, share, mass = (
+        lib.hooke_limit_mover_number(handle, place, what) for what in (b"particle", b"share", b"mass")
+    )
+    return Mover(int(particle), share, mass)
+
+
+def _remedy(handle: Handle) -> Remedy | None:
+    sentence = text(lib.hooke_limit_remedy_text(handle, b"sentence"))
+    if not sentence:
+        return None
+    numbers = (lib.hooke_limit_remedy_number(handle, what.encode()) for what in Remedy._fields[2:])
+    return Remedy(text(lib.hooke_limit_remedy_text(handle, b"kind")), sentence, *numbers)
+
+
+def _cell(name: str, value: float) -> str:
+    if np.isnan(value):
+        return "-"
+    if np.isinf(value):
+        return "none"
+    if name == "steps_run":
+        return f"{value:.0f}"
+    return "no step" if value == 0 and name != "smallest_time" else f"{value:.6g}"

@@ -1,0 +1,146 @@
+"use strict";
+/* The words and tables of a limit, and the start of everything. */
+
+const MOST_BLAMED = 12;
+const percent = (share) =>
+  (share < 5e-5 ? "under 0.01 %" : `${(100 * share).toFixed(share < 0.0995 ? 2 : 1)} %`);
+const groupOf = (blame) => (blame.group ? `group ${blame.group}` : "no group");
+
+/* ---- the head ---- */
+
+function writeHead() {
+  writeLead("limit", `How large a step each method can take before it blows up, for the scene frozen as it is at ` +
+    `t = ${words(data.time, 6)} s. The fastest motion has ${words(data.frequency_max, 6)} rad/s, the fastest damping ` +
+    `${words(data.rate_max, 6)} 1/s, ${data.date}.` + (data.clamped === 0 ? ""
+    : ` ${whole(data.clamped)} of the springs are compressed; what pushes their ends sideways is growth by physics, ` +
+      "and left out."));
+}
+
+/* What the springs of each group carry, the most first. */
+function groupShares() {
+  const sums = new Map();
+  for (const one of data.blame) sums.set(groupOf(one), (sums.get(groupOf(one)) || 0) + one.share);
+  return [...sums].sort((a, b) => b[1] - a[1]).filter(([, share]) => share > 0.001)
+    .map(([group, share]) => `${percent(share)} in ${group}`).join(", ");
+}
+
+function writeVerdict() {
+  const box = document.getElementById("verdict"), row = data.blamed && rowOf(data.blamed);
+  box.append(element("h2", "What limits the step"));
+  if (!row) {
+    box.classList.add("none");
+    box.append(element("p", "Nothing does, for these methods."));
+    return;
+  }
+  box.append(element("p", row.predicted > 0
+    ? `${row.method} is stable up to ${words(row.predicted, 6)} s` +
+      (row.measured > 0 ? `, and was measured to be so up to ${words(row.measured, 6)} s.` : ", as predicted.")
+    : `${row.method} is stable at no step.`));
+  if (data.blame.reduce((sum, one) => sum + one.share, 0) > 0.9)
+    box.append(element("p", `The mode that limits it has its force from springs: ${groupShares()}.`));
+  if (data.remedy) box.append(element("p", data.remedy[0].toUpperCase() + data.remedy.slice(1) + "."));
+}
+
+/* ---- the words of the diagrams ---- */
+
+function writeUnbounded() {
+  const names = data.rows.filter((row) => !row.reach && row.predicted === "none").map((row) => row.method);
+  if (names.length === 0) return;
+  document.getElementById("unbounded").textContent = `No line: ${names.join(", ")}, which no eigenvalue limits.`;
+}
+
+function writePictured() {
+  const left = picture.springs - listed.length;
+  const say = [];
+  if (moving) say.push(`The mode that limits ${data.blamed}: arrows show how particles move in it, to one side and back.`);
+  say.push(left > 0
+    ? `${whole(listed.length)} of ${whole(picture.springs)} springs are drawn, with all that are to blame; ` +
+      `${whole(left)} are left out.`
+    : `All ${whole(picture.springs)} springs are drawn.`);
+  if (movers.length > MOST_ARROWS)
+    say.push(`Arrows are at the ${MOST_ARROWS} that move the most, of ${whole(movers.length)} drawn that move.`);
+  document.getElementById("pictured").textContent = say.join(" ");
+}
+
+/* ---- tables ---- */
+
+const describeBlame = (one) =>
+  [`spring ${one.spring}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
+
+function writeBlame() {
+  const body = element("tbody"), most = data.blame.slice(0, MOST_BLAMED);
+  for (const one of most) {
+    const line = element("tr"), name = element("td", undefined, { className: "word" });
+    const swatch = element("span", undefined, { className: "swatch" });
+    swatch.style.background = shareColour(one.share);
+    name.append(swatch, `spring ${one.spring}`);
+    line.append(name, element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
+      element("td", percent(one.share), { title: String(one.share) }));
+    body.append(line);
+  }
+  if (most.length === 0) return;
+  if (data.blame.length > most.length) {
+    const line = element("tr");
+    line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
+    body.append(line);
+  }
+  document.getElementById("blame").append(headOf([["", "to blame", "", "word"], ["", "between particles"],
+    ["", "group", "", "word"], ["", "share of the mode"]]), body);
+}
+
+const COLUMNS = [["bound", "safe bound", "[s]"], ["predicted", "predicted", "[s]"], ["measured", "measured", "[s]"],
+  ["ratio", "measured /", "predicted"], ["steps_run", "steps run", ""], ["smallest", "smallest met", "[s]"],
+  ["smallest_time", "at time", "[s]"]];
+const STEPS = new Set(["bound", "predicted", "measured", "smallest"]);
+
+function stepCell(row, what) {
+  const value = row[what], isStep = STEPS.has(what);
+  const text = value === "none" ? "none" : isStep && value === 0 ? "no step"
+    : what === "steps_run" ? whole(value) : words(value, 6);
+  return element("td", text, { title: typeof value === "number" ? String(value) : "" });
+}
+
+function writeRows() {
+  const columns = COLUMNS.filter(([what]) => data.rows.some((row) => row[what] !== null));
+  const body = element("tbody");
+  for (const row of data.rows) {
+    const line = element("tr");
+    line.append(methodCell(row.method), ...columns.map(([what]) => stepCell(row, what)),
+      element("td", row.note, { className: "word note" }));
+    body.append(line);
+  }
+  document.getElementById("rows").append(headOf([["", "method", "", "word"], ...columns, ["", "", "", "word"]]), body);
+}
+
+function writeAbout() {
+  document.getElementById("about-head").textContent = "The scene";
+  fact("about", "particles", whole(picture.particles));
+  fact("about", "springs", whole(picture.springs));
+  fact("about", "method", data.method);
+  fact("about", "step", data.step === null ? "" : `${words(data.step, 6)} s`);
+  fact("about", "eigenvalues", data.rows.every((row) => row.exact === 1) ? `${whole(modeCount)} known, of each pair one`
+    : `${whole(modeCount)} known, those of the fastest modes`);
+}
+
+/* ---- all of it ---- */
+
+writeHead();
+writeVerdict();
+writeUnbounded();
+writePictured();
+writeBlame();
+writeRows();
+writeAbout();
+writeMachine();
+document.getElementById("stability").hidden = modeCount === 0 || steps.length === 0;
+if (modeCount > 0 && steps.length > 0) {
+  const first = steps.find((one) => one.key === "scene") || steps.find((one) => one.key === data.blamed) || steps[0];
+  choice("step", steps.map((one) => [one.key, [one.label]]), first.key, drawStability);
+}
+document.getElementById("mode").hidden = listed.length === 0;
+if (listed.length > 0) {
+  if (moving && movers.length < particles.length)
+    choice("zoom", [["all", ["whole scene"]], ["mode", ["where it moves"]]], "all", (key) => look("zoom", key));
+  choice("view", Object.entries(VIEWS).map(([key]) => [key, [[...key].join(" ")]]), firstView(),
+    (key) => look("view", key));
+}

@@ -1,0 +1,158 @@
+"use strict";
+/* What all pages share: numbers as words, what a method looks like, diagrams by Chart.js, tables. The data are those of the
+ * element #data, in SI units. Text is set as text, never as markup. */
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const methods = [...new Set(data.rows.map((row) => row.method))];
+
+/* ---- numbers as words ---- */
+
+const RAISED = { "-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075",
+  6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079" };
+const power = (exponent) => "10" + [...String(exponent)].map((c) => RAISED[c]).join("");
+
+function words(value, digits = 3) {
+  if (value === null || value === undefined) return "\u2013";
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(digits)));
+  const [head, exponent] = value.toExponential(digits - 1).split("e");
+  return (Number(head) === 1 ? "" : `${Number(head)}\u00b7`) + power(Number(exponent));
+}
+const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
+
+/* ---- what a method looks like ---- */
+
+const COLOURS = ["#0072b2", "#d55e00", "#00875f", "#c2408f", "#7a5195", "#b8860b", "#2aa1c9", "#8b3a3a", "#5b6770",
+  "#3d7a1f"];
+const MARKS = ["circle", "rect", "triangle", "rectRot"];
+const colourOf = (method) => COLOURS[methods.indexOf(method) % COLOURS.length];
+const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
+
+/* ---- charts ---- */
+
+Chart.defaults.animation = false;
+Chart.defaults.maintainAspectRatio = false;
+Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
+Chart.defaults.font.size = 13;
+Chart.defaults.color = "#1c2126";
+
+/* Says in the element what Chart.js has drawn, for whoever looks from outside. */
+const tell = {
+  id: "tell",
+  afterDraw(chart) {
+    const area = chart.chartArea;
+    let lines = 0, points = 0, outside = 0, crosses = 0, hollow = 0;
+    chart.data.datasets.forEach((line, k) => {
+      if (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k)) return;
+      const seen = chart.getDatasetMeta(k).data.filter((point) => !point.skip);
+      lines += seen.length > 0;
+      points += seen.length;
+      crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
+      hollow += seen.filter((point) => point.options.backgroundColor === "#fff").length;
+      outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
+        point.y < area.top - 1 || point.y > area.bottom + 1).length;
+    });
+    const across = chart.options.scales.x.title.text;
+    Object.assign(chart.canvas.dataset, { across, lines, points, outside, crosses, hollow });
+  },
+};
+
+function legendLabels(chart) {
+  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label) => {
+    const line = chart.data.datasets[label.datasetIndex];
+    const pointed = Array.isArray(line.pointStyle);
+    return { ...label, pointStyle: pointed ? markOf(line.label) : line.pointStyle, fillStyle: line.backgroundColor,
+      strokeStyle: line.borderColor, lineWidth: 2 };
+  });
+}
+
+function draw(id, lines, x, y, describe) {
+  const canvas = document.getElementById(id);
+  const old = Chart.getChart(canvas);
+  if (old) old.destroy();
+  return new Chart(canvas, {
+    type: "scatter",
+    data: { datasets: lines.map((line) => ({ showLine: true, ...line })) },
+    plugins: [tell],
+    options: {
+      scales: { x, y },
+      layout: { padding: { top: 4, right: 12 } },
+      interaction: { mode: "nearest", intersect: true },
+      plugins: {
+        legend: { position: "bottom", labels: { usePointStyle: true, boxHeight: 8, padding: 14,
+          generateLabels: legendLabels, filter: (label) => label.text !== "" } },
+        tooltip: { callbacks: { title: (items) => items[0].dataset.label, label: describe } },
+      },
+    },
+  });
+}
+
+/* Buttons of which one is pressed, `first` to begin with; `show` is called with its key. */
+function choice(id, options, first, show) {
+  const box = document.getElementById(id);
+  const press = (key) => {
+    for (const button of box.children) button.setAttribute("aria-pressed", String(button.dataset.key === key));
+    show(key);
+  };
+  for (const [key, [label]] of options) {
+    const button = document.createElement("button");
+    button.textContent = label;
+    button.dataset.key = key;
+    button.onclick = () => press(key);
+    box.append(button);
+  }
+  press(first);
+}
+
+/* ---- words and tables ---- */
+
+function element(kind, text, options = {}) {
+  const made = Object.assign(document.createElement(kind), options);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+function fact(list, name, value) {
+  if (value === null || value === undefined || value === "") return;
+  document.getElementById(list).append(element("dt", name), element("dd", value));
+}
+
+/* The head of the page: its title and the line below it. */
+function writeLead(kind, lead) {
+  document.title = `hooke ${kind}: ${data.scene}`;
+  document.getElementById("scene").textContent = data.scene;
+  document.getElementById("lead").textContent = lead;
+}
+
+function headOf(columns) {
+  const row = element("tr");
+  for (const [, name, unit, kind] of columns) {
+    const cell = element("th", name, { className: kind || "" });
+    if (unit) cell.append(element("br"), element("small", unit));
+    row.append(cell);
+  }
+  const head = element("thead");
+  head.append(row);
+  return head;
+}
+
+function methodCell(method) {
+  const cell = element("td", undefined, { className: "word" });
+  const swatch = element("span", undefined, { className: "swatch" });
+  swatch.style.background = colourOf(method);
+  cell.append(swatch, method);
+  return cell;
+}
+
+function writeMachine() {
+  const { machine, versions } = data;
+  fact("machine", "processor", machine.processor);
+  fact("machine", "cores", whole(machine.cores));
+  fact("machine", "system", machine.system);
+  fact("machine", "instructions", versions.instructions);
+  fact("machine", "hooke", versions.hooke);
+  const names = { sundials: "SUNDIALS", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5", jansson: "jansson",
+    chartjs: "Chart.js" };
+  for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
+  fact("machine", "licence", versions.licence);
+}

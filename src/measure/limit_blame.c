@@ -1,0 +1,113 @@
+#include "measure/limit_blame.h"
+
+#include "core/memory.h"
+#include "measure/frozen.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Puts an element where it belongs in a list of HOOKE_BLAME_MOST at most, the largest share first and equal ones in the
+ * order in which they come. `share_at` is where an element has its share. */
+static void keep(void *list, int64_t *count, size_t size, size_t share_at, const void *element) {
+  unsigned char *place = list;
+  double share, other;
+  memcpy(&share, (const unsigned char *)element + share_at, sizeof share);
+  if (!(share > 0.0)) return;
+  int64_t k = *count;
+  for (; k > 0; k--) {
+    memcpy(&other, place + (size_t)(k - 1) * size + share_at, sizeof other);
+    if (other >= share) break;
+    if (k < HOOKE_BLAME_MOST) memcpy(place + (size_t)k * size, place + (size_t)(k - 1) * size, size);
+  }
+  if (k == HOOKE_BLAME_MOST) return;
+  memcpy(place + (size_t)k * size, element, size);
+  if (*count < HOOKE_BLAME_MOST) ++*count;
+}
+
+/* x.Kx and x.Cx of one spring; particles that are held do not move. */
+static void weigh(const hooke_system *system, const struct hooke_spring *spring, const double *q,
+                  const double *mode, double *stiffness, double *damping) {
+  const struct hooke_frozen_spring view = hooke_frozen_view(spring, q);
+  double along = 0.0, square = 0.0;
+  for (int a = 0; a < 3; a++) {
+    const double d = (system->held[view.head] ? 0.0 : mode[3 * view.head + a]) -
+                     (system->held[view.tail] ? 0.0 : mode[3 * view.tail + a]);
+    along += view.u[a] * d;
+    square += d * d;
+  }
+  *stiffness = view.across * square + (view.kappa - view.across) * along * along;
+  *damping = view.gamma * along * along;
+}
+
+static double square_of(const double *x) {
+  return (x[0] * x[0] + x[1] * x[1]) + x[2] * x[2];
+}
+
+/* The whole that springs have shares of, and its part of K; and that of particles. */
+struct whole {
+  double all, stiffness, kinetic;
+};
+
+static void find_springs(const hooke_system *system, const double *q, const double *mode, double h2, double h,
+                         struct whole *whole, struct hooke_blame *blame) {
+  int64_t group = 0, in_group = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      while (in_group == system->group[group].count)
+        group++, in_group = 0;
+      in_group++;
+      double stiffness, damping;
+      weigh(system, &spring, q, mode, &stiffness, &damping);
+      const struct hooke_blamed_spring blamed = {
+          run->first + k, spring.head, spring.tail, group, h2 * stiffness + 2.0 * h * damping,
+          h2 * stiffness};
+      whole->all += blamed.share;
+      whole->stiffness += blamed.stiffness_share;
+      blame->group_share[group] += blamed.share;
+      keep(blame->spring, &blame->spring_count, sizeof blamed, offsetof(struct hooke_blamed_spring, share),
+           &blamed);
+    }
+  }
+}
+
+static void find_particles(const hooke_system *system, const double *mode, double h, struct whole *whole,
+                           struct hooke_blame *blame) {
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->held[p]) continue;
+    const double square = square_of(mode + 3 * p);
+    const struct hooke_blamed_particle blamed = {p, system->mass[p] * square, system->mass[p]};
+    whole->all += 2.0 * h * system->drag * square;
+    whole->kinetic += blamed.share;
+    keep(blame->particle, &blame->particle_count, sizeof blamed,
+         offsetof(struct hooke_blamed_particle, share), &blamed);
+  }
+}
+
+int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
+                         struct hooke_blame *blame) {
+  struct whole whole = {0.0, 0.0, 0.0};
+  *blame = (struct hooke_blame){.group_count = system->group_count};
+  blame->group_share = hooke_new(system->group_count, sizeof(double));
+  if (blame->group_share == NULL) return HOOKE_NO_MEMORY;
+  if (mode == NULL) return HOOKE_OK;
+  find_springs(system, q, mode, h2, h, &whole, blame);
+  find_particles(system, mode, h, &whole, blame);
+  for (int64_t k = 0; k < blame->spring_count; k++) {
+    blame->spring[k].share /= whole.all;
+    blame->spring[k].stiffness_share /= whole.all;
+  }
+  for (int64_t k = 0; k < blame->particle_count; k++)
+    blame->particle[k].share /= whole.kinetic;
+  for (int64_t k = 0; k < blame->group_count && whole.all > 0.0; k++)
+    blame->group_share[k] /= whole.all;
+  blame->stiffness_share = whole.all > 0.0 ? whole.stiffness / whole.all : 0.0;
+  return HOOKE_OK;
+}
+
+void hooke_blame_release(struct hooke_blame *blame) {
+  hooke_free(blame->group_share);
+  memset(blame, 0, sizeof *blame);
+}

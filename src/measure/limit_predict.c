@@ -1,0 +1,23 @@
+#include "measure/limit_predict.h"
+
+#include "core/memory.h"
+#include "measure/limit_rules.h"
+
+int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
+                            const double *spring_scale, const double *mass_scale, double accuracy,
+                            double *limit) {
+  struct hooke_linearised linearised;
+  struct hooke_spectrum spectrum;
+  int32_t status = hooke_linearised_create(system, q, spring_scale, mass_scale, &linearised);
+  if (status != HOOKE_OK) return status;
+  status = hooke_spectrum_create(&linearised, accuracy, !hooke_limit_rule_needs_all(method), NULL, &spectrum);
+  if (status == HOOKE_OK) {
+    struct hooke_prediction prediction = {.mode = hooke_new(linearised.size, sizeof(double))};
+    status = prediction.mode ? hooke_limit_rule(&spectrum, method, &prediction) : HOOKE_NO_MEMORY;
+    if (status == HOOKE_OK) *limit = prediction.limit;
+    hooke_free(prediction.mode);
+    hooke_spectrum_release(&spectrum);
+  }
+  hooke_linearised_release(&linearised);
+  return status;
+}

@@ -1,0 +1,18 @@
+/* The largest stable step of one method on a system frozen at rest, as docs/methods.md has it.
+ *
+ * M x'' + C x' + K x = 0 over the free particles: K = sum of kappa u u^T + max(0, T/r) (I - u u^T), C = sum of
+ * gamma u u^T, plus drag; a spring that only pulls counts as taut, one of no length as stiff in all directions. */
+#ifndef HOOKE_MEASURE_LIMIT_PREDICT_H
+#define HOOKE_MEASURE_LIMIT_PREDICT_H
+
+#include "hooke/measure.h"
+
+/* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 where no step is stable, infinity where
+ * nothing limits it, an upper estimate where only part of the spectrum can be had (rk4 and forward-euler on large scenes).
+ * `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may be NULL. HOOKE_BAD_VALUE for an unknown
+ * method, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED. */
+int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
+                            const double *spring_scale, const double *mass_scale, double accuracy,
+                            double *limit);
+
+#endif

@@ -1,0 +1,136 @@
+/* Reading a limit. */
+#include "measure/limit.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A number by its name. */
+struct figure {
+  const char *name;
+  double value;
+};
+
+static double pick(const struct figure *figure, size_t count, const char *what) {
+  for (size_t k = 0; k < count; k++) {
+    if (strcmp(figure[k].name, what) == 0) return figure[k].value;
+  }
+  return NAN;
+}
+
+#define PICK(figures, what) pick((figures), sizeof(figures) / sizeof((figures)[0]), (what))
+
+double hooke_limit_figure(const hooke_limit *limit, const char *what) {
+  if (!limit->found) return NAN;
+  const struct figure figures[] = {
+      {"frequency_max", limit->frequency},  {"rate_max", limit->decay},
+      {"modes", (double)limit->mode_count}, {"products", (double)limit->products},
+      {"clamped", (double)limit->clamped},
+  };
+  return PICK(figures, what);
+}
+
+/* ---- rows ---- */
+
+static const struct hooke_limit_row *row_at(const hooke_limit *limit, int64_t row) {
+  return row >= 0 && row < limit->row_count ? &limit->row[row] : NULL;
+}
+
+int64_t hooke_limit_row_count(const hooke_limit *limit) {
+  return limit->row_count;
+}
+
+const char *hooke_limit_text(const hooke_limit *limit, int64_t row, const char *what) {
+  const struct hooke_limit_row *r = row_at(limit, row);
+  if (r == NULL) return NULL;
+  if (strcmp(what, "method") == 0) return r->method;
+  return strcmp(what, "note") == 0 ? r->note : NULL;
+}
+
+double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *what) {
+  const struct hooke_limit_row *r = row_at(limit, row);
+  if (r == NULL) return NAN;
+  const int32_t found = limit->found;
+  const int comparable = r->predicted > 0.0 && isfinite(r->predicted) && isfinite(r->measured);
+  const struct figure figures[] = {
+      {"bound", r->bound},
+      {"predicted", r->predicted},
+      {"exact", found ? (double)r->exact : (double)NAN},
+      {"measured", r->measured},
+      {"ratio", comparable ? r->measured / r->predicted : NAN},
+      {"steps_run", r->steps_run},
+      {"never_stable", found ? (double)r->never_stable : (double)NAN},
+      {"by_eigenvalue", (double)hooke_limit_rule_needs_all(r->method)},
+      {"smallest", r->smallest},
+      {"smallest_time", r->smallest_time},
+  };
+  return PICK(figures, what);
+}
+
+/* ---- blame ---- */
+
+int64_t hooke_limit_blame_count(const hooke_limit *limit) {
+  return limit->blame.spring_count;
+}
+
+double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what) {
+  if (place < 0 || place >= limit->blame.spring_count) return NAN;
+  const struct hooke_blamed_spring *s = &limit->blame.spring[place];
+  const struct figure figures[] = {{"spring", (double)s->spring},
+                                   {"first", (double)s->first},
+                                   {"second", (double)s->second},
+                                   {"share", s->share}};
+  return PICK(figures, what);
+}
+
+const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what) {
+  if (place < 0 || place >= limit->blame.spring_count || strcmp(what, "group") != 0) return NULL;
+  return hooke_system_group_name(limit->system, limit->blame.spring[place].group);
+}
+
+int64_t hooke_limit_mover_count(const hooke_limit *limit) {
+  return limit->blame.particle_count;
+}
+
+double hooke_limit_mover_number(const hooke_limit *limit, int64_t place, const char *what) {
+  if (place < 0 || place >= limit->blame.particle_count) return NAN;
+  const struct hooke_blamed_particle *p = &limit->blame.particle[place];
+  const struct figure figures[] = {{"particle", (double)p->particle}, {"share", p->share}, {"mass", p->mass}};
+  return PICK(figures, what);
+}
+
+const char *hooke_limit_remedy_text(const hooke_limit *limit, const char *what) {
+  const struct hooke_remedy *r = &limit->remedy;
+  if (strcmp(what, "kind") == 0) return r->kind;
+  return strcmp(what, "sentence") == 0 && r->sentence[0] ? r->sentence : NULL;
+}
+
+double hooke_limit_remedy_number(const hooke_limit *limit, const char *what) {
+  const struct hooke_remedy *r = &limit->remedy;
+  if (r->kind == NULL) return NAN;
+  const int soften = strcmp(r->kind, "soften") == 0;
+  const struct figure figures[] = {{"springs", soften ? (double)r->count : NAN},
+                                   {"particles", soften ? NAN : (double)r->count},
+                                   {"factor", r->factor},
+                                   {"cost", r->cost},
+                                   {"gain", r->gain},
+                                   {"gain_predicted", r->gain_predicted}};
+  return PICK(figures, what);
+}
+
+/* ---- modes ---- */
+
+int64_t hooke_limit_mode_count(const hooke_limit *limit) {
+  return limit->mode_count;
+}
+
+double hooke_limit_mode_number(const hooke_limit *limit, int64_t mode, const char *what) {
+  if (mode < 0 || mode >= limit->mode_count) return NAN;
+  const struct hooke_limit_mode *m = &limit->mode[mode];
+  const struct figure figures[] = {
+      {"real", m->real}, {"imaginary", m->imaginary}, {"frequency", m->frequency}, {"decay", m->decay}};
+  return PICK(figures, what);
+}
+
+const double *hooke_limit_shape(const hooke_limit *limit) {
+  return limit->found && hooke_limit_blamed(limit) ? limit->shape : NULL;
+}

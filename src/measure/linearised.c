@@ -1,0 +1,254 @@
+#include "measure/linearised.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/vector_loops.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A stretch below this is rounding of positions, not tension. */
+static const double ROUNDING = 1e-9;
+
+/* ---- springs ---- */
+
+static void see_spring(struct hooke_linearised *lin, int64_t k, const struct hooke_spring *spring,
+                       const double *q, double scale) {
+  /* a cable counts as taut: it may become so at any time */
+  struct hooke_spring taut = *spring;
+  taut.pull_only = 0;
+  struct hooke_stretch s;
+  hooke_spring_stretch(&taut, q, NULL, &s);
+  const double slight = ROUNDING * spring->kappa * s.length;
+  for (int a = 0; a < 3; a++)
+    lin->u[a][k] = s.direction[a];
+  lin->kappa[k] = scale * spring->kappa;
+  lin->gamma[k] = scale * spring->gamma;
+  lin->across[k] = 0.0;
+  if (s.length == 0.0)
+    lin->across[k] = scale * spring->kappa;
+  else if (s.tension > slight)
+    lin->across[k] = scale * (s.tension / s.length);
+  else if (s.tension < -slight)
+    lin->clamped++;
+}
+
+static void see_springs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
+  const hooke_system *system = lin->system;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const int64_t number = run->first + k;
+      /* between held ends it moves nothing */
+      if (system->held[spring.head] && system->held[spring.tail]) continue;
+      see_spring(lin, number, &spring, q, spring_scale ? spring_scale[number] : 1.0);
+    }
+  }
+}
+
+/* ---- units ---- */
+
+/* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
+static double largest_row(const struct hooke_linearised *lin, const double *weight, double drag,
+                          double *sum) {
+  const hooke_system *system = lin->system;
+  double most = 0.0;
+  memset(sum, 0, (size_t)system->particle_count * sizeof(double));
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
+      const int64_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
+      sum[i] += 2.0 * weight[run->first + k];
+      sum[j] += 2.0 * weight[run->first + k];
+    }
+  }
+  for (int64_t p = 0; p < system->particle_count; p++)
+    most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
+  return most;
+}
+
+static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
+  const double stiffest = largest_row(lin, lin->kappa, 0.0, sum);
+  const double quickest = largest_row(lin, lin->gamma, lin->drag, sum);
+  lin->damped = quickest > 0.0;
+  lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
+  const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
+  if (!(stiffest < INFINITY) || !(quickest < INFINITY) || !(quickest * c < 1e150) || !(k < INFINITY)) {
+    return hooke_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "stiffness over mass is up to %g 1/s^2, damping over mass up to %g 1/s; limits can be found up to "
+        "1e308, and where the second is below 1e150 times the root of the first",
+        stiffest, quickest);
+  }
+  for (int64_t s = 0; s < lin->system->springs.count; s++) {
+    lin->kappa[s] *= k;
+    lin->across[s] *= k;
+    lin->gamma[s] *= c;
+    lin->across_any |= lin->across[s] > 0.0;
+  }
+  lin->drag *= c;
+  return HOOKE_OK;
+}
+
+/* ---- making ---- */
+
+static double *part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
+int32_t hooke_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
+                                const double *mass_scale, struct hooke_linearised *lin) {
+  const int64_t n = system->particle_count, m = system->springs.count;
+  *lin = (struct hooke_linearised){.system = system, .size = 3 * n, .drag = system->drag};
+  for (int64_t k = 0; k < 3 * n; k++) {
+    if (isfinite(q[k])) continue;
+    return hooke_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
+                      (long long)(k / 3));
+  }
+  double *block = hooke_new(10 * m + 3 * n, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  lin->mass = part(&block, n);
+  lin->inverse = part(&block, n);
+  double *sum = part(&block, n);
+  for (int a = 0; a < 3; a++) {
+    lin->u[a] = part(&block, m);
+    lin->g[a] = part(&block, m);
+  }
+  lin->kappa = part(&block, m);
+  lin->across = part(&block, m);
+  lin->gamma = part(&block, m);
+  lin->g_across = part(&block, m);
+  for (int64_t p = 0; p < n; p++) {
+    lin->mass[p] = system->mass[p] * (mass_scale ? mass_scale[p] : 1.0);
+    lin->inverse[p] = system->held[p] ? 0.0 : 1.0 / lin->mass[p];
+    lin->unknowns += system->held[p] ? 0 : 3;
+  }
+  see_springs(lin, q, spring_scale);
+  const int32_t status = choose_rate(lin, sum);
+  if (status != HOOKE_OK) hooke_linearised_release(lin);
+  return status;
+}
+
+void hooke_linearised_release(struct hooke_linearised *lin) {
+  hooke_free(lin->mass);
+  memset(lin, 0, sizeof *lin);
+}
+
+/* ---- products ---- */
+
+/* A spring is g g^T + b I with g = sqrt(along - across) u: tension over length is below kappa, so nothing is negative. */
+void hooke_linearised_weigh(struct hooke_linearised *lin, double a, double b) {
+  const int64_t m = lin->system->springs.count;
+  for (int64_t s = 0; s < m; s++) {
+    const double along = a * (lin->kappa[s] - lin->across[s]) + b * lin->gamma[s];
+    const double size = sqrt(fmax(0.0, along));
+    for (int k = 0; k < 3; k++)
+      lin->g[k][s] = size * lin->u[k][s];
+  }
+  const int32_t across = lin->across_any && a > 0.0;
+  for (int64_t s = 0; s < m && across; s++)
+    lin->g_across[s] = a * lin->across[s];
+  lin->brake = b * lin->drag;
+  lin->tangent = (struct hooke_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
+                                        .e = {lin->g[0], lin->g[1], lin->g[2]},
+                                        .b = across ? lin->g_across : NULL};
+}
+
+void hooke_linearised_add_product(struct hooke_linearised *lin, const double *x, double *out) {
+  const int64_t n = lin->system->particle_count;
+  const double *const from[3] = {x, x + n, x + 2 * n};
+  double *const to[3] = {out, out + n, out + 2 * n};
+  lin->products++;
+  for (int64_t k = 0; k < lin->system->springs.run_count; k++)
+    hooke_tangent_product(&lin->system->springs.run[k], &lin->tangent, from, to);
+  if (lin->brake > 0.0) hooke_add_multiple(lin->size, lin->brake, x, out);
+}
+
+void hooke_linearised_multiply(struct hooke_linearised *lin, const double *x, double *out) {
+  memset(out, 0, (size_t)lin->size * sizeof(double));
+  hooke_linearised_add_product(lin, x, out);
+  const int64_t n = lin->system->particle_count;
+  for (int a = 0; a < 3; a++) {
+    for (int64_t p = 0; p < n; p++)
+      out[a * n + p] *= lin->inverse[p];
+  }
+}
+
+/* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
+double hooke_linearised_energy(const struct hooke_linearised *lin, const double *x) {
+  const hooke_system *system = lin->system;
+  const int64_t n = system->particle_count;
+  double sum = 0.0;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const int64_t i = spring.head, j = spring.tail, s = run->first + k;
+      const double d[3] = {x[i] - x[j], x[n + i] - x[n + j], x[2 * n + i] - x[2 * n + j]};
+      const double along = lin->g[0][s] * d[0] + lin->g[1][s] * d[1] + lin->g[2][s] * d[2];
+      sum += along * along;
+      if (lin->tangent.b) sum += lin->tangent.b[s] * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    }
+  }
+  return lin->brake > 0.0 ? sum + lin->brake * hooke_dot(lin->size, x, x) : sum;
+}
+
+/* ---- vectors ---- */
+
+double hooke_linearised_dot(const struct hooke_linearised *lin, const double *x, const double *y) {
+  return hooke_dot_weighed(lin->system->particle_count, lin->mass, x, y);
+}
+
+void hooke_linearised_start(const struct hooke_linearised *lin, double *x) {
+  uint64_t seed = 0x9e3779b97f4a7c15u;
+  const int64_t n = lin->system->particle_count;
+  for (int64_t k = 0; k < lin->size; k++) {
+    /* xorshift64* (Vigna 2016) */
+    seed ^= seed >> 12;
+    seed ^= seed << 25;
+    seed ^= seed >> 27;
+    const double number = (double)((seed * 0x2545f4914f6cdd1du) >> 11) / 4503599627370496.0 - 1.0;
+    x[k] = lin->system->held[k % n] ? 0.0 : number * sqrt(lin->inverse[k % n]);
+  }
+}
+
+void hooke_linearised_pack(const struct hooke_linearised *lin, const double *x, double *unknown) {
+  const int64_t n = lin->system->particle_count;
+  for (int64_t p = 0, u = 0; p < n; p++) {
+    for (int64_t a = 0; a < 3 && !lin->system->held[p]; a++)
+      unknown[u++] = x[a * n + p] * sqrt(lin->mass[p]);
+  }
+}
+
+void hooke_linearised_unpack(const struct hooke_linearised *lin, const double *unknown, double *x) {
+  const int64_t n = lin->system->particle_count;
+  for (int64_t p = 0, u = 0; p < n; p++) {
+    for (int64_t a = 0; a < 3; a++)
+      x[a * n + p] = lin->system->held[p] ? 0.0 : unknown[u++] * sqrt(lin->inverse[p]);
+  }
+}
+
+int32_t hooke_linearised_assemble(struct hooke_linearised *lin, double *matrix) {
+  const int64_t n = lin->unknowns;
+  double *room = hooke_new(2 * lin->size + n, sizeof(double));
+  if (room == NULL) return HOOKE_NO_MEMORY;
+  double *x = room, *out = x + lin->size, *one = out + lin->size;
+  for (int64_t k = 0; k < n; k++) {
+    one[k] = 1.0;
+    hooke_linearised_unpack(lin, one, x);
+    hooke_linearised_multiply(lin, x, out);
+    hooke_linearised_pack(lin, out, matrix + k * n);
+    one[k] = 0.0;
+  }
+  /* to the bit */
+  for (int64_t i = 0; i < n; i++) {
+    for (int64_t j = 0; j < i; j++)
+      matrix[i * n + j] = matrix[j * n + i] = 0.5 * (matrix[i * n + j] + matrix[j * n + i]);
+  }
+  hooke_free(room);
+  return HOOKE_OK;
+}

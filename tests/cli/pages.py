@@ -1,0 +1,112 @@
+"""Pages of reports in a headless browser, and what they say that they drew."""
+
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import pytest
+
+from conftest import CLI, MINIMAL
+
+BROWSER = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
+VERSION = subprocess.run([CLI, "--version"], capture_output=True, text=True, check=True).stdout
+DRAWS = not re.search(r"Chart\.js +not in this build", VERSION)
+
+needs_page = pytest.mark.skipif(MINIMAL or not DRAWS, reason="this build writes no reports: it has no Chart.js")
+needs_browser = pytest.mark.skipif(BROWSER is None, reason="there is no Chromium to open the page with")
+
+TITLE = "a scene </script><script>throw 1</script><!-- \"&amp;\" \\ \u00b5"
+
+# Reads the pixels of a diagram inside its axes: how many have the colour of each method.
+COUNT_PIXELS = """
+for (const id of IDS) {
+  const chart = Chart.getChart(id), { left, top, width, height } = chart.chartArea, scale = chart.currentDevicePixelRatio;
+  const { data } = chart.ctx.getImageData(left * scale, top * scale, width * scale, height * scale);
+  const seen = {};
+  for (let k = 0; k < data.length; k += 4) {
+    const name = "#" + [0, 1, 2].map((i) => data[k + i].toString(16).padStart(2, "0")).join("");
+    seen[name] = (seen[name] || 0) + 1;
+  }
+  chart.canvas.dataset.pixels = methods.map((method) => seen[colourOf(method)] || 0).join(" ");
+}
+"""
+
+
+class Page(HTMLParser):
+    """The page as the browser has it after its scripts: attributes and text of the elements that have an id."""
+
+    def __init__(self, dom, console):
+        super().__init__()
+        self.console, self.attributes, self.text, self.open = console, {}, {}, []
+        self.feed(dom)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.open.append((tag, values.get("id")))
+        if "id" in values:
+            self.attributes[values["id"]] = values
+            self.text[values["id"]] = ""
+
+    def handle_endtag(self, tag):
+        while self.open and self.open.pop()[0] != tag:
+            pass
+
+    def handle_data(self, data):
+        for _, name in self.open:
+            if name:
+                self.text[name] += data
+
+    def drawn(self, name):
+        """What the page says that Chart.js drew: a dictionary of counts."""
+        data = {key[5:]: value for key, value in self.attributes[name].items() if key.startswith("data-")}
+        return {key: int(value) for key, value in data.items() if value.isdigit()} | {
+            key: value for key, value in data.items() if not value.isdigit()}
+
+
+def browse(folder, page, script="", body=""):
+    """Opens the page, with a script and markup added at its end, and gives it back as it is afterwards."""
+    added = body + (f"<script>{script}</script>" if script else "")
+    (folder / "page.html").write_text(page.replace("</body>", added + "</body>"), encoding="utf-8")
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+               "--disable-background-networking", "--disable-component-update", "--disable-sync",
+               f"--user-data-dir={folder}/profile", "--force-color-profile=srgb", "--window-size=1200,1000",
+               "--virtual-time-budget=5000", "--enable-logging=stderr", "--dump-dom", f"file://{folder}/page.html"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=200)
+    assert done.returncode == 0, done.stderr
+    return Page(done.stdout, [line for line in done.stderr.splitlines() if "CONSOLE" in line])
+
+
+def count_pixels(diagrams):
+    """The script that counts them."""
+    return COUNT_PIXELS.replace("IDS", json.dumps(diagrams))
+
+
+def fetches(page):
+    """What in the text of a page would fetch something, or was left unfilled."""
+    code = re.sub(r"/\*.*?\*/", "", page, flags=re.DOTALL)
+    return (re.findall(r"https?://\S{0,40}", code)
+            + re.findall(r"<(?:link|img|iframe|object|embed)\b|<script[^>]+src|@import|url\(", page)
+            + re.findall(r"\{\{", re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)))
+
+
+def check_planted_faults(folder, page):
+    """A fault in a script is seen, and the page refuses to fetch anything."""
+    seen = browse(folder, page, "throw new Error('planted');", '<img src="http://127.0.0.1:9/planted.png">')
+    assert any("planted" in line and "Error" in line for line in seen.console)
+    assert any("Content Security Policy" in line for line in seen.console)
+
+
+def check_places(hooke, scene, *command):
+    """Places for a page that cannot be written, or must not be."""
+    assert hooke(*command, scene, "--report", "nowhere/page.html").code == 5
+    assert hooke(*command, scene, "--report", "/dev/null").code == 5
+    answer = hooke(*command, scene, "--report", scene)
+    assert answer.code == 2 and "the scene itself" in answer.err
+
+
+def check_not_built(hooke, scene, *command):
+    answer = hooke(*command, scene, "--report", "page.html")
+    assert answer.code == 6
+    assert "libjs-chart.js" in answer.err

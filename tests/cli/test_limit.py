@@ -1,0 +1,130 @@
+"""hooke limit: what it predicts and measures, at which state, and in which words."""
+
+import copy
+import math
+
+import pytest
+
+from conftest import SIX_PARTICLES, STIFF_PAIR
+
+pytestmark = pytest.mark.everything
+
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "rk4", "backward-euler"]
+# Of the six particles at the start, from the spectrum of the linearised system computed independently.
+LIMITS = {
+    "forward-euler": 1.7768476830321846e-05,
+    "symplectic-euler": 0.13162450213044632,
+    "verlet": 0.1364358523405676,
+    "rk4": 0.19724928576176828,
+}
+
+
+def rows_of(answer):
+    assert answer.code == 0, answer.err
+    return {row["method"]: row for row in answer.json["rows"]}
+
+
+def test_predictions(hooke, write):
+    answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json")
+    rows = rows_of(answer)
+    assert list(rows) == FIXED_STEP
+    assert math.isclose(answer.json["frequency_max"], 14.658903548369766, rel_tol=1e-12)
+    for method, limit in LIMITS.items():
+        assert math.isclose(rows[method]["predicted"], limit, rel_tol=1e-6)
+        assert rows[method]["bound"] <= limit
+        assert rows[method]["never_stable"] is False and rows[method]["exact"] is True
+    for row in rows.values():
+        assert row["measured"] is None and row["ratio"] is None and row["steps_run"] is None
+    assert rows["backward-euler"]["predicted"] is None and "accuracy limits it" in rows["backward-euler"]["note"]
+
+
+def test_blame(hooke, write):
+    answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json").json
+    shares = [spring["share"] for spring in answer["blame"]]
+    assert 0.99 < sum(shares) <= 1 + 1e-12 and shares == sorted(shares, reverse=True)
+    assert answer["blame"][0]["spring"] == [0, 1] and answer["blame"][0]["group"] == "edges"
+    assert answer["remedy"]["kind"] is None and "spread over the scene" in answer["remedy"]["sentence"]
+
+
+def test_measurements(hooke, write):
+    answer = hooke("limit", write(STIFF_PAIR), "--methods", "forward-euler,symplectic-euler,verlet,rk4", "--json")
+    rows = rows_of(answer)
+    for method, factor in {"symplectic-euler": 2, "verlet": 2, "rk4": 2 * math.sqrt(2)}.items():
+        row = rows[method]
+        # a spring stretched by a tenth: stiff along with 1000 N/m
+        assert math.isclose(row["predicted"], factor / math.sqrt(1000), rel_tol=1e-9)
+        assert 0.98 < row["ratio"] < 1.02 and row["ratio"] == row["measured"] / row["predicted"]
+        assert row["steps_run"] > 100
+    assert rows["forward-euler"]["never_stable"] is True
+    assert rows["forward-euler"]["predicted"] == 0 and rows["forward-euler"]["measured"] == 0
+
+
+def test_the_scene_itself(hooke, write):
+    scene = copy.deepcopy(STIFF_PAIR)
+    scene["run"].update(duration=20, every=0.1)
+    answer = hooke("limit", write(scene), "--nonlinear", "--methods", "symplectic-euler", "--json")
+    row = rows_of(answer)["symplectic-euler"]
+    assert 0.8 < row["ratio"] < 1.2
+
+
+def test_at_a_frame(hooke, write):
+    scene = write(SIX_PARTICLES)
+    assert hooke("run", scene, "-o", "out.h5").code == 0
+    start = rows_of(hooke("limit", scene, "--predict", "--json"))
+    first = hooke("limit", scene, "--predict", "--json", "--at", "out.h5:0")
+    assert first.json["time"] == 0 and rows_of(first) == start
+    last = hooke("limit", scene, "--predict", "--json", "--at", "out.h5")
+    assert last.json["time"] == 0.5 and last.json == hooke("limit", scene, "--predict", "--json", "--at", "out.h5:-1").json
+    assert rows_of(last)["verlet"]["predicted"] != start["verlet"]["predicted"]
+    assert hooke("limit", scene, "--predict", "--at", "out.h5:99").code == 3
+    assert hooke("limit", scene, "--predict", "--at", "out.h5:x").code == 2
+    assert hooke("limit", scene, "--predict", "--at", "missing.h5").code in (3, 5)
+
+
+def test_along_a_run(hooke, write):
+    scene = write(SIX_PARTICLES)
+    rows = rows_of(hooke("limit", scene, "--along", "--json"))
+    start = rows_of(hooke("limit", scene, "--predict", "--json"))
+    for method in LIMITS:
+        assert rows[method]["smallest"] <= start[method]["predicted"]
+        assert 0 <= rows[method]["smallest_time"] <= 0.5
+        assert rows[method]["smallest"] <= rows[method]["predicted"]
+    assert rows["verlet"]["smallest"] > 0.5 * start["verlet"]["predicted"]
+    assert rows["backward-euler"]["smallest"] is None and rows["backward-euler"]["smallest_time"] is None
+
+
+def test_along_a_run_that_diverges(hooke, write):
+    answer = hooke("limit", write(STIFF_PAIR), "--along", "--json")
+    assert answer.code == 4
+    assert answer.json["rows"][1]["smallest"] > 0 and "ended early" in answer.err
+
+
+def test_words(hooke, write):
+    answer = hooke("limit", write(SIX_PARTICLES), "--predict")
+    assert answer.code == 0 and answer.err == ""
+    assert "six particles, seven springs, at t = 0 s" in answer.out
+    assert "0.131625" in answer.out and "safe bound" in answer.out and "measured" not in answer.out
+    assert "spring 0, between particles 0 and 1, group edges" in answer.out
+
+
+def test_usage(hooke, write):
+    scene = write(SIX_PARTICLES)
+    assert hooke("limit").code == 2
+    unknown = hooke("limit", scene, "--methods", "verlot")
+    assert unknown.code == 2 and "verlet" in unknown.err
+    assert hooke("limit", scene, "--predict=perhaps").code == 2
+    assert hooke("limit", scene, "--accuracy", "2").code == 2
+    assert hooke("limit", "missing.json").code == 3
+    shown = hooke("limit", "--help").out
+    for flag in ("--predict", "--nonlinear", "--at FILE:FRAME", "--along", "--budget NUMBER", "--accuracy NUMBER"):
+        assert flag in shown
+    bare = copy.deepcopy(SIX_PARTICLES)
+    del bare["run"]["duration"]
+    assert hooke("limit", write(bare), "--along").code == 2
+    assert hooke("limit", write(bare), "--predict").code == 0
+
+
+def test_flags_can_be_false(hooke, write):
+    scene = write(STIFF_PAIR)
+    row = rows_of(hooke("limit", scene, "--predict=false", "--methods", "verlet", "--json"))["verlet"]
+    assert 0.98 < row["ratio"] < 1.02

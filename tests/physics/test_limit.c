@@ -1,0 +1,529 @@
+/* Predicted limits: against spectra computed independently to 13 digits, against the formulas of one mode, and against
+ * the safe bounds, which they may never fall below. */
+#include "check.h"
+#include "random_scene.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Limits of all methods at the initial state, without measuring. `accuracy` 0: the default. */
+static hooke_limit *limit_of(const hooke_system *system, double accuracy) {
+  hooke_options *options;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  if (accuracy > 0.0) check_ok(hooke_options_set_number(options, "accuracy", accuracy));
+  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_ok(status);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_limit_find(limit, state));
+  hooke_state_destroy(state);
+  return limit;
+}
+
+static int64_t row_of(const hooke_limit *limit, const char *method) {
+  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
+    if (strcmp(hooke_limit_text(limit, k, "method"), method) == 0) return k;
+  }
+  check_failed("there is no row %s", method);
+  return -1;
+}
+
+static double number_of(const hooke_limit *limit, const char *method, const char *what) {
+  return hooke_limit_number(limit, row_of(limit, method), what);
+}
+
+static double predicted(const hooke_limit *limit, const char *method) {
+  return number_of(limit, method, "predicted");
+}
+
+static void check_digits(double value, double expected, double relative) {
+  check_close(value, expected, relative * fabs(expected));
+}
+
+/* ---- scenes ---- */
+
+/* n x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
+static hooke_system *build_cloth(int n, double damping) {
+  hooke_system *system;
+  hooke_options *options;
+  const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  check_ok(hooke_options_set_number(options, "mass", 0.01 * n * n));
+  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
+                              {"shear.stiffness", "shear.damping"},
+                              {"bend.stiffness", "bend.damping"}};
+  for (int k = 0; k < 3; k++) {
+    check_ok(hooke_options_set_number(options, family[k][0], 50.0));
+    check_ok(hooke_options_set_number(options, family[k][1], damping));
+  }
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+/* Copies of the net of six particles, each on its own: the limits are those of one. */
+static hooke_system *build_nets(int64_t copies) {
+  const struct reference *net = find_reference("six-particles");
+  const int64_t n = net->particle_count;
+  hooke_system *system;
+  double *position = new_doubles(3 * n * copies), *mass = new_doubles(n * copies);
+  check_ok(hooke_system_create(&system));
+  for (int64_t k = 0; k < n * copies; k++) {
+    mass[k] = net->mass[net->mass_count > 1 ? k % n : 0];
+    for (int a = 0; a < 3; a++)
+      position[3 * k + a] = net->position[3 * (k % n) + a] + (a == 0 ? 4.0 * (double)(k / n) : 0.0);
+  }
+  check_ok(hooke_system_add_particles(system, n * copies, position, NULL, n * copies, mass, NULL));
+  for (int64_t g = 0; g < net->group_count; g++) {
+    const struct reference_group *group = &net->group[g];
+    int64_t *ends = new_block(2 * group->count * copies, (int64_t)sizeof *ends);
+    double *rest = new_doubles(group->count * copies);
+    hooke_options *options;
+    for (int64_t k = 0; k < group->count * copies; k++) {
+      double square = 0.0;
+      for (int e = 0; e < 2; e++)
+        ends[2 * k + e] = group->ends[2 * (k % group->count) + e] + n * (k / group->count);
+      for (int a = 0; a < 3; a++) {
+        const double d = net->position[3 * group->ends[2 * (k % group->count)] + a] -
+                         net->position[3 * group->ends[2 * (k % group->count) + 1] + a];
+        square += d * d;
+      }
+      rest[k] = group->rest_scale * (group->rest_length < 0.0 ? sqrt(square) : group->rest_length);
+    }
+    check_ok(hooke_spring_options_create(&options));
+    if (group->law) check_ok(hooke_options_set_text(options, "law", group->law));
+    check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
+    check_ok(hooke_options_set_number(options, "damping", group->damping));
+    check_ok(hooke_options_set_numbers(options, "rest_length", group->count * copies, rest));
+    check_ok(hooke_system_add_springs(system, group->name, group->count * copies, ends, options));
+    hooke_options_destroy(options);
+    free(ends);
+    free(rest);
+  }
+  for (int64_t c = 0; c < copies; c++) {
+    for (int64_t k = 0; k < net->pinned_count; k++) {
+      const int64_t pinned = net->pinned[k] + n * c;
+      check_ok(hooke_system_pin(system, 1, &pinned));
+    }
+  }
+  check_ok(hooke_system_commit(system));
+  free(position);
+  free(mass);
+  return system;
+}
+
+/* ---- against numbers ---- */
+
+/* Spectra of the linearised systems, computed independently with dense matrices in double precision. */
+static const struct {
+  double frequency, verlet, symplectic_euler, rk4, forward_euler;
+} net6 = {14.658903548369766, 0.1364358523405676, 0.13162450213044632, 0.19724928576176828,
+          1.7768476830321846e-05},
+  cloth10 = {582.2601378383093, 0.0034348908160279894, 0.003058102791710135, 0.005078523465343316,
+             0.0003999999999994838};
+
+static void critical_steps_to_ten_digits(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("six-particles"));
+  hooke_limit *limit = limit_of(system, 0.0);
+  check_digits(hooke_limit_figure(limit, "frequency_max"), net6.frequency, 1e-12);
+  check_digits(predicted(limit, "verlet"), net6.verlet, 1e-12);
+  check_digits(predicted(limit, "symplectic-euler"), net6.symplectic_euler, 1e-10);
+  check_digits(predicted(limit, "rk4"), net6.rk4, 1e-10);
+  check_digits(predicted(limit, "forward-euler"), net6.forward_euler, 1e-8);
+  assert_true(isinf(predicted(limit, "backward-euler")));
+  check_between(hooke_limit_figure(limit, "modes"), 15, 15); /* 15 unknowns, none of them free to drift */
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+
+  system = build_cloth(10, 0.02);
+  limit = limit_of(system, 0.0);
+  check_digits(hooke_limit_figure(limit, "frequency_max"), cloth10.frequency, 1e-11);
+  check_digits(predicted(limit, "verlet"), cloth10.verlet, 1e-11);
+  check_digits(predicted(limit, "symplectic-euler"), cloth10.symplectic_euler, 1e-10);
+  check_digits(predicted(limit, "rk4"), cloth10.rk4, 1e-10);
+  check_digits(predicted(limit, "forward-euler"), cloth10.forward_euler, 1e-9);
+  check_between(hooke_limit_figure(limit, "modes"), 196,
+                196); /* 294 unknowns; 98 zero modes across the sheet */
+  check_between(hooke_limit_figure(limit, "clamped"), 0, 0);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+/* x'' + 2 zeta omega x' + omega^2 x = 0: a mass on a spring at its rest length, which is free across. */
+static void one_mode_follows_the_table(void **unused) {
+  (void)unused;
+  const double omega = 7.0, mass = 2.0, position[] = {0, 0, 0, 1, 0, 0};
+  const int64_t ends[] = {0, 1};
+  static const struct {
+    double zeta, forward_euler, symplectic_euler, rk4;
+  } table[] = {{0.0, 0.0, 2.0, 2.82843},     {0.05, 0.1, 1.90250, 2.90980}, {0.1, 0.2, 1.80998, 2.95085},
+               {0.5, 1.0, 1.23607, 2.62254}, {1.0, 2.0, 0.82843, 2.78529},  {5.0, 0.20204, 0.19804, 0.28137}};
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+    hooke_system *system = small_system(2, position, NULL, mass, 1);
+    small_springs(system, 1, ends,
+                  (struct springs){.law = "length",
+                                   .stiffness = mass * omega * omega,
+                                   .damping = 2.0 * table[k].zeta * omega * mass,
+                                   .rest_length = -1.0});
+    check_ok(hooke_system_commit(system));
+    hooke_limit *limit = limit_of(system, 0.0);
+    check_close(omega * predicted(limit, "forward-euler"), table[k].forward_euler, 1e-5);
+    check_close(omega * predicted(limit, "symplectic-euler"), table[k].symplectic_euler, 1e-5);
+    check_close(omega * predicted(limit, "verlet"), 2.0, 1e-12);
+    check_close(omega * predicted(limit, "rk4"), table[k].rk4, 1e-5);
+    check_between(number_of(limit, "forward-euler", "never_stable"), k == 0, k == 0);
+    check_close(hooke_limit_figure(limit, "rate_max"), 2.0 * table[k].zeta * omega, 1e-12 * omega);
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* The same scene many times over goes another way: iterations for more unknowns, part of the spectrum beyond. */
+static void many_copies_have_the_limits_of_one(void **unused) {
+  (void)unused;
+  static const struct {
+    int64_t copies; /* 15 unknowns each */
+    int32_t exact;
+    double digits;
+  } scenes[] = {{20, 1, 1e-9}, {60, 0, 1e-9}, {800, 0, 1e-3}};
+  for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
+    hooke_system *system = build_nets(scenes[k].copies);
+    hooke_limit *limit = limit_of(system, 0.0);
+    const double digits = scenes[k].digits;
+    check_digits(predicted(limit, "verlet"), net6.verlet, digits);
+    check_digits(predicted(limit, "symplectic-euler"), net6.symplectic_euler, digits);
+    check_between(number_of(limit, "symplectic-euler", "exact"), 1, 1);
+    check_between(number_of(limit, "rk4", "exact"), scenes[k].exact, scenes[k].exact);
+    check_between(number_of(limit, "forward-euler", "exact"), scenes[k].exact, scenes[k].exact);
+    if (scenes[k].exact) {
+      check_digits(predicted(limit, "rk4"), net6.rk4, 1e-9);
+      check_digits(predicted(limit, "forward-euler"), net6.forward_euler, 1e-6);
+    } else {
+      /* over the modes found: never below the limit, and here those found are the ones that limit Runge-Kutta */
+      check_between(predicted(limit, "rk4"), (1.0 - 2e-3) * net6.rk4, 1.02 * net6.rk4);
+      check_between(predicted(limit, "forward-euler"), net6.forward_euler, INFINITY);
+      assert_true(strstr(hooke_limit_text(limit, row_of(limit, "rk4"), "note"), "only the fastest") != NULL);
+    }
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* All eigenvalues by dense matrices, the largest by iterations: just under the ceiling of the first. */
+static void iterations_agree_with_dense_matrices(void **unused) {
+  (void)unused;
+  const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = build_cloth(sizes[k], 0.0);
+    hooke_limit *limit = limit_of(system, 1e-6);
+    const double omega = hooke_limit_figure(limit, "frequency_max");
+    double most = 0.0;
+    for (int64_t j = 0; j < hooke_limit_mode_count(limit); j++)
+      most = fmax(most, hooke_limit_mode_number(limit, j, "imaginary"));
+    check_digits(omega, most, 1e-9);
+    check_digits(hooke_limit_mode_number(limit, 0, "imaginary"), most, 0.0);
+    check_between(number_of(limit, "forward-euler", "never_stable"), 1, 1);
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* To its own accuracy, and not much better for less work. */
+static void large_scenes_keep_the_accuracy(void **unused) {
+  (void)unused;
+  hooke_system *system = build_cloth(70, 0.02);
+  hooke_limit *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
+  const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
+  for (int m = 0; m < 4; m++) {
+    check_digits(predicted(rough, methods[m]), predicted(fine, methods[m]), 1e-3);
+    check_between(number_of(rough, methods[m], "exact"), 1, 1); /* damping is in proportion */
+  }
+  check_between(hooke_limit_figure(rough, "products"), 10, 120);
+  assert_true(hooke_limit_figure(fine, "products") > 2.0 * hooke_limit_figure(rough, "products"));
+  hooke_limit_destroy(rough);
+  hooke_limit_destroy(fine);
+  hooke_system_destroy(system);
+}
+
+/* ---- against the bounds ---- */
+
+static void bounds_are_never_above_the_limit(void **unused) {
+  (void)unused;
+  const int features[] = {SCENE_GRAVITY, SCENE_DRAG, SCENE_DAMPING, SCENE_PULL_ONLY, SCENE_PINNED};
+  double lowest = INFINITY, highest = 0.0;
+  int64_t limited[5] = {0};
+  for (uint64_t seed = 1; seed <= 10000; seed++) {
+    struct random_scene scene;
+    struct random_scene_request request = {.seed = seed, .particles = 4 + (int64_t)(seed % 5)};
+    request.springs = request.particles + (int64_t)(seed % 7);
+    request.features = SCENE_DAMPING;
+    for (int k = 0; k < 5; k++)
+      request.features |= (seed >> k) & 1 ? features[k] : 0;
+    random_scene_create(request, &scene);
+    hooke_limit *limit = limit_of(scene.system, 0.0);
+    for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
+      const double bound = hooke_limit_number(limit, row, "bound"),
+                   h = hooke_limit_number(limit, row, "predicted");
+      if (!(bound <= h * (1.0 + 1e-9))) {
+        check_failed("seed %llu, %s: the bound %.17g is above the limit %.17g", (unsigned long long)seed,
+                     hooke_limit_text(limit, row, "method"), bound, h);
+      }
+      limited[row] += h > 0.0 && h < INFINITY;
+      if (row == row_of(limit, "symplectic-euler") && h < INFINITY) {
+        lowest = fmin(lowest, bound / h);
+        highest = fmax(highest, bound / h);
+      }
+    }
+    hooke_limit_destroy(limit);
+    random_scene_destroy(&scene);
+  }
+  /* a bound is worth something, and only just one */
+  check_between(lowest, 0.4, 0.9);
+  check_between(highest, 0.97, 1.0 + 1e-9);
+  for (int row = 0; row < 4; row++)
+    assert_true(limited[row] > 1000);
+  assert_true(limited[4] == 0);
+}
+
+/* ---- along a run ---- */
+
+struct smallest {
+  hooke_limit *limit;
+  double limit_met, time;
+};
+
+static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
+  (void)step;
+  struct smallest *s = ctx;
+  check_ok(hooke_limit_find(s->limit, state));
+  const double h = predicted(s->limit, "symplectic-euler");
+  if (h < s->limit_met) {
+    s->limit_met = h;
+    s->time = hooke_state_time(state);
+  }
+  return 0;
+}
+
+static void the_smallest_limit_of_a_run(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("six-particles"));
+  hooke_options *run =
+      run_options((struct run){.method = "rk4", .step = 0.01, .duration = 1.0, .every = 0.1});
+  struct smallest s = {limit_of(system, 0.0), INFINITY, NAN};
+  const double first = predicted(s.limit, "symplectic-euler");
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_create(system, run, &integrator));
+  check_ok(hooke_integrator_on_frame(integrator, see, &s));
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+
+  hooke_limit *along = NULL;
+  state = start_state(system);
+  check_ok(hooke_limit_create(system, run, NULL, &along));
+  check_ok(hooke_limit_along(along, state));
+  check_digits(number_of(along, "symplectic-euler", "smallest"), s.limit_met, 1e-9);
+  check_close(number_of(along, "symplectic-euler", "smallest_time"), s.time, 1e-12);
+  check_close(hooke_state_time(state), 1.0, 1e-12);
+  /* the net stretches, and the limit falls below that of the start */
+  check_between(s.limit_met, 0.5 * first, 0.9999 * first);
+  hooke_limit_destroy(along);
+
+  check_ok(hooke_limit_create(system, NULL, NULL, &along));
+  check_status(hooke_limit_along(along, state), HOOKE_BAD_VALUE);
+  hooke_limit_destroy(along);
+  hooke_limit_destroy(s.limit);
+  hooke_options_destroy(run);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+/* ---- edges ---- */
+
+static void nothing_limits(void **unused) {
+  (void)unused;
+  const double position[] = {0, 0, 0, 1, 0, 0};
+  const int64_t both[] = {0, 1};
+  for (int scene = 0; scene < 3; scene++) {
+    hooke_system *system = small_system(scene == 2 ? 1 : 2, position, NULL, 1.0, 0);
+    if (scene == 0) small_springs(system, 1, both, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
+    if (scene == 0) check_ok(hooke_system_pin(system, 2, both));
+    check_ok(hooke_system_commit(system));
+    hooke_limit *limit = limit_of(system, 0.0);
+    for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
+      assert_true(isinf(hooke_limit_number(limit, row, "predicted")));
+      check_between(hooke_limit_number(limit, row, "never_stable"), 0, 0);
+      assert_true(hooke_limit_text(limit, row, "note")[0] != '\0');
+    }
+    check_between(hooke_limit_figure(limit, "modes"), 0, 0);
+    check_between(hooke_limit_figure(limit, "frequency_max"), 0, 0);
+    assert_null(hooke_limit_shape(limit));
+    assert_true(hooke_limit_blame_count(limit) == 0);
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+static void drag_alone(void **unused) {
+  (void)unused;
+  const double place[3] = {0.0, 0.0, 0.0};
+  hooke_system *falling = small_system(1, place, NULL, 1.0, 0);
+  check_ok(hooke_system_set_drag(falling, 0.25));
+  check_ok(hooke_system_commit(falling));
+  hooke_limit *limit = limit_of(falling, 0.0);
+  check_digits(predicted(limit, "forward-euler"), 8.0, 1e-12);
+  check_digits(predicted(limit, "symplectic-euler"), 8.0, 1e-12);
+  check_digits(predicted(limit, "rk4"), 4.0 * 2.785293563405282, 1e-11);
+  assert_true(isinf(predicted(limit, "verlet")));
+  check_digits(hooke_limit_figure(limit, "rate_max"), 0.25, 1e-14);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(falling);
+}
+
+/* A compressed spring pushes its ends apart sideways: that is no limit of a step, and it is counted. */
+static void compression_is_left_out(void **unused) {
+  (void)unused;
+  const double position[] = {0, 0, 0, 1, 0, 0};
+  const int64_t ends[] = {0, 1};
+  const double rest_lengths[] = {2.0, 0.5};
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+    small_springs(system, 1, ends,
+                  (struct springs){.law = "length", .stiffness = 100.0, .rest_length = rest_lengths[k]});
+    check_ok(hooke_system_commit(system));
+    hooke_limit *limit = limit_of(system, 0.0);
+    check_between(hooke_limit_figure(limit, "clamped"), k == 0, k == 0);
+    check_digits(predicted(limit, "verlet"), 0.2, 1e-12);
+    /* stretched, it is stiff in three directions, and two frequencies are 10 sqrt(1/2) */
+    check_between(hooke_limit_figure(limit, "modes"), k == 0 ? 1 : 3, k == 0 ? 1 : 3);
+    if (k == 1) check_digits(hooke_limit_mode_number(limit, 2, "imaginary"), 10.0 * sqrt(0.5), 1e-12);
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* One spring of a rope is 50 times stiffer: it carries the mode, which has the length asked for. */
+static void the_odd_spring_is_named(void **unused) {
+  (void)unused;
+  double position[36] = {0};
+  int64_t ends[22];
+  for (int k = 0; k < 12; k++)
+    position[3 * k] = 0.1 * k;
+  for (int k = 0; k < 11; k++)
+    ends[2 * k] = k, ends[2 * k + 1] = k + 1;
+  hooke_system *system = small_system(12, position, NULL, 0.1, 1);
+  small_springs(system, 5, ends, (struct springs){.stiffness = 10.0, .damping = 0.01, .rest_length = -1.0});
+  small_springs(system, 1, ends + 10, (struct springs){.stiffness = 500.0, .rest_length = -1.0});
+  small_springs(system, 5, ends + 12,
+                (struct springs){.stiffness = 10.0, .damping = 0.01, .rest_length = -1.0});
+  check_ok(hooke_system_commit(system));
+  hooke_limit *limit = limit_of(system, 0.0);
+  check_between(hooke_limit_blame_number(limit, 0, "spring"), 5, 5);
+  check_between(hooke_limit_blame_number(limit, 0, "share"), 0.9, 1.0);
+  check_between(hooke_limit_blame_number(limit, 0, "first"), 5, 5);
+  check_between(hooke_limit_blame_number(limit, 0, "second"), 6, 6);
+  const double *shape = hooke_limit_shape(limit);
+  check_close(largest(36, shape), 1.0, 1e-12);
+  check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends against each other */
+  check_between(hooke_limit_remedy_number(limit, "gain"), 2.0, 8.0);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+static void the_same_every_time(void **unused) {
+  (void)unused;
+  hooke_system *system = build_nets(30);
+  hooke_limit *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
+  for (int64_t row = 0; row < hooke_limit_row_count(first); row++) {
+    const double one = hooke_limit_number(first, row, "predicted"),
+                 two = hooke_limit_number(second, row, "predicted");
+    check_same_bits(1, &one, &two);
+  }
+  hooke_limit_destroy(first);
+  hooke_limit_destroy(second);
+  hooke_system_destroy(system);
+}
+
+static int32_t stop(double done, const char *what, void *ctx) {
+  (void)done, (void)what;
+  return ++*(int *)ctx;
+}
+
+static void bad_input(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
+  hooke_limit *limit = limit_of(system, 0.0);
+  hooke_state *state = start_state(other);
+  check_status(hooke_limit_find(limit, state), HOOKE_BAD_VALUE);
+  check_message("another system");
+  hooke_state_destroy(state);
+  state = start_state(system);
+  hooke_state_position(state)[3] = NAN;
+  check_status(hooke_limit_find(limit, state), HOOKE_BAD_VALUE);
+  check_message("not finite");
+  hooke_state_position(state)[3] = 1.0;
+  int calls = 0;
+  hooke_limit_on_progress(limit, stop, &calls);
+  check_status(hooke_limit_find(limit, state), HOOKE_STOPPED);
+  assert_int_equal(calls, 1);
+  hooke_limit_on_progress(limit, NULL, NULL);
+  check_ok(hooke_limit_find(limit, state));
+  check_digits(predicted(limit, "verlet"), 2.0 / 7.0, 1e-12);
+  assert_true(isnan(hooke_limit_number(limit, 99, "bound")) && isnan(hooke_limit_number(limit, 0, "colour")));
+  assert_true(isnan(hooke_limit_figure(limit, "colour")));
+  assert_null(hooke_limit_text(limit, 99, "method"));
+  assert_true(isnan(hooke_limit_mode_number(limit, -1, "real")));
+  hooke_limit_destroy(limit);
+  hooke_limit_destroy(NULL);
+
+  hooke_options *options;
+  check_ok(hooke_limit_options_create(&options));
+  check_status(hooke_options_set_number(options, "accuracy", 0.5), HOOKE_BAD_VALUE);
+  check_ok(hooke_options_set_text(options, "methods", "verlet,no-such-method"));
+  check_status(hooke_limit_create(system, NULL, options, &limit), HOOKE_BAD_VALUE);
+  check_message("no-such-method");
+  hooke_options_destroy(options);
+  check_ok(hooke_system_create(&open));
+  check_status(hooke_limit_create(open, NULL, NULL, &limit), HOOKE_BAD_CALL);
+  hooke_system_destroy(open);
+  hooke_state_destroy(state);
+  hooke_system_destroy(other);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(critical_steps_to_ten_digits),
+      cmocka_unit_test(one_mode_follows_the_table),
+      cmocka_unit_test(many_copies_have_the_limits_of_one),
+      cmocka_unit_test(iterations_agree_with_dense_matrices),
+      cmocka_unit_test(large_scenes_keep_the_accuracy),
+      cmocka_unit_test(bounds_are_never_above_the_limit),
+      cmocka_unit_test(the_smallest_limit_of_a_run),
+      cmocka_unit_test(nothing_limits),
+      cmocka_unit_test(drag_alone),
+      cmocka_unit_test(compression_is_left_out),
+      cmocka_unit_test(the_odd_spring_is_named),
+      cmocka_unit_test(the_same_every_time),
+      cmocka_unit_test(bad_input),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

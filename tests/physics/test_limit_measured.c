@@ -1,0 +1,357 @@
+/* Limits of the step, predicted from the spectrum against found by running: random networks, and ropes, cloths and lattices
+ * with one odd particle or spring. */
+#include "check.h"
+#include "random.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
+
+/* A limit of all methods in `methods` (NULL: all) at the initial state; skips the test in builds without. */
+static hooke_limit *find_limit(const hooke_system *system, const char *methods, double accuracy,
+                               int32_t predict, const hooke_options *run) {
+  hooke_options *options;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
+  check_ok(hooke_options_set_number(options, "accuracy", accuracy));
+  check_ok(hooke_options_set_number(options, "predict", predict));
+  check_ok(hooke_options_set_number(options, "nonlinear", run != NULL));
+  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  const int32_t status = hooke_limit_create(system, run, options, &limit);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_limit_find(limit, state));
+  hooke_state_destroy(state);
+  return limit;
+}
+
+static int agree(double measured, double predicted, double tolerance) {
+  return fabs(measured / predicted - 1.0) <= tolerance;
+}
+
+/* ---- random networks ---- */
+
+/* 8 particles, some of whose springs are stretched and some compressed; every third scene has springs that only pull, every
+ * fourth a driven particle, every second drag. */
+static hooke_system *random_network(uint64_t seed, double damping) {
+  struct random_source source = {seed};
+  enum { N = 8, SPRINGS = 14 };
+  double position[3 * N], mass[N], stiffness[SPRINGS], damp[SPRINGS];
+  int64_t ends[2 * SPRINGS];
+  for (int k = 0; k < 3 * N; k++)
+    position[k] = random_between(&source, -1.0, 1.0);
+  for (int k = 0; k < N; k++)
+    mass[k] = random_between(&source, 0.3, 3.0);
+  for (int k = 0; k < SPRINGS; k++) {
+    /* a tree, and some more */
+    const int64_t tail = k < N - 1 ? k + 1 : random_whole(&source, 1, N - 1);
+    ends[2 * k] =
+        k < N - 1 ? random_whole(&source, 0, tail - 1) : (tail + random_whole(&source, 1, N - 1)) % N;
+    ends[2 * k + 1] = tail;
+    stiffness[k] = random_between(&source, 5.0, 50.0);
+    damp[k] = damping * random_between(&source, 0.0, 2.0);
+  }
+  hooke_system *system;
+  hooke_options *options;
+  const int64_t pinned = 0, driven = 3;
+  const double amplitude[3] = {0.1, 0.0, 0.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, N, position, NULL, N, mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  if (seed % 4 == 0) check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
+  check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, damp));
+  check_ok(hooke_options_set_number(options, "rest_scale", random_between(&source, 0.8, 1.1)));
+  if (seed % 3 == 0) check_ok(hooke_options_set_number(options, "compression", 0.0));
+  check_ok(hooke_system_add_springs(system, "network", SPRINGS, ends, options));
+  hooke_options_destroy(options);
+  if (seed % 2 == 0) check_ok(hooke_system_set_drag(system, 0.2 * damping));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void random_networks_run_up_to_the_prediction(void **unused) {
+  (void)unused;
+  for (uint64_t seed = 1; seed <= 100; seed++) {
+    hooke_system *system = random_network(seed, 1.0);
+    hooke_limit *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
+    for (int64_t row = 0; row < 3; row++) {
+      const double predicted = hooke_limit_number(limit, row, "predicted");
+      const double measured = hooke_limit_number(limit, row, "measured");
+      if (!agree(measured, predicted, 1e-3)) {
+        check_failed("network %d, %s: measured %.8g, predicted %.8g (%s)", (int)seed,
+                     hooke_limit_text(limit, row, "method"), measured, predicted,
+                     hooke_limit_text(limit, row, "note"));
+      }
+      check_close(hooke_limit_number(limit, row, "ratio"), measured / predicted, 1e-15);
+      check_between(hooke_limit_number(limit, row, "bound"), 0.2 * measured, measured * (1.0 + 1e-3));
+      check_between(hooke_limit_number(limit, row, "steps_run"), 1000.0, 1e7);
+    }
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* The same comparison with the prediction of another damping: it has to notice. */
+static void another_damping_is_noticed(void **unused) {
+  (void)unused;
+  int noticed = 0;
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    hooke_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
+    hooke_limit *limit = find_limit(system, "symplectic-euler", 1e-3, 0, NULL);
+    hooke_limit *wrong = find_limit(other, "symplectic-euler", 1e-3, 1, NULL);
+    const double measured = hooke_limit_number(limit, 0, "measured");
+    assert_true(agree(measured, hooke_limit_number(limit, 0, "predicted"), 1e-3));
+    noticed += !agree(measured, hooke_limit_number(wrong, 0, "predicted"), 1e-3);
+    assert_true(isnan(hooke_limit_number(wrong, 0, "measured")));
+    hooke_limit_destroy(limit);
+    hooke_limit_destroy(wrong);
+    hooke_system_destroy(system);
+    hooke_system_destroy(other);
+  }
+  assert_int_equal(noticed, 5);
+}
+
+/* ---- ropes, cloths and lattices ---- */
+
+struct piece {
+  const char *name;
+  int64_t size[3]; /* particles along x, y, z, 0.1 m apart */
+  int64_t reach;   /* springs join particles whose steps along the axes add up to that at most, diagonally */
+  int64_t light, stiff; /* which particle, and which spring, is the odd one */
+};
+
+static const struct piece pieces[] = {
+    {"rope", {13, 1, 1}, 1, 6, 4},
+    {"cloth", {5, 4, 1}, 2, 7, 20},
+    {"lattice", {3, 3, 2}, 2, 7, 11},
+};
+
+enum odd { UNIFORM, LIGHT_PARTICLE, STIFF_SPRING };
+
+static int64_t join(const struct piece *piece, int64_t n, int64_t *ends) {
+  const int64_t *size = piece->size;
+  int64_t count = 0;
+  for (int64_t i = 0; i < n; i++) {
+    for (int64_t j = i + 1; j < n; j++) {
+      const int64_t dx = llabs(i % size[0] - j % size[0]),
+                    dy = llabs(i / size[0] % size[1] - j / size[0] % size[1]);
+      const int64_t dz = llabs(i / size[0] / size[1] - j / size[0] / size[1]);
+      if (dx > 1 || dy > 1 || dz > 1 || dx + dy + dz > piece->reach) continue;
+      ends[2 * count] = i;
+      ends[2 * count++ + 1] = j;
+    }
+  }
+  assert_true(count <= MOST_SPRINGS);
+  return count;
+}
+
+/* Springs of 100 N/m with damping in proportion `beta` to stiffness, particles of 0.1 kg, the first one pinned. */
+static hooke_system *build_piece(const struct piece *piece, enum odd odd, double beta) {
+  const int64_t *size = piece->size, n = size[0] * size[1] * size[2], pinned = 0;
+  double position[3 * MOST_PARTICLES], mass[MOST_PARTICLES], stiffness[MOST_SPRINGS], damping[MOST_SPRINGS];
+  int64_t ends[2 * MOST_SPRINGS];
+  for (int64_t p = 0; p < n; p++) {
+    position[3 * p] = 0.1 * (double)(p % size[0]);
+    position[3 * p + 1] = 0.1 * (double)(p / size[0] % size[1]);
+    position[3 * p + 2] = 0.1 * (double)(p / size[0] / size[1]);
+    mass[p] = odd == LIGHT_PARTICLE && p == piece->light ? 0.1 / 50.0 : 0.1;
+  }
+  const int64_t count = join(piece, n, ends);
+  for (int64_t k = 0; k < count; k++) {
+    stiffness[k] = odd == STIFF_SPRING && k == piece->stiff ? 5000.0 : 100.0;
+    damping[k] = beta * stiffness[k];
+  }
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, n, position, NULL, n, mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
+  check_ok(hooke_options_set_numbers(options, "damping", count, damping));
+  check_ok(hooke_system_add_springs(system, piece->name, count, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void check_blame(const hooke_limit *limit, const struct piece *piece, enum odd odd) {
+  double sum = 0.0;
+  const int64_t count = hooke_limit_blame_count(limit);
+  assert_true(count > 0);
+  for (int64_t k = 0; k < count; k++) {
+    const double share = hooke_limit_blame_number(limit, k, "share");
+    check_between(share, 0.0, k ? hooke_limit_blame_number(limit, k - 1, "share") : 1.0);
+    sum += share;
+    assert_string_equal(hooke_limit_blame_text(limit, k, "group"), piece->name);
+  }
+  check_close(sum, 1.0, 1e-9); /* without drag, and with less than 100 springs that move */
+  const char *kind = hooke_limit_remedy_text(limit, "kind");
+  if (odd == STIFF_SPRING) {
+    assert_true((int64_t)hooke_limit_blame_number(limit, 0, "spring") == piece->stiff);
+    check_between(hooke_limit_blame_number(limit, 0, "share"), 0.9, 1.0);
+    assert_string_equal(kind, "soften");
+    check_between(hooke_limit_remedy_number(limit, "springs"), 1.0, 1.0);
+    check_between(hooke_limit_remedy_number(limit, "gain"), 1.5, 60.0);
+  } else if (odd == LIGHT_PARTICLE) {
+    assert_true((int64_t)hooke_limit_mover_number(limit, 0, "particle") == piece->light);
+    check_close(hooke_limit_mover_number(limit, 0, "mass"), 0.1 / 50.0, 1e-15);
+    check_between(hooke_limit_mover_number(limit, 0, "share"), 0.9, 1.0);
+    assert_string_equal(kind, "heavier");
+    check_between(hooke_limit_remedy_number(limit, "particles"), 1.0, 1.0);
+    check_between(hooke_limit_remedy_number(limit, "gain"), 1.5, 60.0);
+  }
+}
+
+static const double ACCURACY = 5e-3;
+
+static void check_row(const hooke_limit *limit, int64_t row, const char *scene) {
+  const char *method = hooke_limit_text(limit, row, "method");
+  const double predicted = hooke_limit_number(limit, row, "predicted");
+  const double measured = hooke_limit_number(limit, row, "measured");
+  const double bound = hooke_limit_number(limit, row, "bound");
+  const int sharp = strcmp(method, "symplectic-euler") == 0 || strcmp(method, "verlet") == 0;
+  int fine;
+  if (isinf(predicted))
+    fine = isinf(measured) && isinf(bound);
+  else if (predicted == 0.0)
+    fine = measured == 0.0 && bound == 0.0 && hooke_limit_number(limit, row, "never_stable") == 1.0;
+  else
+    fine = measured >= 0.98 * predicted && measured <= 1.02 * predicted &&
+           bound <= measured * (1.0 + ACCURACY) && bound >= (sharp ? 0.5 : 0.2) * measured;
+  if (fine) return;
+  check_failed("%s, %s: measured %.8g, predicted %.8g, ratio %.5f, bound %.8g, %g steps (%s)", scene, method,
+               measured, predicted, measured / predicted, bound, hooke_limit_number(limit, row, "steps_run"),
+               hooke_limit_text(limit, row, "note"));
+}
+
+static void check_pieces(const struct piece *piece) {
+  static const char *const names[] = {"uniform", "light particle", "stiff spring"};
+  static const double ratios[] = {0.0, 0.1, 0.5, 1.0, 2.0, 5.0};
+  for (int odd = UNIFORM; odd <= STIFF_SPRING; odd++) {
+    double omega = 1.0;
+    for (int z = 0; z < 6; z++) {
+      char scene[100];
+      snprintf(scene, sizeof scene, "%s, %s, damping ratio %g", piece->name, names[odd], ratios[z]);
+      hooke_system *system = build_piece(piece, (enum odd)odd, 2.0 * ratios[z] / omega);
+      hooke_limit *limit = find_limit(system, NULL, ACCURACY, 0, NULL);
+      if (z == 0) omega = hooke_limit_figure(limit, "frequency_max");
+      check_close(hooke_limit_figure(limit, "frequency_max"), omega, 1e-6 * omega);
+      assert_true(hooke_limit_row_count(limit) >= 5);
+      for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
+        check_row(limit, row, scene);
+      check_blame(limit, piece, (enum odd)odd);
+      hooke_limit_destroy(limit);
+      hooke_system_destroy(system);
+    }
+  }
+}
+
+static void ropes(void **unused) {
+  (void)unused;
+  check_pieces(&pieces[0]);
+}
+
+static void cloths(void **unused) {
+  (void)unused;
+  check_pieces(&pieces[1]);
+}
+
+static void lattices(void **unused) {
+  (void)unused;
+  check_pieces(&pieces[2]);
+}
+
+/* ---- the scene itself ---- */
+
+/* A spring of no length is linear however far it is stretched, so the whole run says the same. */
+static void linear_scene_runs_up_to_the_prediction(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(7.0);
+  hooke_options *run =
+      run_options((struct run){.method = "symplectic-euler", .step = 0.01, .duration = 300.0});
+  hooke_limit *limit = find_limit(system, "symplectic-euler,verlet", 1e-2, 0, run);
+  for (int64_t row = 0; row < 2; row++) {
+    check_close(hooke_limit_number(limit, row, "predicted"), 2.0 / 7.0, 1e-6);
+    check_close(hooke_limit_number(limit, row, "ratio"), 1.0, 1e-2);
+  }
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+/* A spring that only pulls counts as taut in the linearised scene; where it never gets taut, the scene itself takes any
+ * step. */
+static void slack_scene_takes_any_step(void **unused) {
+  (void)unused;
+  const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};
+  const int64_t ends[2] = {0, 1};
+  for (int slack = 0; slack <= 1; slack++) {
+    hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+    small_springs(system, 1, ends, (struct springs){"length", 100.0, 0.0, slack ? 1e6 : 1.0, 1});
+    check_ok(hooke_system_set_gravity(system, down));
+    check_ok(hooke_system_commit(system));
+    hooke_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 60.0});
+    hooke_limit *limit = find_limit(system, "verlet", 1e-2, 0, run);
+    const double measured = hooke_limit_number(limit, 0, "measured");
+    check_close(hooke_limit_number(limit, 0, "predicted"), 0.2, 1e-6);
+    if (slack)
+      assert_true(isinf(measured));
+    else
+      check_between(measured, 0.1, 1.0);
+    hooke_limit_destroy(limit);
+    hooke_options_destroy(run);
+    hooke_system_destroy(system);
+  }
+}
+
+static int32_t stop_at_once(double done, const char *what, void *ctx) {
+  (void)what;
+  check_between(done, 0.0, 1.0);
+  return ++*(int *)ctx == 3;
+}
+
+static void progress_can_stop(void **unused) {
+  (void)unused;
+  hooke_system *system = random_network(5, 1.0);
+  hooke_limit *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
+  hooke_limit_destroy(limit);
+  check_ok(hooke_limit_create(system, NULL, NULL, &limit));
+  int calls = 0;
+  hooke_limit_on_progress(limit, stop_at_once, &calls);
+  hooke_state *state = start_state(system);
+  check_status(hooke_limit_find(limit, state), HOOKE_STOPPED);
+  assert_int_equal(calls, 3);
+  hooke_state_destroy(state);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(random_networks_run_up_to_the_prediction),
+      cmocka_unit_test(another_damping_is_noticed),
+      cmocka_unit_test(ropes),
+      cmocka_unit_test(cloths),
+      cmocka_unit_test(lattices),
+      cmocka_unit_test(linear_scene_runs_up_to_the_prediction),
+      cmocka_unit_test(slack_scene_takes_any_step),
+      cmocka_unit_test(progress_can_stop),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,136 @@
+/* The limit of one mode: against closed forms, against the limits of an oscillator, and what a report refuses. */
+#include "check.h"
+#include "run.h"
+
+#include <math.h>
+#include <string.h>
+
+static double of(const char *method, double frequency, double decay) {
+  return hooke_limit_of_mode(method, frequency, decay);
+}
+
+static void check_digits(double value, double expected) {
+  check_close(value, expected, 1e-13 * fabs(expected));
+}
+
+static void test_closed_forms(void **ctx) {
+  (void)ctx;
+  for (double w = 1e-3; w < 1e5; w *= 7.0) {
+    for (double z = 0.0; z < 30.0; z = 2.0 * z + 0.01) {
+      const double d = z * w, fastest = z > 1.0 ? d + w * sqrt(z * z - 1.0) : w;
+      check_digits(of("symplectic-euler", w, d), 2.0 * (sqrt(1.0 + z * z) - z) / w);
+      check_digits(of("verlet", w, d), 2.0 / w);
+      check_close(of("forward-euler", w, d) * w, (z > 1.0 ? 2.0 / fastest : 2.0 * z / w) * w, 1e-12);
+    }
+  }
+  assert_true(isinf(of("backward-euler", 1.0, 0.5)) && isinf(of("cvode-bdf", 1.0, 0.5)));
+  assert_true(of("forward-euler", 3.0, 0.0) == 0.0);
+}
+
+/* Motion that nothing draws back, and none at all. */
+static void test_without_stiffness(void **ctx) {
+  (void)ctx;
+  check_digits(of("forward-euler", 0.0, 5.0), 0.2);
+  check_digits(of("symplectic-euler", 0.0, 5.0), 0.2);
+  assert_true(isinf(of("verlet", 0.0, 5.0)));
+  assert_true(isinf(of("symplectic-euler", 0.0, 0.0)) && isinf(of("forward-euler", 0.0, 0.0)));
+}
+
+static void test_what_has_none(void **ctx) {
+  (void)ctx;
+  assert_true(isnan(of("verlot", 1.0, 0.0)));
+  assert_true(isnan(of("verlet", -1.0, 0.0)) && isnan(of("verlet", 1.0, -1.0)));
+  assert_true(isnan(of("verlet", (double)NAN, 0.0)) && isnan(of("verlet", 1.0, (double)NAN)));
+}
+
+/* One mass on a spring that is damped along its length; drag brakes it in all directions. */
+static hooke_system *build(double damping) {
+  const double q[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, mass = 0.5;
+  const int64_t ends[2] = {0, 1}, pinned = 0;
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static hooke_limit *make(hooke_system *system) {
+  hooke_options *options;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy(system);
+    skip();
+  }
+  check_ok(status);
+  return limit;
+}
+
+/* Over- and underdamped: the prediction for the only mode there is, and the modes that are told of. */
+static void test_an_oscillator(void **ctx) {
+  (void)ctx;
+  const double dampings[] = {0.4, 3.0, 12.0, 90.0};
+  for (int j = 0; j < 4; j++) {
+    hooke_system *system = build(dampings[j]);
+    hooke_limit *limit = make(system);
+    hooke_state *state = start_state(system);
+    check_ok(hooke_limit_find(limit, state));
+    const double w = sqrt(40.0), d = dampings[j]; /* 20/0.5, and gamma/0.5 = 2 d */
+    for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
+      const double alone = of(hooke_limit_text(limit, k, "method"), w, d);
+      const double predicted = hooke_limit_number(limit, k, "predicted");
+      if (isinf(alone))
+        assert_true(isinf(predicted));
+      else
+        check_close(predicted, alone, 1e-9 * alone);
+    }
+    assert_int_equal(hooke_limit_mode_count(limit), d < w ? 1 : 2);
+    for (int64_t k = 0; k < hooke_limit_mode_count(limit); k++) {
+      check_close(hooke_limit_mode_number(limit, k, "frequency"), w, 1e-12 * w);
+      check_close(hooke_limit_mode_number(limit, k, "decay"), d, 1e-12 * d);
+    }
+    hooke_state_destroy(state);
+    hooke_limit_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+static void test_reports_that_are_refused(void **ctx) {
+  (void)ctx;
+  hooke_system *system = build(1.0), *other;
+  hooke_limit *limit = make(system);
+  hooke_state *state = start_state(system), *foreign;
+  assert_int_equal(hooke_limit_write_report(limit, state, "page.html", "x"), HOOKE_BAD_CALL);
+  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_system_create(&other));
+  check_ok(hooke_system_commit(other));
+  foreign = start_state(other);
+  assert_int_equal(hooke_limit_write_report(limit, foreign, "page.html", "x"), HOOKE_BAD_VALUE);
+  hooke_state_destroy(foreign);
+  hooke_system_destroy(other);
+  hooke_state_destroy(state);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_closed_forms),
+      cmocka_unit_test(test_without_stiffness),
+      cmocka_unit_test(test_what_has_none),
+      cmocka_unit_test(test_an_oscillator),
+      cmocka_unit_test(test_reports_that_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,174 @@
+"""hooke.limit: rows, modes, blame, remedy, where it is found, and the picture."""
+
+import math
+
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "rk4", "backward-euler"]
+OMEGA = math.sqrt(40)  # of the oscillator
+
+
+def build_damped(damping):
+    """One spring along x that is damped along its length, its first end pinned."""
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0, 0]], mass=[1, 0.5])
+    system.pin(0)
+    system.add_springs("spring", [[0, 1]], stiffness=20, damping=damping, rest_length=1)
+    return system
+
+
+def eigenvalues(system, q):
+    """Of the free particles, from the derivative blocks at rest."""
+    blocks, n = system.derivative_blocks(q, np.zeros_like(q)), system.particle_count
+    weight = np.repeat(system.inverse_masses, 3)
+    whole = np.zeros((2, 3 * n, 3 * n))
+    for matrix, values in zip(whole, (blocks.dfdq, blocks.dfdv)):
+        for row in range(n):
+            for k in range(blocks.row_start[row], blocks.row_start[row + 1]):
+                column = blocks.column[k]
+                matrix[3 * row : 3 * row + 3, 3 * column : 3 * column + 3] = values[k]
+    free = np.flatnonzero(weight)
+    k, c = (weight[free, None] * matrix[np.ix_(free, free)] for matrix in whole)
+    companion = np.block([[np.zeros_like(k), np.eye(len(k))], [k, c]])
+    return np.linalg.eigvals(companion)
+
+
+def test_rows():
+    found = hooke.limit(build_oscillator())
+    assert found.methods == FIXED_STEP and found.outcome == "finished" and found.time == 0
+    assert found.frequency_max == pytest.approx(OMEGA, rel=1e-12) and found.rate_max == 0 and found.clamped == 0
+    factors = {"symplectic-euler": 2, "verlet": 2, "rk4": 2 * math.sqrt(2)}
+    for method, factor in factors.items():
+        row = found[method]
+        assert row["predicted"] == pytest.approx(factor / OMEGA, rel=1e-9)
+        assert 0 < row["bound"] <= row["predicted"] and row["exact"] and not row["never_stable"]
+        assert 0.98 < row["ratio"] < 1.02 and row["ratio"] == row["measured"] / row["predicted"]
+        assert row["steps_run"] > 100 and np.isnan(row["smallest"])
+    assert found["forward-euler"]["never_stable"] and found["forward-euler"]["predicted"] == 0
+    assert np.isinf(found["backward-euler"]["predicted"]) and "accuracy" in found["backward-euler"]["note"]
+    assert found.rows["by_eigenvalue"].tolist() == [True, False, False, True, False]
+    with pytest.raises(KeyError, match="cvode-bdf"):
+        found["cvode-bdf"]
+    with pytest.raises(ValueError):
+        found.rows["predicted"][0] = 1
+
+
+def test_words():
+    words = str(hooke.limit("examples/scenes/stiff-spring.json", predict=True))
+    assert "rk4" in words and "no step" in words and "none" in words and "measured" not in words
+    assert "spring 6, between particles 3 and 4, group stiff, 100.0 %" in words and "softening it" in words
+    assert "5 methods" in repr(hooke.limit(build_oscillator(), predict=True))
+
+
+@pytest.mark.parametrize("build", [build_six_particles, lambda: build_damped(0.8), lambda: build_damped(60)])
+def test_modes_are_the_eigenvalues(build):
+    system = build()
+    found = hooke.limit(system, predict=True)
+    exact = eigenvalues(system, system.state().q)
+    exact = exact[(exact.imag >= 0) & (abs(exact) > 1e-6 * abs(exact).max())]
+    assert found.modes.shape == found.frequency.shape == found.decay.shape == (len(exact),)
+    order = np.lexsort((exact.imag, -abs(exact).round(9)))
+    np.testing.assert_allclose(abs(found.modes), abs(exact[order]), rtol=1e-6)
+    for value in exact:
+        assert abs(found.modes - value).min() < 1e-6 * abs(exact).max()
+    z, w, d = found.modes, found.frequency, found.decay
+    np.testing.assert_allclose(z**2 + 2 * d * z + w**2, 0, atol=1e-9 * abs(z).max() ** 2)
+    assert (d >= 0).all() and found.frequency_max == pytest.approx(w.max(), rel=1e-6)
+
+
+def test_what_it_hangs_on():
+    found = hooke.limit("examples/scenes/stiff-spring.json", predict=True)
+    first = found.blame[0]
+    assert (first.spring, first.ends, first.group) == (6, (3, 4), "stiff") and 0.99 < first.share <= 1
+    shares = [one.share for one in found.blame]
+    assert shares == sorted(shares, reverse=True)
+    assert {one.particle for one in found.movers[:2]} == {3, 4}
+    assert sum(one.share for one in found.movers) == pytest.approx(1, abs=1e-6)
+    assert found.remedy.kind == "soften" and found.remedy.springs == 1 and np.isnan(found.remedy.particles)
+    assert 50 < found.remedy.gain < 72 < found.remedy.cost * 1.01 and found.remedy.factor > 1000
+    assert found.shape.shape == (8, 3)
+    sizes = np.linalg.norm(found.shape, axis=1)
+    assert sizes.max() == pytest.approx(1) and set(np.argsort(sizes)[-2:]) == {3, 4}
+    free = hooke.System()
+    free.add_particles([[0, 0, 0]], mass=1)
+    nothing = hooke.limit(free, predict=True)
+    assert nothing.shape is None and nothing.blame == [] and nothing.remedy is None and nothing.modes.size == 0
+
+
+def test_where(tmp_path):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    result = hooke.run(scene, output=tmp_path / "out.h5", frames=True)
+    start = hooke.limit(scene, predict=True)
+    end = hooke.limit(scene, tmp_path / "out.h5", predict=True)
+    assert end.time == 0.5 and (end.rows["predicted"][1:4] != start.rows["predicted"][1:4]).all()
+    assert start.step == 1e-3
+    for at in ((tmp_path / "out.h5", -1), result.state, result.state.q, result.frames.q[-1]):
+        np.testing.assert_array_equal(hooke.limit(scene, at, predict=True).rows["predicted"], end.rows["predicted"])
+    first = hooke.limit(scene, (tmp_path / "out.h5", 0), predict=True)
+    assert first.time == 0 and (first.rows["predicted"] == start.rows["predicted"]).all()
+    with pytest.raises(hooke.BadValue, match="99"):
+        hooke.limit(scene, (tmp_path / "out.h5", 99), predict=True)
+    with pytest.raises(hooke.BadValue, match="18 numbers"):
+        hooke.limit(build_oscillator(), result.state, predict=True)
+
+
+def test_along_a_run():
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    found = hooke.limit(scene, along=True)
+    start = hooke.limit(scene, predict=True)
+    for method in ("symplectic-euler", "verlet", "rk4"):
+        row = found[method]
+        assert row["smallest"] <= min(row["predicted"], start[method]["predicted"])
+        assert 0 <= row["smallest_time"] <= 0.5 and np.isnan(row["measured"])
+    assert found.time == 0.5 and "smallest met [s]" in str(found)
+    assert scene.system.state().t == 0
+
+
+def test_options_and_stopping():
+    found = hooke.limit(build_oscillator(), None, ["rk4", "verlet"], accuracy=1e-2, budget=5)
+    assert found.methods == ["rk4", "verlet"]
+    assert hooke.limit(build_oscillator(), methods="verlet", predict=True).methods == ["verlet"]
+    told = []
+    stopped = hooke.limit(build_oscillator(), progress=lambda done, what: told.append((done, what)) or done > 0.04)
+    assert stopped.outcome == "stopped" and stopped["rk4"]["predicted"] > 0 and np.isnan(stopped["rk4"]["measured"])
+    assert told[0][0] == 0 and all(what for _, what in told)
+    with pytest.raises(ZeroDivisionError):
+        hooke.limit(build_oscillator(), progress=lambda done, what: 1 / 0)
+    with pytest.raises(hooke.BadValue, match="verlot"):
+        hooke.limit(build_oscillator(), methods="verlot")
+    with pytest.raises(hooke.BadValue, match="accuracy"):
+        hooke.limit(build_oscillator(), accuracy=2)
+    with pytest.raises(hooke.BadValue, match="first-order"):
+        hooke.limit(hooke.FirstOrder(lambda t, x, out: None, [1.0]))
+    assert "accuracy" in hooke.describe("limit")
+
+
+def test_picture():
+    import matplotlib.pyplot as plt
+
+    found = hooke.limit(build_damped(0.8), predict=True)
+    plane, reach = found.plot()
+    lines = {line.get_label(): line.get_xydata() for line in plane.lines}
+    assert set(lines) == {"forward-euler", "rk4", "modes"}
+    z = {name: xy @ [1, 1j] for name, xy in lines.items()}
+    np.testing.assert_allclose(abs(1 + z["forward-euler"]), 1, atol=1e-12)
+    r = z["rk4"]
+    np.testing.assert_allclose(abs(1 + r + r**2 / 2 + r**3 / 6 + r**4 / 24), 1, atol=1e-11)
+    assert abs(r.real.min() + 2.785293563) < 1e-8 and abs(r.imag).max() > 2.8
+    # no step is named: the smallest limit is taken, that of forward Euler, on whose circle its eigenvalues are
+    step = found["forward-euler"]["predicted"]
+    np.testing.assert_allclose(abs(1 + z["modes"]).max(), 1, atol=1e-9)
+    np.testing.assert_allclose(np.sort_complex(z["modes"]), np.sort_complex(np.r_[found.modes, found.modes.conj()] * step))
+    lines = {line.get_label(): line.get_xydata().T for line in reach.lines}
+    assert set(lines) == {"forward-euler", "symplectic-euler", "verlet", "rk4", "modes", "critical damping"}
+    x, y = lines["symplectic-euler"]
+    np.testing.assert_allclose(x**2 + 4 * y, 4, atol=1e-12)
+    np.testing.assert_allclose(lines["verlet"][0][:150], 2, atol=1e-12)
+    again = found.plot((plane, reach), step=0.1)
+    np.testing.assert_array_equal(again[0].lines[-1].get_xydata()[:, 0], 0.1 * np.r_[found.modes, found.modes].real)
+    again[0].figure.canvas.draw()
+    plt.close("all")

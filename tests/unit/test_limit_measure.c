@@ -1,0 +1,398 @@
+/* Limits found by running, against formulas; and what they are blamed on. */
+#include "measure/bracket.h"
+#include "measure/frozen.h"
+#include "measure/limit_blame.h"
+#include "measure/limit_measure.h"
+
+#include "check.h"
+#include "small.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- small scenes ---- */
+
+/* Unit masses on springs of 1 m to pins, apart from each other: mode k is the motion of mass k along its spring. */
+static hooke_system *oscillators(int64_t count, const double *stiffness, const double *damping, double far) {
+  hooke_system *system;
+  hooke_options *options;
+  const double mass = 1.0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_spring_options_create(&options));
+  for (int64_t k = 0; k < count; k++) {
+    const double place[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
+    const int64_t pinned = 2 * k;
+    check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+    check_ok(hooke_system_pin(system, 1, &pinned));
+  }
+  for (int64_t k = 0; k < count; k++) {
+    const int64_t ends[2] = {2 * k, 2 * k + 1};
+    check_ok(hooke_options_set_text(options, "law", "length"));
+    check_ok(hooke_options_set_number(options, "stiffness", stiffness[k]));
+    check_ok(hooke_options_set_number(options, "damping", damping[k]));
+    check_ok(hooke_system_add_springs(system, k == 0 ? "first" : "other", 1, ends, options));
+  }
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static struct hooke_measurement measure(const hooke_system *system, const char *method, double predicted,
+                                        const double *mode, double accuracy) {
+  struct hooke_measurement out;
+  check_ok(hooke_limit_measure(system, system->position, NULL, method, predicted, mode, accuracy, 100.0, NULL,
+                               NULL, &out));
+  return out;
+}
+
+/* ---- one oscillator ---- */
+
+static double forward_euler(double zeta) {
+  return zeta <= 1.0 ? 2.0 * zeta : 2.0 / (zeta + sqrt(zeta * zeta - 1.0));
+}
+
+static double symplectic_euler(double zeta) {
+  return 2.0 * (sqrt(1.0 + zeta * zeta) - zeta);
+}
+
+static void one_oscillator(void **unused) {
+  (void)unused;
+  const double zeta[] = {0.1, 0.5, 1.0, 5.0}, omega = 30.0;
+  const double rk4[] = {2.95085, 2.62254, 2.78529, 0.28137}; /* |R(h lambda)| = 1 */
+  for (int k = 0; k < 4; k++) {
+    const double stiffness = omega * omega, damping = 2.0 * zeta[k] * omega;
+    hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+    const struct {
+      const char *method;
+      double limit;
+    } rows[] = {{"forward-euler", forward_euler(zeta[k])},
+                {"symplectic-euler", symplectic_euler(zeta[k])},
+                {"verlet", 2.0},
+                {"rk4", rk4[k]}};
+    for (int m = 0; m < 4; m++) {
+      /* from nothing, and from predictions that are wrong by much */
+      const double guess[] = {NAN, 1.3 * rows[m].limit / omega, rows[m].limit / omega / 1.3};
+      for (int g = 0; g < 3; g++) {
+        const struct hooke_measurement out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
+        check_close(out.step * omega, rows[m].limit, 2e-3 * rows[m].limit);
+        check_between((double)out.steps_run, 100.0, 1e7);
+        assert_int_equal(out.never_stable, 0);
+      }
+    }
+    hooke_system_destroy(system);
+  }
+}
+
+static void undamped_oscillator(void **unused) {
+  (void)unused;
+  const double stiffness = 49.0, damping = 0.0;
+  hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+  check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
+  check_close(measure(system, "verlet", 0.3, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
+  check_close(measure(system, "rk4", 0.4, NULL, 1e-4).step, 2.0 * sqrt(2.0) / 7.0, 1e-4);
+  const struct hooke_measurement never = measure(system, "forward-euler", 0.0, NULL, 1e-3);
+  assert_true(never.step == 0.0 && never.never_stable);
+  const struct hooke_measurement always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
+  assert_true(isinf(always.step) && !always.never_stable);
+  /* predictions of no step and of every step are put to the test */
+  check_close(measure(system, "symplectic-euler", 0.0, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
+  check_close(measure(system, "symplectic-euler", INFINITY, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
+  hooke_system_destroy(system);
+}
+
+static void far_from_the_origin(void **unused) {
+  (void)unused;
+  const double stiffness = 49.0, damping = 1.0, far = 1048576.0;
+  hooke_system *system = oscillators(1, &stiffness, &damping, far);
+  const double zeta = 1.0 / 14.0;
+  check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-3).step, symplectic_euler(zeta) / 7.0,
+              1e-3 / 7.0);
+  hooke_system_destroy(system);
+}
+
+/* ---- a mode that nobody thought of ---- */
+
+static void hidden_mode_is_found(void **unused) {
+  (void)unused;
+  const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.3, 0.3};
+  hooke_system *system = oscillators(2, stiffness, damping, 0.0);
+  double mode[12] = {0.0};
+  mode[3] = 1.0;
+  const char *const methods[] = {"symplectic-euler", "verlet", "rk4"};
+  for (int m = 0; m < 3; m++) {
+    /* the prediction of the slower mode alone, started in it */
+    hooke_system *slow = oscillators(1, stiffness, damping, 0.0),
+                 *fast = oscillators(1, stiffness + 1, damping, 0.0);
+    const double wrong = measure(slow, methods[m], NAN, NULL, 1e-3).step;
+    const double right = measure(fast, methods[m], NAN, NULL, 1e-3).step;
+    check_between(wrong / right, 1.1, 1.2);
+    check_close(measure(system, methods[m], wrong, mode, 1e-3).step, right, 2e-3 * right);
+    hooke_system_destroy(slow);
+    hooke_system_destroy(fast);
+  }
+  hooke_system_destroy(system);
+}
+
+/* ---- what is frozen, and how ---- */
+
+static void frozen_system_rests(void **unused) {
+  (void)unused;
+  /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident particle */
+  const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
+  const int64_t ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 4}, pinned = 0, driven = 3;
+  const double rest[5] = {0.7, 1.5, 0.6, 0.9, 0.5}, amplitude[3] = {0, 0.1, 0}, mass = 0.5;
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 5, position, NULL, 1, &mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
+  check_ok(hooke_options_set_numbers(options, "rest_length", 5, rest));
+  check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+
+  struct hooke_frozen frozen;
+  check_ok(hooke_frozen_create(system, position, &frozen));
+  assert_int_equal(frozen.clamped, 1);
+  assert_int_equal(frozen.left_out, 1);
+  assert_int_equal(frozen.damped, 0);
+  assert_int_equal(hooke_system_free_count(frozen.system), 3);
+  const double still[15] = {0.0};
+  double force[15], moved[15], product[15], dq[15];
+  check_ok(hooke_system_force(frozen.system, 0.0, frozen.place, still, force));
+  for (int k = 0; k < 15; k++)
+    check_between(force[k], 0.0, 0.0);
+  /* its derivative is that of the scene, except that the compressed spring has no stiffness across */
+  for (int k = 0; k < 15; k++)
+    dq[k] = k < 3 || (k >= 9 && k < 12) ? 0.0 : sin(1.0 + k);
+  check_ok(hooke_system_derivative_product(frozen.system, 0.0, frozen.place, still, dq, still, product));
+  check_ok(hooke_system_derivative_product(system, 0.0, position, still, dq, still, moved));
+  check_close(product[13], moved[13], 1e-12); /* the coincident one */
+  const double u[3] = {0.7 / sqrt(1.13), -0.8 / sqrt(1.13), 0.0}, across = 20.0 * (1.0 - 1.5 / sqrt(1.13));
+  const double d[3] = {dq[3] - dq[6], dq[4] - dq[7], dq[5] - dq[8]};
+  const double along = u[0] * d[0] + u[1] * d[1];
+  for (int a = 0; a < 3; a++) {
+    const double clamped = -across * (d[a] - along * u[a]); /* what particle 1 no longer feels of it */
+    check_close(product[3 + a], moved[3 + a] - clamped, 1e-7);
+    check_close(product[6 + a], moved[6 + a] + clamped, 1e-7);
+  }
+  /* the energy of a displacement is its product with the force */
+  double there[15], energy = 0.0;
+  for (int k = 0; k < 15; k++) {
+    there[k] = frozen.place[k] + dq[k];
+    energy -= dq[k] * product[k];
+  }
+  check_close(hooke_frozen_energy(&frozen, there, still), energy, 1e-5 * energy);
+  hooke_frozen_release(&frozen);
+
+  const struct hooke_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  check_between(out.step, 0.1, 1.0);
+  assert_non_null(strstr(out.note, "coincide"));
+  hooke_system_destroy(system);
+}
+
+/* Drag alone: x'' = -c/m x'. */
+static void drag_alone(void **unused) {
+  (void)unused;
+  const double place[3] = {3.0, 0.0, 0.0};
+  hooke_system *system = small_system(1, place, NULL, 2.0, 0);
+  check_ok(hooke_system_set_drag(system, 5.0));
+  check_ok(hooke_system_commit(system));
+  check_close(measure(system, "symplectic-euler", 0.8, NULL, 1e-3).step, 0.8, 1e-3);
+  check_close(measure(system, "forward-euler", NAN, NULL, 1e-3).step, 0.8, 1e-3);
+  assert_true(isinf(measure(system, "verlet", INFINITY, NULL, 1e-3).step));
+  hooke_system_destroy(system);
+  hooke_system *nothing = small_system(1, place, NULL, 2.0, 0);
+  check_ok(hooke_system_commit(nothing));
+  assert_true(isinf(measure(nothing, "symplectic-euler", NAN, NULL, 1e-3).step));
+  hooke_system_destroy(nothing);
+}
+
+static int32_t refuse(double done, const char *what, void *ctx) {
+  (void)done;
+  (void)what;
+  (void)ctx;
+  return 1;
+}
+
+static void what_is_refused(void **unused) {
+  (void)unused;
+  const double stiffness = 49.0, damping = 1.0;
+  hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+  struct hooke_measurement out;
+  const double *q = system->position;
+  check_status(hooke_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
+               HOOKE_BAD_VALUE);
+  check_status(hooke_limit_measure(system, q, NULL, "cvode-bdf", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
+               HOOKE_BAD_VALUE);
+  check_message("chooses its steps");
+  check_status(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 0.0, 1.0, NULL, NULL, &out),
+               HOOKE_BAD_VALUE);
+  check_status(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 1.0, refuse, NULL, &out),
+               HOOKE_STOPPED);
+  check_ok(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 0.0, NULL, NULL, &out));
+  assert_true(isnan(out.step));
+  assert_non_null(strstr(out.note, "budget"));
+  hooke_system_destroy(system);
+}
+
+/* ---- the bracket ---- */
+
+struct edge {
+  double at;
+  int tries;
+};
+
+static int32_t try_edge(void *ctx, double step, enum hooke_trial_end *end) {
+  struct edge *edge = ctx;
+  edge->tries++;
+  *end = step < edge->at ? HOOKE_TRIAL_HOLDS : HOOKE_TRIAL_FAILS;
+  return HOOKE_OK;
+}
+
+static void bracket_closes_from_both_sides(void **unused) {
+  (void)unused;
+  const double edges[] = {1e-5, 0.37, 0.9995, 1.0, 1.0005, 1.4, 2e4};
+  for (int k = 0; k < 7; k++) {
+    struct edge edge = {edges[k], 0};
+    struct hooke_bracket bracket = {
+        .try_step = try_edge, .ctx = &edge, .accuracy = 1e-3, .least = 1e-9, .most = 1e9, .fails = INFINITY};
+    check_ok(hooke_bracket_search(&bracket, 1.0));
+    check_between(bracket.holds, 0.999 * edge.at, edge.at);
+    check_between(bracket.fails, edge.at, 1.001 * edge.at);
+    check_between(edge.tries, 3, 40);
+  }
+  struct edge never = {0.0, 0}, always = {INFINITY, 0};
+  struct hooke_bracket low = {
+      .try_step = try_edge, .ctx = &never, .accuracy = 1e-3, .least = 1e-6, .most = 1e6, .fails = INFINITY};
+  check_ok(hooke_bracket_search(&low, 1.0));
+  assert_true(low.holds == 0.0 && low.fails < 1e-3);
+  struct hooke_bracket high = low;
+  high.ctx = &always, high.fails = INFINITY, high.holds = 0.0;
+  check_ok(hooke_bracket_search(&high, 1.0));
+  assert_true(isinf(high.fails) && high.holds > 1e3);
+}
+
+/* ---- blame ---- */
+
+/* Two oscillators and a mode in which both move: shares by hand. */
+static void shares_are_those_of_the_mode(void **unused) {
+  (void)unused;
+  const double stiffness[2] = {100.0, 400.0}, damping[2] = {3.0, 1.0};
+  hooke_system *system = oscillators(2, stiffness, damping, 0.0);
+  double mode[12] = {0.0};
+  mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
+  struct hooke_blame blame;
+  const double h = 0.1, parts[2] = {h * h * 100.0 + 2.0 * h * 3.0, 0.25 * (h * h * 400.0 + 2.0 * h)};
+  check_ok(hooke_blame_find(system, system->position, mode, h * h, h, &blame));
+  assert_int_equal(blame.spring_count, 2);
+  assert_int_equal(blame.spring[0].spring, 0);
+  assert_int_equal(blame.spring[0].second, 1);
+  check_close(blame.spring[0].share, parts[0] / (parts[0] + parts[1]), 1e-14);
+  check_close(blame.spring[1].share, parts[1] / (parts[0] + parts[1]), 1e-14);
+  check_close(blame.stiffness_share, h * h * 200.0 / (parts[0] + parts[1]), 1e-14);
+  check_close(blame.group_share[0] + blame.group_share[1], 1.0, 1e-14);
+  assert_int_equal(blame.particle_count, 2);
+  assert_int_equal(blame.particle[0].particle, 1);
+  check_close(blame.particle[0].share, 0.8, 1e-14);
+  hooke_blame_release(&blame);
+  check_ok(hooke_blame_find(system, system->position, NULL, 1.0, 0.0, &blame));
+  assert_int_equal(blame.spring_count + blame.particle_count, 0);
+  hooke_blame_release(&blame);
+  hooke_system_destroy(system);
+}
+
+static void most_shares_are_kept_in_order(void **unused) {
+  (void)unused;
+  enum { COUNT = 150 };
+  double stiffness[COUNT], damping[COUNT], mode[6 * COUNT];
+  for (int k = 0; k < COUNT; k++) {
+    stiffness[k] = 1.0 + (double)((k * 67) % COUNT);
+    damping[k] = 0.0;
+    memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
+  }
+  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  struct hooke_blame blame;
+  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  assert_int_equal(blame.spring_count, HOOKE_BLAME_MOST);
+  for (int k = 0; k < HOOKE_BLAME_MOST; k++) {
+    check_close(blame.spring[k].share, (double)(COUNT - k) / (0.5 * COUNT * (COUNT + 1)), 1e-14);
+    check_close(stiffness[blame.spring[k].spring], (double)(COUNT - k), 0.0);
+    assert_int_equal(blame.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
+  }
+  hooke_blame_release(&blame);
+  hooke_system_destroy(system);
+}
+
+static void remedy_is_what_it_costs(void **unused) {
+  (void)unused;
+  /* one of twelve is 100 times stiffer: alone it costs a factor 10 */
+  enum { COUNT = 12 };
+  double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
+  for (int k = 0; k < COUNT; k++)
+    stiffness[k] = k == 5 ? 4900.0 : 49.0;
+  mode[6 * 5 + 3] = 1.0;
+  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  struct hooke_blame blame;
+  struct hooke_remedy remedy;
+  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  const int32_t status =
+      hooke_remedy_find(system, system->position, "symplectic-euler", 2.0 / 70.0, &blame, &remedy);
+  hooke_blame_release(&blame);
+  hooke_system_destroy(system);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_status(status, HOOKE_OK);
+  assert_string_equal(remedy.kind, "soften");
+  assert_int_equal(remedy.count, 1);
+  check_close(remedy.cost, 10.0, 0.02);
+  check_close(remedy.factor, 100.0, 1e-9);
+  check_close(remedy.gain, 10.0, 0.02);
+  check_close(remedy.gain_predicted, 10.0, 1e-9);
+  assert_string_equal(remedy.sentence,
+                      "1 of 12 springs, number 5, group `other`, costs a factor 10 in step; softening it by "
+                      "100 allows a step 10 times larger");
+}
+
+static void no_remedy_where_all_are_alike(void **unused) {
+  (void)unused;
+  enum { COUNT = 12 };
+  double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
+  for (int k = 0; k < COUNT; k++)
+    stiffness[k] = 49.0;
+  mode[6 * 5 + 3] = 1.0;
+  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  struct hooke_blame blame;
+  struct hooke_remedy remedy;
+  /* one spring has all of the mode, but without it the next one limits the step as much */
+  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  const int32_t status = hooke_remedy_find(system, system->position, "verlet", 2.0 / 7.0, &blame, &remedy);
+  hooke_blame_release(&blame);
+  hooke_system_destroy(system);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_status(status, HOOKE_OK);
+  assert_null(remedy.kind);
+  assert_true(isnan(remedy.gain) && remedy.count == 0);
+  assert_non_null(strstr(remedy.sentence, "group `other` has 100 %"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(one_oscillator),
+      cmocka_unit_test(undamped_oscillator),
+      cmocka_unit_test(far_from_the_origin),
+      cmocka_unit_test(hidden_mode_is_found),
+      cmocka_unit_test(frozen_system_rests),
+      cmocka_unit_test(drag_alone),
+      cmocka_unit_test(what_is_refused),
+      cmocka_unit_test(bracket_closes_from_both_sides),
+      cmocka_unit_test(shares_are_those_of_the_mode),
+      cmocka_unit_test(most_shares_are_kept_in_order),
+      cmocka_unit_test(remedy_is_what_it_costs),
+      cmocka_unit_test(no_remedy_where_all_are_alike),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
