@@ -1,17 +1,16 @@
-/* What to do about a run that ended early: a command to type. */
+/* What to do about a run that ended early: commands to type. */
 #ifndef HOOKE_CLI_ADVICE_H
 #define HOOKE_CLI_ADVICE_H
 
 #include "arguments.h"
-#include "setup.h"
 
 #include <stdio.h>
 
-void hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                        const hooke_integrator *integrator, int32_t outcome);
+/* The run again with what advice `place` changes; NULL where it is the scene that has to change. The caller frees it. */
+char *hooke_advice_command(const struct hooke_arguments *arguments, const hooke_why *why, int64_t place);
 
-/* The largest handy step (1, 2 or 5 times a power of ten, else a whole part of `step`) up to `limit` that
- * fits whole into `every` (NaN: not asked for) and `duration`, as `step` does. */
-double hooke_advice_step(double step, double limit, double every, double duration);
+/* Up to `most` pieces of advice, a line in words and a line to type for each. */
+void hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const hooke_why *why,
+                        int64_t most);
 
 #endif

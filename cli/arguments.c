@@ -99,8 +99,14 @@ static int read_value(const struct hooke_arguments *arguments, struct hooke_argu
                       argument->flag, argument->text, word, hooke_unit_list(unit, list), unit);
 }
 
+/* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
+static int32_t is_flag(const struct hooke_argument *argument) {
+  return argument->own == NULL &&
+         strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
+}
+
 static int take(struct hooke_arguments *arguments, struct hooke_argument *argument, const char *text) {
-  argument->text = text ? text : "";
+  argument->text = text ? text : is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
   if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
     return hooke_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
@@ -174,8 +180,8 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
     for (int32_t i = 0; i < arguments->count; i++) {
       const struct hooke_argument *argument = &arguments->all[i];
       int32_t wants = argument->own ? argument->own->value != NULL : 1;
-      longs[i] =
-          (struct option){argument->flag, wants ? required_argument : no_argument, NULL, FIRST_LONG + i};
+      const int kind = is_flag(argument) ? optional_argument : wants ? required_argument : no_argument;
+      longs[i] = (struct option){argument->flag, kind, NULL, FIRST_LONG + i};
       if (argument->own && argument->own->letter) {
         *letter++ = argument->own->letter;
         if (wants) *letter++ = ':';

@@ -26,6 +26,8 @@ struct run {
   int64_t frames; /* reported so far */
   int32_t write_failed;
   int32_t outcome;
+  hooke_why
+      *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
   char message[MESSAGE_SIZE]; /* about the outcome, or the write that failed */
   double energy_before, energy_after;
 };
@@ -75,12 +77,25 @@ static int64_t stride(const struct run *run) {
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
 
+/* The library tells of each kind once a run. */
+static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                           int64_t particle, void *ctx) {
+  const struct run *run = ctx;
+  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
+  hooke_report_words(run->arguments, "warning: %s", sentence);
+  return 0;
+}
+
 static int32_t prepare(struct run *run) {
   int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
   if (status != HOOKE_OK) return status;
   run->duration = option_of(run, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
+  if (status == HOOKE_OK && !run->arguments->quiet) {
+    status = hooke_integrator_on_warning(run->integrator, see_warning, run);
+    if (status == HOOKE_NOT_BUILT) status = HOOKE_OK; /* then nobody warns */
+  }
   if (status != HOOKE_OK || !run->output) return status;
   return hooke_trajectory_create(run->output, run->setup.system, run->integrator,
                                  hooke_scene_text(run->setup.scene), &run->trajectory);
@@ -100,6 +115,9 @@ static int integrate(struct run *run) {
   run->trajectory = NULL;
   if (run->write_failed) return hooke_report(run->arguments, HOOKE_EXIT_IO, "%s", run->message);
   int code = hooke_exit_code(run->outcome);
+  if (code == HOOKE_EXIT_DIVERGED && hooke_why_create(run->integrator, &run->why) == HOOKE_OK) {
+    snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
+  }
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
@@ -261,7 +279,9 @@ static void explain(const struct run *run) {
   hooke_report_words(arguments, "%s", run->message);
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
                      hooke_format_number(hooke_state_time(run->setup.state), text), kept);
-  hooke_advice_print(stderr, arguments, &run->setup, run->integrator, run->outcome);
+  if (run->why == NULL) return;
+  hooke_advice_print(stderr, arguments, run->why, 1);
+  fputs("'hooke why' on the same says more\n", stderr);
 }
 
 static int run_and_tell(struct run *run) {
@@ -340,6 +360,7 @@ static int do_run(const struct hooke_arguments *arguments) {
     code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
+  hooke_why_destroy(run.why);
   hooke_integrator_destroy(run.integrator);
   hooke_setup_destroy(&run.setup);
   return code;

@@ -1,37 +1,17 @@
 /* hooke study: how accurate each method is for what it costs on a scene, and which one to take. */
+#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "study_results.h"
 #include "watch.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-enum { FOLDER_SIZE = 4096 };
 
 /* ---- the file of -o ---- */
-
-/* Before any work, so that a long study is not lost to a wrong name. */
-static int check_place(const struct hooke_arguments *arguments, const char *flag, const char *file) {
-  struct stat there;
-  char folder[FOLDER_SIZE] = ".";
-  const char *slash = strrchr(file, '/');
-  if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
-  if (access(folder, W_OK) != 0) {
-    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file,
-                        strerror(errno));
-  }
-  if (stat(file, &there) == 0 && !S_ISREG(there.st_mode)) {
-    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
-  }
-  return hooke_setup_check_other_file(arguments, file);
-}
 
 static int ends_in(const char *name, const char *ending) {
   const size_t length = strlen(name), end = strlen(ending);
@@ -48,23 +28,10 @@ static int check_output(const struct hooke_arguments *arguments, const char *out
         output);
   }
   const int code = ends_in(output, ".h5") ? hooke_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
-  return code == HOOKE_EXIT_DONE ? check_place(arguments, "-o", output) : code;
+  return code == HOOKE_EXIT_DONE ? hooke_output_file_check(arguments, "-o", output) : code;
 }
 
 /* ---- the file of --report ---- */
-
-static int check_report(const struct hooke_arguments *arguments, const char *report) {
-  if (!report) return HOOKE_EXIT_DONE;
-  const char *library = hooke_build_fact("chartjs");
-  if (!library || !library[0]) {
-    return hooke_report(
-        arguments, HOOKE_EXIT_NOT_BUILT,
-        "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and writes no "
-        "reports; run without --report",
-        report);
-  }
-  return check_place(arguments, "--report", report);
-}
 
 /* The exit code of the study, or that of a report that could not be written. */
 static int write_report(const struct hooke_study_results *results, const char *report, int code) {
@@ -197,7 +164,7 @@ static int do_study(const struct hooke_arguments *arguments) {
   const char *report = hooke_arguments_text(arguments, "report");
   int code = hooke_methods_choose(arguments, &results.methods);
   if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
-  if (code == HOOKE_EXIT_DONE) code = check_report(arguments, report);
+  if (code == HOOKE_EXIT_DONE) code = hooke_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
   code = hooke_setup_load(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = hooke_setup_require_duration(arguments, &results.setup);

@@ -67,7 +67,7 @@ static void print_option(FILE *file, const struct hooke_argument *argument) {
   }
   snprintf(doc, sizeof doc, "%s%s%s%s; %s; default: %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
            hooke_options_row(table, argument->row, "doc"), allowed, fallback[0] ? fallback : "none");
-  print_row(file, 0, argument->flag, value, doc);
+  print_row(file, 0, argument->flag, strcmp(type, "flag") == 0 ? NULL : value, doc);
 }
 
 /* The rows of a table, after `title`. */
@@ -112,6 +112,7 @@ void hooke_usage_print_version(FILE *file) {
   fprintf(file, "hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   print_part(file, "SUNDIALS", "sundials");
   print_part(file, "GSL", "gsl");
+  print_part(file, "ARPACK-NG", "arpack");
   print_part(file, "HDF5", "hdf5");
   print_part(file, "jansson", "jansson");
   print_part(file, "Chart.js", "chartjs");

@@ -44,5 +44,7 @@ extern const struct hooke_verb hooke_verb_run;
 extern const struct hooke_verb hooke_verb_check;
 extern const struct hooke_verb hooke_verb_compare;
 extern const struct hooke_verb hooke_verb_study;
+extern const struct hooke_verb hooke_verb_limit;
+extern const struct hooke_verb hooke_verb_why;
 
 #endif

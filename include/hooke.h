@@ -8,6 +8,8 @@
  *   integrator.h  methods and the run loop
  *   measure.h     step bounds and comparisons
  *   study.h       the trade of error against cost, orders, recommendation
+ *   limit.h       the largest stable step of each method, and what it hangs on
+ *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories */
 #ifndef HOOKE_H
 #define HOOKE_H
@@ -20,6 +22,8 @@
 #include "hooke/integrator.h"
 #include "hooke/measure.h"
 #include "hooke/study.h"
+#include "hooke/limit.h"
+#include "hooke/why.h"
 #include "hooke/io.h"
 
 #endif

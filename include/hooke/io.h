@@ -7,6 +7,7 @@
 
 #include "build.h"
 #include "integrator.h"
+#include "limit.h"
 #include "measure.h"
 #include "study.h"
 
@@ -26,7 +27,9 @@ typedef struct hooke_scene hooke_scene;
 /* Reads a scene file (format: docs/scene.md). The system is built but not committed, so that a callback may
  * still be added; the caller owns the scene. HOOKE_BAD_VALUE with "file:line:column: path: what is wrong,
  * what is allowed", also for a file that cannot be opened, the scene's or one that it names; HOOKE_IO_FAILED
- * if reading breaks off; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT. */
+ * if reading breaks off; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT.
+ * A trajectory file stands for the scene that it was made from, with the options of its run; files that the scene names are
+ * then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. */
 HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 
 /* The same from `length` bytes of text; `name` stands for the file in messages, `folder` is where files named
@@ -67,6 +70,27 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
  * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 
+/* ---- trajectories read back ---- */
+
+typedef struct hooke_record hooke_record;
+
+/* Opens a trajectory file, finished or not. HOOKE_IO_FAILED, HOOKE_BAD_VALUE if it is none of ours, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
+HOOKE_API void hooke_record_close(hooke_record *record);
+
+/* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped", "diverged",
+ * "step-limit", "solver-failed" or "failed". NULL for another word. */
+HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
+/* Options of the run, as it ran; valid as long as the record. */
+HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
+
+/* Frames that are there. */
+HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
+/* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last. HOOKE_BAD_VALUE if there is
+ * none, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
+
 /* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
  * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
  * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. */
@@ -99,6 +123,12 @@ HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *pa
  * without Chart.js, or where the files that are installed with the library, in share/hooke, are missing. */
 HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
                                            const char *command);
+
+/* The same of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on the scene at
+ * `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found, HOOKE_BAD_VALUE for a state of
+ * another system, and the failures above. */
+HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
+                                           const char *path, const char *scene);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/json_place.h"
+#include "io/record.h"
 #include "io/scene_file.h"
 
 #include <string.h>
@@ -77,10 +78,38 @@ static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
   return status;
 }
 
+/* The scene that a trajectory was made from, as it was run. */
+static int32_t load_record(const char *path, hooke_scene **scene) {
+  hooke_record *record = NULL;
+  int32_t status = hooke_record_open(path, &record);
+  if (status != HOOKE_OK) return status;
+  const char *text = hooke_record_text(record, "scene");
+  char *folder = hooke_scene_folder(path);
+  if (folder == NULL) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK && text[0] == '\0')
+    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
+  if (status == HOOKE_OK) status = hooke_scene_parse(text, (int64_t)strlen(text), path, folder, scene);
+  if (status == HOOKE_OK) {
+    hooke_options *run = NULL;
+    status = hooke_options_copy(hooke_record_options(record), &run);
+    if (status == HOOKE_OK) {
+      hooke_options_destroy((*scene)->run);
+      (*scene)->run = run;
+    } else {
+      hooke_scene_destroy(*scene);
+      *scene = NULL;
+    }
+  }
+  hooke_free(folder);
+  hooke_record_close(record);
+  return status;
+}
+
 int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
   if (scene) *scene = NULL;
   if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
   if (require_jansson()) return HOOKE_NOT_BUILT;
+  if (hooke_record_is_one(path)) return load_record(path, scene);
   hooke_scene *made = new_scene(path);
   if (made == NULL) return HOOKE_NO_MEMORY;
   struct hooke_json_guard guard = {0};

@@ -35,6 +35,8 @@ OUTCOMES = {
     "hooke_study_run",
     "hooke_study_recommend",
     "hooke_study_pick",
+    "hooke_limit_find",
+    "hooke_limit_along",
 }
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 

@@ -7,8 +7,8 @@
 
 A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
 it, `compare` sets several methods against a tight reference, `study` measures error against cost and
-recommends, `Integrator` gives you the loop. Units are SI, positions and velocities are NumPy arrays (n, 3)
-over the library's own memory.
+recommends, `limit` finds the largest stable steps, `why` explains a run that blew up, `Integrator` gives you
+the loop. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -20,13 +20,15 @@ from ._queries import Blocks, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .comparison import Comparison, compare
 from .first_order import FirstOrder
-from .integrator import Integrator, Method, methods
+from .integrator import Integrator, Method, StepWarning, methods
+from .limit import Limit, limit
 from .options import Options, describe, part_kinds
 from .results import Frames, Result, run
 from .scene import Scene
 from .state import State
 from .study import Study, study
 from .system import System
+from .why import Why, why
 
 __version__ = "0.1.0"
 
@@ -40,6 +42,7 @@ __all__ = [
     "Frames",
     "IOFailed",
     "Integrator",
+    "Limit",
     "Material",
     "Method",
     "NoMemory",
@@ -49,18 +52,22 @@ __all__ = [
     "Scene",
     "SolverFailed",
     "State",
+    "StepWarning",
     "Stopped",
     "Study",
     "System",
     "Unsuited",
+    "Why",
     "build_facts",
     "compare",
     "describe",
+    "limit",
     "methods",
     "part_kinds",
     "plot",
     "run",
     "study",
+    "why",
 ]
 
 

@@ -15,8 +15,8 @@ from typing import Any, Callable
 
 import numpy as np
 
-from ._memory import view
-from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, RATE
+from ._memory import text, view
+from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
 
 _STOP = 1
@@ -115,6 +115,20 @@ def rate_callback(function: Callable[..., Any], shape: tuple, dtype: Any) -> Any
         return function(t, views(x, shape, False), views(out, shape, True))
 
     return RATE(rate)
+
+
+@contextlib.contextmanager
+def listening(attach: Callable[..., Any], handle: Any, progress: Callable[..., Any] | None) -> Iterator[None]:
+    """Passes progress of the object on while the library works, and lets Ctrl-C in; ``attach(handle, watcher,
+    None)`` is the function of the library for that."""
+    tell = progress or (lambda done, what: None)
+    watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
+    attach(handle, watcher, None)
+    try:
+        with interruptible():
+            yield
+    finally:
+        attach(handle, PROGRESS(), None)
 
 
 @contextlib.contextmanager

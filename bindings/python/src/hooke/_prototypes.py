@@ -30,6 +30,9 @@ TRAJECTORY = _handle("hooke_trajectory")
 COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
+WHY = _handle("hooke_why")
+RECORD = _handle("hooke_record")
+LIMIT = _handle("hooke_limit")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
 DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
@@ -40,6 +43,7 @@ DRIVE = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS)
 RATE = CFUNCTYPE(INT32, INT64, DOUBLE, ADDRESS, ADDRESS, ADDRESS)
 OBSERVER = CFUNCTYPE(INT32, INT64, ADDRESS, ADDRESS)
 PROGRESS = CFUNCTYPE(INT32, DOUBLE, TEXT, ADDRESS)
+WARNING = CFUNCTYPE(INT32, TEXT, TEXT, DOUBLE, DOUBLE, INT64, INT64, ADDRESS)
 COMPARISON_FRAME = CFUNCTYPE(INT32, TEXT, INT64, INT64, ADDRESS, ADDRESS)
 
 # name: (result, argument, argument, ...)
@@ -141,6 +145,8 @@ PROTOTYPES = {
     "hooke_integrator_step": (OUTCOME, INTEGRATOR, STATE, INT64),
     "hooke_integrator_count": (INT64, INTEGRATOR, TEXT),
     "hooke_integrator_wall_seconds": (DOUBLE, INTEGRATOR),
+    "hooke_integrator_recent_count": (INT64, INTEGRATOR),
+    "hooke_integrator_recent": (STATUS, INTEGRATOR, INT64, STATE),
     "hooke_integrator_stop_value": (INT32, INTEGRATOR),
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
     # measure.h
@@ -176,6 +182,41 @@ PROTOTYPES = {
     "hooke_study_recommendation_text": (TEXT, STUDY, TEXT),
     "hooke_study_recommendation_number": (DOUBLE, STUDY, TEXT),
     "hooke_study_pick": (OUTCOME, SYSTEM, OPTIONS, DOUBLE, PROGRESS, ADDRESS),
+    # limit.h
+    "hooke_limit_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_limit_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(LIMIT)),
+    "hooke_limit_destroy": (None, LIMIT),
+    "hooke_limit_on_progress": (None, LIMIT, PROGRESS, ADDRESS),
+    "hooke_limit_find": (OUTCOME, LIMIT, STATE),
+    "hooke_limit_along": (OUTCOME, LIMIT, STATE),
+    "hooke_limit_figure": (DOUBLE, LIMIT, TEXT),
+    "hooke_limit_row_count": (INT64, LIMIT),
+    "hooke_limit_text": (TEXT, LIMIT, INT64, TEXT),
+    "hooke_limit_number": (DOUBLE, LIMIT, INT64, TEXT),
+    "hooke_limit_blame_count": (INT64, LIMIT),
+    "hooke_limit_blame_number": (DOUBLE, LIMIT, INT64, TEXT),
+    "hooke_limit_blame_text": (TEXT, LIMIT, INT64, TEXT),
+    "hooke_limit_mover_count": (INT64, LIMIT),
+    "hooke_limit_mover_number": (DOUBLE, LIMIT, INT64, TEXT),
+    "hooke_limit_remedy_text": (TEXT, LIMIT, TEXT),
+    "hooke_limit_remedy_number": (DOUBLE, LIMIT, TEXT),
+    "hooke_limit_mode_count": (INT64, LIMIT),
+    "hooke_limit_mode_number": (DOUBLE, LIMIT, INT64, TEXT),
+    "hooke_limit_shape": (DOUBLES, LIMIT),
+    "hooke_limit_of_mode": (DOUBLE, TEXT, DOUBLE, DOUBLE),
+    # why.h
+    "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
+    "hooke_why_create": (STATUS, INTEGRATOR, POINTER(WHY)),
+    "hooke_why_create_kept": (STATUS, SYSTEM, OPTIONS, STATE, STATE, POINTER(WHY)),
+    "hooke_why_destroy": (None, WHY),
+    "hooke_why_text": (TEXT, WHY, TEXT),
+    "hooke_why_number": (DOUBLE, WHY, TEXT),
+    "hooke_why_blame_count": (INT64, WHY),
+    "hooke_why_blame_number": (DOUBLE, WHY, INT64, TEXT),
+    "hooke_why_blame_text": (TEXT, WHY, INT64, TEXT),
+    "hooke_why_advice_count": (INT64, WHY),
+    "hooke_why_advice_text": (TEXT, WHY, INT64, TEXT),
+    "hooke_why_advice_apply": (STATUS, WHY, INT64, OPTIONS),
     # io.h
     "hooke_io_own_process": (STATUS,),
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
@@ -189,9 +230,16 @@ PROTOTYPES = {
     "hooke_trajectory_create": (STATUS, TEXT, SYSTEM, INTEGRATOR, TEXT, POINTER(TRAJECTORY)),
     "hooke_trajectory_write": (STATUS, TRAJECTORY, INT64, STATE),
     "hooke_trajectory_close": (STATUS, TRAJECTORY, INT32),
+    "hooke_record_open": (STATUS, TEXT, POINTER(RECORD)),
+    "hooke_record_close": (None, RECORD),
+    "hooke_record_text": (TEXT, RECORD, TEXT),
+    "hooke_record_options": (OPTIONS, RECORD),
+    "hooke_record_frame_count": (INT64, RECORD),
+    "hooke_record_read": (STATUS, RECORD, INT64, STATE),
     "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
     "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
     "hooke_study_write_csv": (STATUS, STUDY, TEXT),
     "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
     "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
+    "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
 }

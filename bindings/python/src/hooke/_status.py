@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from typing import Any
 
 #: Outcomes of a run: they are results, not exceptions.
 OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
@@ -51,9 +52,16 @@ class Unsuited(Error, ValueError):
 
 
 class SolverFailed(Error, ArithmeticError):
-    """A nonlinear or error-controlled solver gave up."""
+    """A nonlinear or error-controlled solver gave up; ``hooke.why(failure)`` explains it, and `diagnosis` is its
+    sentence."""
 
     status = -7
+    integrator: Any = None  #: the one that failed, where there is one
+
+    @property
+    def diagnosis(self) -> str:
+        """What happened, where and when; the message if that is all there is to say."""
+        return str(self) if self.integrator is None else self.integrator.diagnosis
 
 
 class Stopped(Error):

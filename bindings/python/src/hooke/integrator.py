@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Iterator
-from typing import Any, Callable, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
 
 from . import _callback
 from ._library import lib
 from ._memory import Handle, text
-from ._prototypes import OBSERVER
-from ._status import OUTCOMES, BadCall
+from ._prototypes import OBSERVER, WARNING
+from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from .first_order import FirstOrder
 from .options import Options
 from .state import State
 from .system import System
+
+if TYPE_CHECKING:
+    from .why import Why
 
 #: observer(step, state): sees the state after `step` steps and must not change it; returns None or 0 to go
 #: on.
@@ -31,6 +35,9 @@ COUNTS = (
     "coincident_springs",
     "memory_bytes",
 )
+
+
+_BLOWN_UP = (2, 3, SolverFailed.status)
 
 
 class Method(NamedTuple):
@@ -54,6 +61,10 @@ def methods() -> list[Method]:
         )
         for name in names
     ]
+
+
+class StepWarning(RuntimeWarning):
+    """The step of a run is no longer certain to be stable; the text says where, when, and by how much."""
 
 
 class Integrator:
@@ -85,9 +96,9 @@ class Integrator:
         ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)``
         after every `stride` steps. Returns "finished", "stopped" (a callback asked for it), "diverged" or
         "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
-        again; so does Ctrl-C.
+        again; so does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
         """
-        with self._watched(state, on_frame, on_step):
+        with self._watched(state, on_frame, on_step), self._warned():
             return self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
 
     def step(self, state: State, steps: int = 1) -> str:
@@ -95,6 +106,23 @@ class Integrator:
         does."""
         with self._watched(state, None, None):
             return self._outcome(lib.hooke_integrator_step(self._handle, state._handle, steps))
+
+    def why(self) -> Why:
+        """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`."""
+        from .why import Why
+
+        return Why(self)
+
+    @property
+    def diagnosis(self) -> str:
+        """What happened in the last run, where and when, in a sentence or two; "" if it did not end early. It takes
+        the last steps again and tries what to do: some seconds at most."""
+        if self.outcome not in _BLOWN_UP:
+            return ""
+        try:
+            return self.why().sentence
+        except (NotBuilt, Unsuited):
+            return self.message
 
     def _outcome(self, code: int) -> str:
         self.outcome = code
@@ -119,6 +147,24 @@ class Integrator:
             self._running = False
             lib.hooke_integrator_on_frame(self._handle, OBSERVER(), None)
             lib.hooke_integrator_on_step(self._handle, 1, OBSERVER(), None)
+
+    @contextlib.contextmanager
+    def _warned(self) -> Iterator[None]:
+        def warn(_kind, sentence, _t, _limit, _spring, _particle, _):
+            return _callback.guarded(lambda: warnings.warn(text(sentence), StepWarning, stacklevel=2))
+
+        callback = WARNING(warn)  # lives until the run is over
+        with contextlib.suppress(NotBuilt, Unsuited):
+            lib.hooke_integrator_on_warning(self._handle, callback, None)
+        try:
+            yield
+        except SolverFailed as failure:
+            self.outcome, self.message = SolverFailed.status, str(failure)
+            failure.integrator = self
+            raise
+        finally:
+            with contextlib.suppress(NotBuilt, Unsuited):
+                lib.hooke_integrator_on_warning(self._handle, WARNING(), None)
 
     @property
     def frame_count(self) -> int:

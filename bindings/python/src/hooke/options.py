@@ -54,6 +54,11 @@ class Options(MutableMapping):
         return cls(_create(lib.hooke_study_options_create))
 
     @classmethod
+    def for_limit(cls) -> Options:
+        """Options of a limit: methods, predict, nonlinear, accuracy, budget [s]."""
+        return cls(_create(lib.hooke_limit_options_create))
+
+    @classmethod
     def for_springs(cls) -> Options:
         """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
         return cls(_create(lib.hooke_spring_options_create))
@@ -156,12 +161,14 @@ def part_kinds() -> list[str]:
 
 
 def describe(what: str) -> str:
-    """The options of a "run", of a "study", of "springs", or of a kind of part, as text: names, units, defaults,
-    bounds."""
+    """The options of a "run", of a "study", of a "limit", of "springs", or of a kind of part, as text: names, units,
+    defaults, bounds."""
     if what == "run":
         return Options.for_run().describe()
     if what == "study":
         return Options.for_study().describe()
+    if what == "limit":
+        return Options.for_limit().describe()
     if what == "springs":
         return Options.for_springs().describe()
     return Options.for_part(what).describe()

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
+from ._library import lib
+from .limit import Limit
 from .results import Result
 from .study import Study
 
@@ -120,6 +122,57 @@ def study(
             ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8)
         ax.legend(fontsize="small")
     return axes
+
+
+def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
+    """Draws the modes of a scene times `step` [s] on the regions of stability, into two axes (made if not given), and
+    returns them: the eigenvalues on the regions of the methods that have one for each eigenvalue, and frequency and
+    decay on those of all methods that have a limit. A method is stable while every point is within its line.
+
+    Without `step`, that of the scene is taken or, if it names none, the smallest predicted limit.
+    """
+    predicted = found.rows["predicted"]
+    limits = predicted[(predicted > 0) & np.isfinite(predicted)]
+    if step is None:
+        step = found.step if np.isfinite(found.step) else limits.min() if limits.size else 1.0
+    if axes is None:
+        import matplotlib.pyplot as plt
+
+        _, axes = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
+    plane, reach = axes
+    angle = np.linspace(0, np.pi / 2, 181)
+    for number, row in enumerate(found.rows):
+        style = {"color": f"C{number % 10}", "label": row["method"], "linewidth": 1.5}
+        if not np.isfinite(_edge_of(row["method"], np.ones(1), np.full(1, 0.5))).all():
+            continue
+        if row["by_eigenvalue"]:
+            edge = _edge_of(row["method"], np.ones(angle.size), np.sin(angle))
+            z = edge * (-np.sin(angle) + 1j * np.cos(angle))
+            plane.plot(*_parts(np.concatenate([z, z[::-1].conj()])), **style)
+        edge = np.minimum(_edge_of(row["method"], np.cos(angle), np.sin(angle)), 100)
+        reach.plot(edge * np.cos(angle), edge * np.sin(angle), **style)
+    dots = {"linestyle": "", "marker": "o", "markersize": 4, "color": "0.1", "label": "modes"}
+    plane.plot(*_parts(step * np.concatenate([found.modes, found.modes.conj()])), **dots)
+    reach.plot(step * found.frequency, step * found.decay, **dots)
+    reach.axline((0, 0), slope=1, color="0.6", linestyle="--", linewidth=1, label="critical damping")
+    for ax, left, bottom, names in (
+        (plane, -3.6, -3.2, ("real part of h \u03bb", "imaginary part of h \u03bb")),
+        (reach, 0, 0, ("h \u03c9, step times frequency", "h d, step times decay")),
+    ):
+        ax.set(xlim=(left, left + 4.2), ylim=(bottom, 3.2), xlabel=names[0], ylabel=names[1], aspect="equal")
+        ax.legend(fontsize="small")
+    reach.set_xlim(0, 3.2)
+    plane.set_title(f"h = {step:.4g} s")
+    return axes
+
+
+def _edge_of(method: str, frequency: np.ndarray, decay: np.ndarray) -> np.ndarray:
+    name = method.encode()
+    return np.array([lib.hooke_limit_of_mode(name, *pair) for pair in zip(frequency, decay)])
+
+
+def _parts(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return z.real, z.imag
 
 
 _MARKERS = "osD^v<>PX*"

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
@@ -36,6 +36,8 @@ Path = Union[str, "os.PathLike[str]"]
 Runnable = Union[Path, Scene, System, FirstOrder]
 #: progress(fraction, state): told at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
+#: progress(fraction, what): the share done, 0 to 1, and what is running.
+WorkProgress = Callable[[float, str], Optional[int]]
 
 _STOPPED = 1
 
@@ -55,7 +57,8 @@ class Result:
 
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
     `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
-    `stop_value` is what the callback that stopped the run returned.
+    `stop_value` is what the callback that stopped the run returned. `integrator` is kept of a run that blew up,
+    to be asked why.
     """
 
     status: str
@@ -68,6 +71,13 @@ class Result:
     diverged_at: float
     stop_value: int
     frames: Frames | None = None
+    integrator: Integrator | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def diagnosis(self) -> str:
+        """Why the run ended early, where and when, in a sentence or two; "" if it did not. ``hooke.why(result)`` has
+        the rest."""
+        return "" if self.integrator is None else self.integrator.diagnosis
 
     @property
     def system(self) -> System:
@@ -129,6 +139,7 @@ def run(
         diverged_at=integrator.diverged_at,
         stop_value=integrator.stop_value,
         frames=recorder.frames() if recorder is not None else None,
+        integrator=integrator if status in ("diverged", "step-limit") else None,
     )
 
 
@@ -147,6 +158,20 @@ def resolve(
             raise BadValue("force: only a system takes one")
         problem.set_force(force)
     return scene, problem, options
+
+
+def prepare(
+    what: str, problem: Runnable, force: Force | None, options: dict[str, Any]
+) -> tuple[Scene | None, System, Options]:
+    """The scene, the system and the options of its run for `what`, which calls it from several threads."""
+    scene, system, given = resolve(problem, force)
+    if not isinstance(system, System):
+        raise BadValue(f"{what}: a system is needed, this is a first-order problem")
+    run = (given.copy() if given is not None else Options.for_run()).set(**options)
+    threads = run["threads"]
+    if system._callbacks and isinstance(threads, int) and threads > 1:
+        raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
+    return scene, system, run
 
 
 def _all(watchers: list[Observer]) -> Observer:

@@ -5,22 +5,20 @@ from __future__ import annotations
 import ctypes
 import os
 from collections.abc import Iterable
-from typing import Any, Callable, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _callback
+from ._callback import listening
 from ._library import lib
 from ._memory import Handle, address_of, text, view
-from ._prototypes import PROGRESS, STUDY
-from ._status import OUTCOMES, BadValue
+from ._prototypes import STUDY
+from ._status import OUTCOMES
+from ._tables import read_rows
 from .options import Options
-from .results import Path, Runnable, resolve
+from .results import Path, Runnable, WorkProgress, prepare
 from .scene import Scene, scene_text
 from .system import Force, System
-
-#: progress(fraction, what): the share done, 0 to 1, and what is running.
-StudyProgress = Callable[[float, str], Optional[int]]
 
 _TEXTS = ("method", "status")
 _FLAGS = ("near_floor", "timed_alone")
@@ -141,7 +139,7 @@ class Study:
     timed_alone: np.ndarray
 
     def __init__(
-        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: StudyProgress | None
+        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | None
     ):
         self._handle = handle
         self._scene = scene
@@ -149,8 +147,8 @@ class Study:
         self._status = status
         self._progress = progress
         self.outcome = OUTCOMES.get(status, "stopped")
-        self.rows = _read_rows(handle)
-        self.rows.flags.writeable = False
+        count = lib.hooke_study_row_count(handle)
+        self.rows = read_rows(handle, count, _ROW, lib.hooke_study_text, lib.hooke_study_number)
         for name in _ROW.names or ():
             setattr(self, name, self.rows[name])
         figure = {what: lib.hooke_study_figure(handle, what.encode()) for what in _FIGURES}
@@ -184,7 +182,7 @@ class Study:
 
     def recommend(self, want: float) -> Recommendation:
         """Finds the cheapest step or tolerance whose error is at most `want` [m], by running it."""
-        with _listening(self._handle, self._progress):
+        with listening(lib.hooke_study_on_progress, self._handle, self._progress):
             lib.hooke_study_recommend(self._handle, want)
         found = self.recommendation
         assert found is not None
@@ -242,7 +240,7 @@ def study(
     tolerances: Any = None,
     output: Path | None = None,
     force: Force | None = None,
-    progress: StudyProgress | None = None,
+    progress: WorkProgress | None = None,
     **options: Any,
 ) -> Study:
     """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
@@ -253,15 +251,9 @@ def study(
     [m] asks for a recommendation, `budget` [s] limits the time. `output` is a file to write (see
     `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress and stops
     the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
-    every [s], threads, ...
+    every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
-    scene, system, given = resolve(problem, force)
-    if not isinstance(system, System):
-        raise BadValue("study: a system is needed, this is a first-order problem")
-    run = (given.copy() if given is not None else Options.for_run()).set(**options)
-    threads = run["threads"]
-    if system._callbacks and isinstance(threads, int) and threads > 1:
-        raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
+    scene, system, run = prepare("study", problem, force, options)
     if methods is not None and not isinstance(methods, str):
         methods = ",".join(methods)
     chosen = Options.for_study().set(
@@ -270,41 +262,12 @@ def study(
     pointer = STUDY()
     lib.hooke_study_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
     handle = Handle(pointer, lib.hooke_study_destroy, system._handle)
-    with _listening(handle, progress):
+    with listening(lib.hooke_study_on_progress, handle, progress):
         status = lib.hooke_study_run(handle)
     made = Study(handle, scene, system, status, progress)
     if output is not None:
         made.write(output)
     return made
-
-
-class _listening:
-    """Passes progress on while the library works, and lets Ctrl-C in."""
-
-    def __init__(self, handle: Handle, progress: StudyProgress | None):
-        self._handle = handle
-        tell = progress or (lambda done, what: None)
-        self._watcher = PROGRESS(lambda done, what, _: _callback.guarded(tell, done, text(what)))
-        self._interruptible = _callback.interruptible()
-
-    def __enter__(self) -> None:
-        lib.hooke_study_on_progress(self._handle, self._watcher, None)
-        self._interruptible.__enter__()
-
-    def __exit__(self, *failure: Any) -> Any:
-        lib.hooke_study_on_progress(self._handle, PROGRESS(), None)
-        return self._interruptible.__exit__(*failure)
-
-
-def _read_rows(handle: Handle) -> np.ndarray:
-    count = lib.hooke_study_row_count(handle)
-    rows = np.empty(count, _ROW)
-    for row in range(count):
-        for name in _TEXTS:
-            rows[name][row] = text(lib.hooke_study_text(handle, row, name.encode()))
-        for name in (*_NUMBERS, *_FLAGS):
-            rows[name][row] = lib.hooke_study_number(handle, row, name.encode())
-    return rows
 
 
 def _read_orders(handle: Handle, methods: list[str]) -> dict[str, Order]:

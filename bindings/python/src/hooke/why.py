@@ -1,0 +1,98 @@
+"""Why a run blew up, where, and what to do."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._library import lib
+from ._memory import Handle, text
+from ._prototypes import WHY
+from ._status import SolverFailed
+from .integrator import Integrator
+from .options import Options
+from .results import Result, Runnable, resolve
+
+
+class Blame(NamedTuple):
+    """A spring to blame: its number, its ends, the group that it is of ("" if that has no name), and its share of
+    the whole (NaN if that cannot be told)."""
+
+    spring: int
+    ends: tuple[int, int]
+    group: str
+    share: float
+
+
+class Advice(NamedTuple):
+    """A change in words, and the options of a run that make it, for ``hooke.run(scene, **options)``; {} where it is
+    the scene that has to change."""
+
+    change: str
+    options: dict[str, Any]
+
+
+class Why:
+    """What is known of a run that ended early.
+
+    `cause` is "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed" or
+    "overflow"; `sentence` says what happened, where and when. `time` [s] is that of the last step within all bounds,
+    `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step and the largest stable one, `particle`
+    the one concerned (None if none is); NaN where a number does not apply. `blame` has the springs, the largest share
+    first, `advice` what to do, the best first.
+    """
+
+    def __init__(self, integrator: Integrator):
+        pointer = WHY()
+        lib.hooke_why_create(integrator._handle, ctypes.byref(pointer))
+        handle = Handle(pointer, lib.hooke_why_destroy)
+        self.cause: str = text(lib.hooke_why_text(handle, b"cause"))
+        self.sentence: str = text(lib.hooke_why_text(handle, b"sentence"))
+        self.method: str = text(lib.hooke_why_text(handle, b"method"))
+        self.time, self.noticed, self.step, self.limit, particle = (
+            lib.hooke_why_number(handle, what) for what in (b"time", b"noticed", b"step", b"limit", b"particle")
+        )
+        self.particle = None if np.isnan(particle) else int(particle)
+        self.blame = [_blame(handle, place) for place in range(lib.hooke_why_blame_count(handle))]
+        self.advice = [_advice(handle, place) for place in range(lib.hooke_why_advice_count(handle))]
+
+    def __repr__(self) -> str:
+        return f"Why({self.cause}, t={self.time!r}, {self.method})"
+
+    def __str__(self) -> str:
+        return "\n".join([self.sentence, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
+
+
+def _blame(handle: Handle, place: int) -> Blame:
+    spring, first, second, share = (
+        lib.hooke_why_blame_number(handle, place, what) for what in (b"spring", b"first", b"second", b"share")
+    )
+    group = text(lib.hooke_why_blame_text(handle, place, b"group"))
+    return Blame(int(spring), (int(first), int(second)), group, share)
+
+
+def _advice(handle: Handle, place: int) -> Advice:
+    changes = Options.for_run()
+    lib.hooke_why_advice_apply(handle, place, changes._handle)
+    options = {name: changes[name] for name in changes if changes.is_set(name)}
+    return Advice(text(lib.hooke_why_advice_text(handle, place, b"change")), options)
+
+
+def why(what: Runnable | Result | SolverFailed, **options: Any) -> Why | None:
+    """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
+    `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
+
+    The last steps are taken again and what is advised is tried, so callbacks are called again; it takes some seconds
+    at most.
+    """
+    if isinstance(what, (Result, SolverFailed)):
+        return what.integrator.why() if what.integrator is not None else None
+    _, problem, given = resolve(what, None)
+    integrator = Integrator(problem, given, **options)
+    try:
+        status = integrator.run(problem.state())
+    except SolverFailed:
+        return integrator.why()
+    return integrator.why() if status in ("diverged", "step-limit") else None

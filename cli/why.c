@@ -1,0 +1,221 @@
+/* hooke why: explains a run that blew up, from its scene or from its output. */
+#include "advice.h"
+#include "print.h"
+#include "report.h"
+#include "setup.h"
+#include "watch.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_SPRINGS_SHOWN = 8 };
+
+struct why {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  hooke_record *record; /* NULL: the scene is not an output */
+  hooke_why *why;       /* NULL: the run did not blow up */
+  const char *status;   /* of the run, then */
+  double time;          /* reached, then */
+  int code;             /* of what was reported already */
+};
+
+static const double SMALLEST_SHARE = 1e-3; /* that words are made of */
+
+/* ---- finding out ---- */
+
+struct progress {
+  struct hooke_watch watch;
+  double duration;
+};
+
+static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct progress *progress = ctx;
+  (void)step;
+  return hooke_watch_tell(&progress->watch, hooke_state_time(state) / progress->duration, "running it");
+}
+
+/* Runs the scene and asks why it ended early. */
+static int32_t run_again(struct why *why) {
+  hooke_integrator *integrator = NULL;
+  struct progress progress;
+  int32_t status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
+  if (status != HOOKE_OK) return status;
+  progress.duration = hooke_options_number(hooke_integrator_options(integrator), "duration");
+  hooke_watch_start(&progress.watch, why->arguments);
+  hooke_integrator_on_frame(integrator, see_frame, &progress);
+  status = hooke_integrator_run(integrator, why->setup.state);
+  hooke_watch_end(&progress.watch);
+  why->time = hooke_state_time(why->setup.state);
+  why->status = "finished";
+  if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED) status = hooke_why_create(integrator, &why->why);
+  hooke_integrator_destroy(integrator);
+  return status;
+}
+
+static int32_t blew_up(const char *status) {
+  return strcmp(status, "diverged") == 0 || strcmp(status, "solver-failed") == 0 ||
+         strcmp(status, "step-limit") == 0;
+}
+
+/* From the first and the last frame of the output. */
+static int32_t read_output(struct why *why) {
+  hooke_state *first = NULL, *last = NULL;
+  int32_t status = hooke_state_create(why->setup.system, &first);
+  if (status == HOOKE_OK) status = hooke_state_create(why->setup.system, &last);
+  if (status == HOOKE_OK) status = hooke_record_read(why->record, 0, first);
+  if (status == HOOKE_OK) status = hooke_record_read(why->record, -1, last);
+  if (status == HOOKE_OK) {
+    why->time = hooke_state_time(last);
+    if (blew_up(why->status))
+      status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, &why->why);
+  }
+  hooke_state_destroy(first);
+  hooke_state_destroy(last);
+  if (status != HOOKE_BAD_CALL) return status;
+  why->code = hooke_report(
+      why->arguments, HOOKE_EXIT_BAD_INPUT,
+      "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
+      "such as a callback",
+      why->arguments->scene);
+  return status;
+}
+
+/* ---- telling ---- */
+
+static void print_json(const struct why *why) {
+  const hooke_why *found = why->why;
+  struct hooke_json json;
+  hooke_json_begin(&json, stdout);
+  hooke_json_text(&json, "cause", found ? hooke_why_text(found, "cause") : NULL);
+  hooke_json_number(&json, "time", found ? hooke_why_number(found, "time") : why->time);
+  hooke_json_text(&json, "method", hooke_options_text(why->setup.options, "method"));
+  hooke_json_number(&json, "step", found ? hooke_why_number(found, "step") : (double)NAN);
+  hooke_json_number(&json, "limit", found ? hooke_why_number(found, "limit") : (double)NAN);
+  hooke_json_open(&json, "blame", '[');
+  for (int64_t k = 0; found && k < hooke_why_blame_count(found); k++) {
+    hooke_json_open(&json, NULL, '{');
+    hooke_json_open(&json, "spring", '[');
+    hooke_json_count(&json, NULL, (int64_t)hooke_why_blame_number(found, k, "first"));
+    hooke_json_count(&json, NULL, (int64_t)hooke_why_blame_number(found, k, "second"));
+    hooke_json_close(&json);
+    hooke_json_text(&json, "group", hooke_why_blame_text(found, k, "group"));
+    hooke_json_number(&json, "share", hooke_why_blame_number(found, k, "share"));
+    hooke_json_close(&json);
+  }
+  hooke_json_close(&json);
+  hooke_json_open(&json, "advice", '[');
+  for (int64_t k = 0; found && k < hooke_why_advice_count(found); k++) {
+    char *command = hooke_advice_command(why->arguments, found, k);
+    hooke_json_open(&json, NULL, '{');
+    hooke_json_text(&json, "change", hooke_why_advice_text(found, k, "change"));
+    hooke_json_text(&json, "command", command);
+    hooke_json_close(&json);
+    free(command);
+  }
+  hooke_json_end(&json);
+}
+
+static void print_number(const char *label, double value, const char *unit) {
+  char text[HOOKE_NUMBER_SIZE];
+  if (isnan(value)) return;
+  if (isinf(value))
+    printf("%-12snone\n", label);
+  else
+    printf("%-12s%s %s\n", label, hooke_format_number(value, text), unit);
+}
+
+static void print_springs(const hooke_why *found) {
+  const int64_t count = hooke_why_blame_count(found);
+  for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
+    const char *group = hooke_why_blame_text(found, k, "group");
+    const double share = hooke_why_blame_number(found, k, "share");
+    if (k > 0 && share < SMALLEST_SHARE) return;
+    printf("%-12s%.0f, between particles %.0f and %.0f", k == 0 ? "springs" : "",
+           hooke_why_blame_number(found, k, "spring"), hooke_why_blame_number(found, k, "first"),
+           hooke_why_blame_number(found, k, "second"));
+    if (group[0]) {
+      printf(", group ");
+      hooke_print_text(stdout, group);
+    }
+    if (!isnan(share)) printf(", share %.3g", share);
+    printf("\n");
+  }
+  if (count > MOST_SPRINGS_SHOWN) printf("%-12sand %" PRId64 " more\n", "", count - MOST_SPRINGS_SHOWN);
+}
+
+static void print_words(const struct why *why) {
+  const hooke_why *found = why->why;
+  char text[HOOKE_NUMBER_SIZE];
+  if (!found) {
+    printf("the run did not blow up: it is '%s' at t = %s s\n", why->status,
+           hooke_format_number(why->time, text));
+    return;
+  }
+  printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));
+  printf("%-12s", "what");
+  hooke_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "sentence"));
+  printf("\n%-12s%s\n", "method", hooke_why_text(found, "method"));
+  print_number("step", hooke_why_number(found, "step"), "s");
+  print_number("limit", hooke_why_number(found, "limit"), "s");
+  print_number("well until", hooke_why_number(found, "time"), "s");
+  print_number("noticed", hooke_why_number(found, "noticed"), "s");
+  if (!isnan(hooke_why_number(found, "particle")))
+    printf("%-12s%.0f\n", "particle", hooke_why_number(found, "particle"));
+  print_springs(found);
+  printf("\n");
+  hooke_advice_print(stdout, why->arguments, found, INT64_MAX);
+}
+
+/* 1 if an option of a run was given: then it is another run than that of the output. */
+static int32_t is_another_run(const struct hooke_arguments *arguments) {
+  for (int32_t k = 0; k < arguments->count; k++) {
+    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
+  }
+  return 0;
+}
+
+static int find_out(struct why *why) {
+  const struct hooke_arguments *arguments = why->arguments;
+  int32_t status = HOOKE_OK;
+  if (hooke_record_open(arguments->scene, &why->record) == HOOKE_OK)
+    why->status = hooke_record_text(why->record, "status");
+  if (why->record && !is_another_run(arguments)) {
+    status = read_output(why);
+  } else {
+    int code = hooke_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
+    if (code != HOOKE_EXIT_DONE) return code;
+    status = run_again(why);
+  }
+  if (why->code != HOOKE_EXIT_DONE) return why->code;
+  if (status == HOOKE_STOPPED) return hooke_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (arguments->json)
+    print_json(why);
+  else
+    print_words(why);
+  return HOOKE_EXIT_DONE;
+}
+
+static int do_why(const struct hooke_arguments *arguments) {
+  struct why why = {.arguments = arguments, .time = NAN};
+  int code = hooke_setup_load(arguments, &why.setup);
+  if (code == HOOKE_EXIT_DONE) code = find_out(&why);
+  hooke_why_destroy(why.why);
+  hooke_record_close(why.record);
+  hooke_setup_destroy(&why.setup);
+  return code;
+}
+
+const struct hooke_verb hooke_verb_why = {
+    .name = "why",
+    .summary = "explains a run that blew up",
+    .text = "Runs the scene, or reads an output of 'hooke run -o', and says why the run blew up: the cause, "
+            "where and when, "
+            "the springs to blame, and what to do, as commands that have been tried. The exit code is 0 also "
+            "if the run did "
+            "not blow up.",
+    .function = do_why,
+};

@@ -1,0 +1,230 @@
+/* Trajectory files read back: scene, options, outcome and frames. */
+#include "hooke/io.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/array_h5.h"
+#include "io/file_h5.h"
+#include "io/object_h5.h"
+
+#include <math.h>
+#include <string.h>
+
+static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
+
+struct hooke_record {
+  char *path, *scene, *status;
+  hooke_options *options; /* of a run, as they were stored */
+  int64_t frame_count;
+  double *time;
+};
+
+/* ---- texts and options ---- */
+
+/* 1 if there is such an object in this very file. */
+static int is_here(hid_t file, const char *name) {
+  H5L_info_t link;
+  return H5Lexists(file, name, H5P_DEFAULT) > 0 && H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 &&
+         link.type == H5L_TYPE_HARD;
+}
+
+/* A text of fixed length, stored in this very file; NULL if there is none. */
+static char *read_text(hid_t file, const char *name) {
+  if (!is_here(file, "hooke") || !is_here(file, name)) return NULL;
+  hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
+  hid_t type = data < 0 ? -1 : H5Dget_type(data);
+  const int fixed = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+  const hsize_t length = fixed ? H5Tget_size(type) : 0, stored = fixed ? H5Dget_storage_size(data) : 0;
+  char *text = NULL;
+  if (fixed && length == stored && length < LONGEST_TEXT) text = hooke_new((int64_t)length + 1, 1);
+  if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
+    hooke_free(text);
+    text = NULL;
+  }
+  hooke_h5_drop(type);
+  hooke_h5_drop(data);
+  return text;
+}
+
+static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
+  char *word = NULL;
+  hid_t memory = H5Tcopy(H5T_C_S1);
+  int32_t status = HOOKE_OK;
+  if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
+      H5Aread(attribute, memory, &word) >= 0 && word) {
+    status = hooke_options_set_text(options, name, word);
+  }
+  if (word) H5free_memory(word);
+  hooke_h5_drop(memory);
+  return status;
+}
+
+static int32_t read_option(hid_t attribute, hooke_options *options, const char *name) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const int single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+  const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  double number = NAN;
+  int32_t status = HOOKE_OK;
+  if (single && (class == H5T_FLOAT || class == H5T_INTEGER)) {
+    if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0)
+      status = hooke_options_set_number(options, name, number);
+  } else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0) {
+    status = read_word(attribute, options, name);
+  }
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return status;
+}
+
+static int32_t read_options(hid_t file, hooke_options *options) {
+  int32_t status = HOOKE_OK;
+  if (!is_here(file, "hooke") || !is_here(file, "hooke/options")) return status;
+  hid_t group = H5Gopen2(file, "hooke/options", H5P_DEFAULT);
+  for (int64_t k = 0; group >= 0 && k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
+    const char *name = hooke_options_row(options, k, "name");
+    if (H5Aexists(group, name) <= 0) continue;
+    hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
+    if (attribute >= 0) status = read_option(attribute, options, name);
+    hooke_h5_drop(attribute);
+  }
+  hooke_h5_drop(group);
+  return status;
+}
+
+/* ---- a record ---- */
+
+static int32_t read_hooke(struct hooke_record *record) {
+  struct hooke_h5_guard guard;
+  hooke_h5_guard_begin(&guard);
+  int32_t status = HOOKE_OK;
+  hid_t list = H5Pcreate(H5P_FILE_ACCESS), file = -1;
+  if (list >= 0 && H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0)
+    file = H5Fopen(record->path, H5F_ACC_RDONLY, list);
+  if (file < 0) status = hooke_h5_fail(&guard, record->path, "open the file as HDF5");
+  if (status == HOOKE_OK) {
+    record->scene = read_text(file, "hooke/scene");
+    record->status = read_text(file, "hooke/status");
+    status = read_options(file, record->options);
+  }
+  if (file >= 0) H5Fclose(file);
+  hooke_h5_drop(list);
+  hooke_h5_guard_end(&guard);
+  return status;
+}
+
+static int32_t read_times(struct hooke_record *record) {
+  int64_t rows = 0, columns = 0;
+  const int32_t status =
+      hooke_array_read(record->path, "/particles/all/position/time", 0, 0, &record->time, &rows, &columns);
+  while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
+    record->frame_count++;
+  return status;
+}
+
+int32_t hooke_record_open(const char *path, hooke_record **out) {
+  *out = NULL;
+  struct hooke_record *record = hooke_new(1, sizeof *record);
+  if (record == NULL) return HOOKE_NO_MEMORY;
+  record->path = hooke_copy_text(path);
+  int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = read_hooke(record);
+  if (status == HOOKE_OK) status = read_times(record);
+  if (status == HOOKE_OK && record->status == NULL)
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
+  if (status == HOOKE_OK)
+    *out = record;
+  else
+    hooke_record_close(record);
+  return status;
+}
+
+void hooke_record_close(hooke_record *record) {
+  if (record == NULL) return;
+  hooke_options_destroy(record->options);
+  hooke_free(record->path);
+  hooke_free(record->scene);
+  hooke_free(record->status);
+  hooke_free(record->time);
+  hooke_free(record);
+}
+
+const char *hooke_record_text(const hooke_record *record, const char *what) {
+  if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
+  return strcmp(what, "status") == 0 ? record->status : NULL;
+}
+
+const hooke_options *hooke_record_options(const hooke_record *record) {
+  return record->options;
+}
+
+int64_t hooke_record_frame_count(const hooke_record *record) {
+  return record->frame_count;
+}
+
+static int32_t read_rows(const struct hooke_record *record, const char *dataset, int64_t frame, int64_t size,
+                         double *to) {
+  double *values = NULL;
+  int64_t rows = 0, columns = 0;
+  int32_t status = hooke_array_read(record->path, dataset, frame, 1, &values, &rows, &columns);
+  if (status == HOOKE_OK && rows * columns != size) {
+    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
+                        record->path, dataset, (long long)(rows * columns), (long long)size);
+  }
+  if (status == HOOKE_OK) memcpy(to, values, (size_t)size * sizeof(double));
+  hooke_free(values);
+  return status;
+}
+
+int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
+  const int64_t at = frame < 0 ? record->frame_count + frame : frame, size = hooke_state_size(state);
+  if (at < 0 || at >= record->frame_count) {
+    return hooke_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
+                      record->path, (long long)record->frame_count);
+  }
+  int32_t status = read_rows(record, "/particles/all/position/value", at, size, hooke_state_position(state));
+  if (status == HOOKE_OK && hooke_state_velocity(state))
+    status = read_rows(record, "/particles/all/velocity/value", at, size, hooke_state_velocity(state));
+  if (status == HOOKE_OK) hooke_state_set_time(state, record->time[at]);
+  return status;
+}
+
+#else
+
+#include <stddef.h>
+
+int32_t hooke_record_open(const char *path, hooke_record **record) {
+  *record = NULL;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "%s: reading it needs HDF5, which this build of the library is without", path);
+}
+
+void hooke_record_close(hooke_record *record) {
+  (void)record;
+}
+
+const char *hooke_record_text(const hooke_record *record, const char *what) {
+  (void)record, (void)what;
+  return NULL;
+}
+
+const hooke_options *hooke_record_options(const hooke_record *record) {
+  (void)record;
+  return NULL;
+}
+
+int64_t hooke_record_frame_count(const hooke_record *record) {
+  (void)record;
+  return 0;
+}
+
+int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
+  (void)record, (void)frame, (void)state;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "reading trajectories needs HDF5, which this build of the library is without");
+}
+
+#endif

@@ -1,0 +1,310 @@
+/* From what the steps showed to the cause, and the words for it. */
+#include "measure/why.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "measure/naming.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double COLLAPSED = 1e-3; /* of the rest length */
+
+static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...) {
+  struct hooke_why *why = inquiry->why;
+  const int32_t outcome = inquiry->run->outcome;
+  const char *how = outcome == HOOKE_DIVERGED        ? "the run diverged"
+                    : outcome == HOOKE_SOLVER_FAILED ? "the solver gave up"
+                                                     : "the run ran out of steps";
+  va_list args;
+  why->cause = cause;
+  int used = snprintf(why->sentence, sizeof why->sentence, "%s: ", how);
+  va_start(args, format);
+  vsnprintf(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
+  va_end(args);
+}
+
+static void blame_spring(struct hooke_inquiry *inquiry, int64_t spring, double share) {
+  struct hooke_why *why = inquiry->why;
+  if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
+  const struct hooke_spring found = hooke_naming_spring(inquiry->system, spring);
+  struct hooke_why_blame *blame = &why->blame[why->blame_count++];
+  *blame =
+      (struct hooke_why_blame){.spring = spring, .first = found.head, .second = found.tail, .share = share};
+  snprintf(blame->group, sizeof blame->group, "%s", hooke_naming_group(inquiry->system, spring));
+}
+
+/* ": spring 3 (particles 1 and 2) and 11 more". */
+static const char *blamed_words(const struct hooke_inquiry *inquiry, char text[HOOKE_NAMING_SIZE]) {
+  text[0] = '\0';
+  if (inquiry->why->blame_count > 0) hooke_naming_words(inquiry->system, inquiry->why->blame[0].spring, text);
+  return text;
+}
+
+/* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */
+static const char *show(const struct hooke_inquiry *inquiry, char text[160]) {
+  const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
+                                                                                  : inquiry->why->noticed;
+  if (inquiry->run->outcome == HOOKE_DIVERGED) {
+    snprintf(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
+             (long long)inquiry->bad_particle,
+             isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
+                                         : "numbers are no longer finite");
+  } else {
+    snprintf(text, 160, "at t = %.6g s it ended", t);
+  }
+  return text;
+}
+
+/* ---- causes ---- */
+
+static void judge_slip(struct hooke_inquiry *inquiry) {
+  const struct hooke_slip *slip = &inquiry->slip;
+  inquiry->why->particle = (double)slip->particle;
+  if (slip->of_drive) {
+    say(inquiry, "force-not-finite",
+        "the drive callback moves particle %lld with numbers that are not finite at t = %.6g s; whatever "
+        "pulls at "
+        "it then has a force that is not finite",
+        (long long)slip->particle, slip->time);
+  } else {
+    say(inquiry, "force-not-finite",
+        "the force callback gives particle %lld a force that is not finite at t = %.6g s, while all "
+        "positions and "
+        "velocities are",
+        (long long)slip->particle, slip->time);
+  }
+}
+
+/* The springs and the change of the scene that the limit hangs on, where the step was first seen above it. */
+static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
+  const hooke_integrator *run = inquiry->run;
+  hooke_options *options = NULL;
+  hooke_limit *limit = NULL;
+  memcpy(state->q, inquiry->excess.q, (size_t)state->size * sizeof(double));
+  int32_t status = hooke_limit_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", run->method->name);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "predict", 1.0);
+  if (status == HOOKE_OK) status = hooke_limit_create(inquiry->system, run->options, options, &limit);
+  if (status == HOOKE_OK) status = hooke_limit_find(limit, state);
+  for (int64_t k = 0; status == HOOKE_OK && k < hooke_limit_blame_count(limit); k++)
+    blame_spring(inquiry, (int64_t)hooke_limit_blame_number(limit, k, "spring"),
+                 hooke_limit_blame_number(limit, k, "share"));
+  if (status == HOOKE_OK && hooke_limit_remedy_text(limit, "kind"))
+    snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", hooke_limit_remedy_text(limit, "sentence"));
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(options);
+  return status;
+}
+
+static int32_t find_blame(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  hooke_state *state = NULL;
+  int32_t status = hooke_state_create_sized(inquiry->run->size, 1, &state);
+  if (status == HOOKE_OK) status = ask_limit(inquiry, state);
+  hooke_state_destroy(state);
+  if (status == HOOKE_NO_MEMORY) return status;
+  /* where no mode is to be had, the particle at which the bound showed it */
+  if (inquiry->why->blame_count == 0) {
+    blame_spring(inquiry,
+                 hooke_naming_heaviest(inquiry->system, excess->particle, inquiry->run->schedule.step), NAN);
+  }
+  return HOOKE_OK;
+}
+
+/* 1 if drag alone takes half of what the step allows, at the particle where the bound showed it. */
+static int is_drag(const struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  return excess->limit * inquiry->system->drag * inquiry->system->inverse_mass[excess->particle] > 1.0;
+}
+
+static int32_t judge_excess(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  const char *method = inquiry->run->method->name;
+  char where[HOOKE_NAMING_SIZE], end[160];
+  inquiry->why->limit = excess->limit;
+  inquiry->why->particle = (double)excess->particle;
+  const int32_t status = find_blame(inquiry);
+  if (is_drag(inquiry))
+    snprintf(where, sizeof where, "the drag of particle %lld", (long long)excess->particle);
+  else
+    blamed_words(inquiry, where);
+  show(inquiry, end);
+  if (excess->limit == 0.0) {
+    say(inquiry, "never-stable",
+        "%s is stable at no step for this scene: motion without damping grows by it at any step, slowly at a "
+        "small one; here, with steps of %.6g s, most of all in %s; %s",
+        method, inquiry->why->step, where, end);
+  } else {
+    say(inquiry, "step-above-limit",
+        "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s, so motion grows in "
+        "every step, "
+        "most of all in %s; %s",
+        inquiry->why->step, excess->limit, method, excess->time, where, end);
+  }
+  return status;
+}
+
+/* What asks for the largest acceleration: the springs of a particle, in proportion to its mass. */
+static int64_t steepest_spring(const hooke_system *system) {
+  double most = -1.0;
+  int64_t found = -1;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
+      const struct hooke_spring s = hooke_run_spring(&system->springs.run[r], k);
+      const double ease = fmax(system->inverse_mass[s.head], system->inverse_mass[s.tail]);
+      const double steepness = (s.kappa + s.gamma) * ease;
+      if (!(steepness > most)) continue;
+      most = steepness;
+      found = system->springs.run[r].first + k;
+    }
+  }
+  return found;
+}
+
+static void judge_overflow(struct hooke_inquiry *inquiry) {
+  const hooke_system *system = inquiry->system;
+  const int64_t spring = steepest_spring(system);
+  char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
+  blame_spring(inquiry, spring, NAN);
+  if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
+  if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
+  if (!isnan(inquiry->why->step)) snprintf(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
+  const struct hooke_spring s = spring >= 0 ? hooke_naming_spring(system, spring) : (struct hooke_spring){0};
+  const int64_t light =
+      spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
+  if (spring >= 0) {
+    hooke_naming_words(system, spring, where);
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
+        "%s, %.6g N/m "
+        "on %.6g kg%s",
+        inquiry->why->time, where, s.kappa, system->mass[light], step);
+  } else {
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s%s",
+        inquiry->why->time, step);
+  }
+}
+
+static void judge_collapse(struct hooke_inquiry *inquiry, int64_t spring, const char *what) {
+  char where[HOOKE_NAMING_SIZE], end[160];
+  blame_spring(inquiry, spring, 1.0);
+  hooke_naming_words(inquiry->system, spring, where);
+  say(inquiry, "collapsed-spring",
+      "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
+      where, what, show(inquiry, end));
+}
+
+/* ---- solvers ---- */
+
+/* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
+static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *ratio) {
+  const hooke_state *state = inquiry->last;
+  const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
+  const struct hooke_springs *springs = &inquiry->system->springs;
+  int64_t found = -1;
+  *ratio = INFINITY;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      double square = 0.0, cosine = 0.0;
+      for (int a = 0; a < 3; a++) {
+        const int64_t i = 3 * s.head + a, j = 3 * s.tail + a;
+        const double d = state->q[i] - state->q[j], dv = state->v[i] - state->v[j];
+        square += d * d;
+        cosine += d * (d + ahead * dv);
+      }
+      const double here = cosine < 0.0 ? 0.0 : sqrt(square) / s.rest_length;
+      if (!(s.rest_length > 0.0) || !(here < *ratio)) continue;
+      *ratio = here;
+      found = springs->run[r].first + k;
+    }
+  }
+  return found;
+}
+
+static int32_t is_beyond_numbers(const struct hooke_inquiry *inquiry, int32_t *beyond) {
+  const hooke_state *last = inquiry->last;
+  const int64_t size = last->size;
+  const double h = inquiry->run->method->adaptive ? 1.0 : inquiry->run->schedule.step;
+  double *a = hooke_new(size, sizeof(double));
+  if (a == NULL) return HOOKE_NO_MEMORY;
+  const int32_t status = hooke_system_acceleration(inquiry->system, *last->t, last->q, last->v, a);
+  *beyond = 0;
+  for (int64_t k = 0; k < size && status == HOOKE_OK; k++) {
+    const double gain = fmax(1.0, h) * fabs(a[k]);
+    *beyond |= !(gain < 1e100) || !(h * gain < 1e100);
+  }
+  hooke_free(a);
+  return status;
+}
+
+static int32_t judge_solver(struct hooke_inquiry *inquiry) {
+  double ratio;
+  int32_t beyond = 0;
+  const int32_t status = is_beyond_numbers(inquiry, &beyond);
+  if (status != HOOKE_OK) return status;
+  const int64_t shortest = shortest_spring(inquiry, &ratio);
+  if (beyond) {
+    judge_overflow(inquiry);
+  } else if (inquiry->run->outcome == HOOKE_SOLVER_FAILED && shortest >= 0 && ratio < COLLAPSED) {
+    judge_collapse(inquiry, shortest, "is pressed to no length");
+  } else {
+    inquiry->why->limit = INFINITY;
+    say(inquiry, "solver-failed", "%s", inquiry->run->message);
+  }
+  return HOOKE_OK;
+}
+
+/* ---- */
+
+/* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in proportion, as a
+ * callback's may, end in a leap, too. */
+static int grew_before(const struct hooke_inquiry *inquiry) {
+  const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
+  return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
+}
+
+static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
+  char end[160], what[120];
+  if (!hooke_all_finite(2 * inquiry->last->size, inquiry->last->q)) {
+    say(inquiry, "overflow", "the state that it began with has a number that is not finite");
+  } else if (inquiry->sudden && !grew_before(inquiry)) {
+    judge_overflow(inquiry);
+  } else if (inquiry->excess.found) {
+    return judge_excess(inquiry);
+  } else if (inquiry->flips > 0) {
+    inquiry->why->particle = NAN;
+    snprintf(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
+             (long long)inquiry->flips, inquiry->flip_time);
+    judge_collapse(inquiry, inquiry->flipped, what);
+  } else if (inquiry->run->method->adaptive) {
+    say(inquiry, "solver-failed",
+        "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
+        "they were "
+        "larger than the motion; %s",
+        hooke_options_number(inquiry->run->options, "rtol"), show(inquiry, end));
+  } else {
+    say(inquiry, "step-above-limit",
+        "no step was seen above the limit of the motion frozen at one moment, no spring collapsed and no "
+        "callback "
+        "failed; so the step %.6g s is too large for how quickly this motion changes; %s",
+        inquiry->why->step, show(inquiry, end));
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry) {
+  inquiry->why->time = *inquiry->last->t;
+  if (inquiry->slip.found) {
+    judge_slip(inquiry);
+    return HOOKE_OK;
+  }
+  return inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+}

@@ -1,0 +1,200 @@
+#include "measure/why_trial.h"
+
+#include "core/number.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_TRIALS = 16, ENOUGH = 2 };
+
+/* ---- plans ---- */
+
+/* Evaluations that the run took to the trouble, times its size. */
+static double work_of_run(const hooke_integrator *run, double size) {
+  return size * (double)(run->count.force_evaluations + run->count.derivative_products);
+}
+
+/* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from there to the
+ * trouble, the earliest of the last good states. */
+static int32_t find_first(struct hooke_plan *plan) {
+  const hooke_integrator *run = plan->inquiry->run;
+  const hooke_state *oldest = hooke_recent_state(&run->recent, run->recent.count - 1, NULL);
+  plan->late = work_of_run(run, plan->size) > 0.5 * HOOKE_TRIAL_WORK && *oldest->t > run->t0;
+  plan->first = plan->late ? oldest : run->recent.first;
+  if (plan->first) return HOOKE_OK;
+  const int32_t status = hooke_state_create(plan->inquiry->system, &plan->initial);
+  plan->first = run->t0 == 0.0 ? plan->initial : oldest;
+  return status;
+}
+
+int32_t hooke_plan_begin(struct hooke_inquiry *inquiry, struct hooke_plan *plan) {
+  const hooke_integrator *run = inquiry->run;
+  const hooke_system *system = inquiry->system;
+  const struct hooke_schedule *s = &run->schedule;
+  const double span = inquiry->why->noticed - run->t0;
+  *plan = (struct hooke_plan){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
+  /* a loop of the caller's own has no end: some way past the trouble */
+  plan->duration = !isnan(s->duration) ? s->duration
+                   : isnan(plan->step) ? 2.0 * span
+                                       : 2.0 * (double)run->k * s->step;
+  plan->every = s->every_given ? s->every : NAN;
+  /* a callback of a script costs far more than springs */
+  plan->size = (double)(system->particle_count + system->springs.count + 50 + (system->force ? 1000 : 0));
+  return find_first(plan);
+}
+
+void hooke_plan_release(struct hooke_plan *plan) {
+  hooke_state_destroy(plan->initial);
+}
+
+int32_t hooke_change_begin(struct hooke_change *change, const char *option) {
+  snprintf(change->option, sizeof change->option, "%s", option);
+  change->words[0] = '\0';
+  change->run = NULL;
+  return hooke_run_options_create(&change->run);
+}
+
+void hooke_change_say(struct hooke_change *change, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  vsnprintf(change->words, sizeof change->words, format, args);
+  va_end(args);
+}
+
+void hooke_change_drop(struct hooke_change *change) {
+  hooke_options_destroy(change->run);
+  change->run = NULL;
+}
+
+/* The options of the run with the changes; frames that hooke chose are chosen anew. */
+static int32_t changed_options(const struct hooke_plan *plan, const struct hooke_change *change,
+                               hooke_options **out) {
+  const hooke_integrator *run = plan->inquiry->run;
+  int32_t status = hooke_options_copy(run->options, out);
+  if (status == HOOKE_OK && !run->schedule.every_given) status = hooke_options_unset(*out, "every");
+  if (status == HOOKE_OK && isnan(run->schedule.duration))
+    status = hooke_options_set_number(*out, "duration", plan->duration);
+  return status == HOOKE_OK ? hooke_why_apply(change->run, *out) : status;
+}
+
+/* ---- trials ---- */
+
+struct trial {
+  const hooke_integrator *integrator;
+  double size;
+  int32_t spent;
+};
+
+static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
+  struct trial *trial = ctx;
+  const struct hooke_counts *c = &trial->integrator->count;
+  (void)step, (void)state;
+  trial->spent = trial->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK;
+  return trial->spent;
+}
+
+/* Runs with `options` as far as the work allows; `reached` is how far, and `steps` how many it took. */
+static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, double *reached,
+                       int32_t *finished, int64_t *steps) {
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  *finished = 0;
+  *reached = -INFINITY;
+  plan->trials++;
+  int32_t status = hooke_integrator_create(plan->inquiry->system, options, &integrator);
+  if (status == HOOKE_BAD_VALUE || status == HOOKE_NOT_BUILT)
+    return HOOKE_OK; /* it does not fit: not to be advised */
+  if (status == HOOKE_OK) status = hooke_state_create_sized(plan->first->size, 1, &state);
+  if (status == HOOKE_OK) status = hooke_state_copy(plan->first, state);
+  if (status == HOOKE_OK) {
+    struct trial trial = {.integrator = integrator, .size = plan->size};
+    const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
+    hooke_integrator_on_step(integrator, stride, watch_work, &trial);
+    status = hooke_integrator_run(integrator, state);
+    *finished = status == HOOKE_OK;
+    *steps = hooke_integrator_count(integrator, "steps");
+    if (*finished || trial.spent) *reached = *state->t;
+    if (status > 0 || status == HOOKE_SOLVER_FAILED)
+      status = trial.spent || status != HOOKE_STOPPED ? HOOKE_OK : status;
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return status;
+}
+
+/* Words for what the trial showed; 0 if it did not get past the trouble. */
+static int proves(const struct hooke_plan *plan, double reached, int32_t finished, char *text, size_t size) {
+  const double noticed = plan->inquiry->why->noticed, begun = *plan->first->t;
+  if (plan->late)
+    snprintf(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
+  else if (finished)
+    snprintf(text, size, " (tried: it runs to its end)");
+  else
+    snprintf(text, size, " (tried up to t = %.3g s: there it is well)", reached);
+  return (finished && !plan->late) || reached > noticed + 0.5 * (noticed - begun);
+}
+
+static int same_changes(const hooke_options *a, const hooke_options *b) {
+  for (int64_t k = 0; k < hooke_options_row_count(a); k++) {
+    const char *name = hooke_options_row(a, k, "name");
+    if (hooke_options_is_set(a, name) != hooke_options_is_set(b, name)) return 0;
+    if (!hooke_options_is_set(a, name)) continue;
+    if (strcmp(hooke_options_text(a, name), hooke_options_text(b, name)) != 0) return 0;
+    if (hooke_options_number_count(a, name) && hooke_options_number(a, name) != hooke_options_number(b, name))
+      return 0;
+  }
+  return 1;
+}
+
+static int is_known(const struct hooke_plan *plan, const struct hooke_change *change) {
+  const struct hooke_why *why = plan->inquiry->why;
+  for (int64_t k = 0; k < why->advice_count; k++) {
+    if (why->advice[k].run && same_changes(why->advice[k].run, change->run)) return 1;
+  }
+  return 0;
+}
+
+void hooke_plan_take(struct hooke_plan *plan, struct hooke_change *change, const char *proof) {
+  struct hooke_why *why = plan->inquiry->why;
+  struct hooke_why_advice *advice = &why->advice[why->advice_count++];
+  advice->run = change->run;
+  change->run = NULL;
+  snprintf(advice->change, sizeof advice->change, "%s%s", change->words, proof);
+  snprintf(advice->option, sizeof advice->option, "%s", change->option);
+  if (hooke_options_number_count(advice->run, change->option) > 0)
+    hooke_number_print(hooke_options_number(advice->run, change->option), advice->value);
+  else
+    snprintf(advice->value, sizeof advice->value, "%s", hooke_options_text(advice->run, change->option));
+}
+
+int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken) {
+  hooke_options *options = NULL;
+  double reached = NAN;
+  int32_t finished = 0, status = HOOKE_OK;
+  int64_t steps = 0;
+  char proof[96];
+  *taken = 0;
+  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
+    status = changed_options(plan, change, &options);
+    if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, &steps);
+    *taken = status == HOOKE_OK && proves(plan, reached, finished, proof, sizeof proof);
+    if (*taken) hooke_plan_take(plan, change, proof);
+  }
+  hooke_options_destroy(options);
+  hooke_change_drop(change);
+  return status;
+}
+
+int32_t hooke_plan_count_steps(struct hooke_plan *plan, const struct hooke_change *change, int64_t *steps) {
+  hooke_options *options = NULL;
+  double reached = 0.0;
+  int32_t finished = 0;
+  int32_t status = changed_options(plan, change, &options);
+  if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, steps);
+  if (!finished || plan->late) *steps = -1;
+  hooke_options_destroy(options);
+  return status;
+}

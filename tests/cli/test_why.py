@@ -1,0 +1,228 @@
+"""hooke why: runs that blow up, each of another kind, with the cause planted in the scene; and what it says of them."""
+
+import json
+import math
+import os
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+from conftest import SIX_PARTICLES, STIFF_PAIR
+
+pytestmark = pytest.mark.everything
+
+SCENES = Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding"
+KEYS = ["cause", "time", "method", "step", "limit", "blame", "advice"]
+
+# Scene: cause, and the group or the springs that are to be named first (None: none is).
+KINDS = {
+    "stiff-cloth": ("step-above-limit", "sheet.shear"),
+    "light-particle": ("step-above-limit", [[2, 3], [1, 2]]),
+    "stiff-spring": ("step-above-limit", "hem"),
+    "strong-damping": ("step-above-limit", "sheet.shear"),
+    "strong-drag": ("step-above-limit", None),
+    "rk4-above": ("step-above-limit", "sheet.shear"),
+    "verlet-above": ("step-above-limit", "sheet.shear"),
+    "stretching": ("step-above-limit", "upright"),
+    "forward-euler-oscillator": ("never-stable", [[0, 1]]),
+    "forward-euler-string": ("never-stable", "string.stretch"),
+    "collapsing": ("collapsed-spring", "strut"),
+    "coincident": ("collapsed-spring", [[0, 1]]),
+    "collapsing-cvode": ("collapsed-spring", [[0, 1]]),
+    "backward-euler-cable": ("solver-failed", None),
+    "cvode-cable": ("solver-failed", None),
+    "few-steps": ("solver-failed", None),
+    "huge-stiffness": ("overflow", [[0, 1]]),
+    "tiny-mass": ("overflow", [[0, 1]]),
+    "huge-step": ("overflow", None),
+    "torn-apart": ("overflow", None),
+}
+
+
+def test_every_scene_is_in_the_table():
+    assert sorted(path.stem for path in SCENES.glob("*.json")) == sorted(KINDS)
+
+
+def words_of(command):
+    words = shlex.split(command)
+    assert words[0] == "hooke"
+    return words[1:]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tmp_path, kind):
+    cause, first = KINDS[kind]
+    shutil.copy(SCENES / f"{kind}.json", tmp_path / "scene.json")
+    run = hooke("run", "scene.json", "--json", "--quiet")
+    assert run.code == 4
+    answer = hooke("why", "scene.json", "--json")
+    assert answer.code == 0 and answer.err == ""
+    why = answer.json
+    assert list(why) == KEYS
+    assert why["cause"] == cause, run.json["diagnosis"]
+    assert all(list(one) == ["spring", "group", "share"] for one in why["blame"])
+    assert all(list(one) == ["change", "command"] for one in why["advice"])
+    if isinstance(first, str):
+        assert why["blame"][0]["group"] == first
+    elif first:
+        assert why["blame"][0]["spring"] in first
+    if cause == "step-above-limit":
+        assert 0 < why["limit"] < why["step"]
+        assert f'{why["limit"]:.3g}'[:4] in run.json["diagnosis"]
+    if cause == "never-stable":
+        assert why["limit"] == 0
+    shares = [one["share"] for one in why["blame"]]
+    if cause in ("step-above-limit", "never-stable"):
+        assert shares == sorted(shares, reverse=True) and 0 < sum(shares) < 1 + 1e-9
+    words = words_of(why["advice"][0]["command"])
+    assert words[:2] == ["run", "scene.json"]
+    again = hooke(*words, "--json")
+    assert again.code == 0, again.err
+    assert again.json["status"] == "finished"
+
+
+# ---- what is said ----
+
+
+def test_the_limit_of_an_oscillator_is_named_to_the_digit(hooke, write):
+    """Symplectic Euler on a spring of 1000 N/m and 1 kg: 2/omega."""
+    why = hooke("why", write(STIFF_PAIR), "--json").json
+    assert why["limit"] == pytest.approx(2 / math.sqrt(1000), rel=1e-6)
+    assert why["blame"] == [{"spring": [0, 1], "group": "", "share": pytest.approx(1)}]
+    assert why["step"] == 0.1 and why["method"] == "symplectic-euler"
+    assert 0 <= why["time"] < 1
+
+
+def test_run_and_why_say_the_same_sentence(hooke, write):
+    scene = write(STIFF_PAIR)
+    run = hooke("run", scene, "--json")
+    sentence = run.json["diagnosis"]
+    assert sentence in run.err
+    assert sentence in " ".join(hooke("why", scene).out.split())
+
+
+def test_run_gives_the_best_advice_and_why_all(hooke, write):
+    scene = write(STIFF_PAIR)
+    err, out = hooke("run", scene).err, hooke("why", scene).out
+    first, *others = hooke("why", scene, "--json").json["advice"]
+    assert first["change"] in err and first["command"] in err
+    assert others and all(one["change"] in out and one["command"] in out for one in [first, *others])
+
+
+def test_words_have_cause_place_time_and_commands(hooke, write):
+    out = hooke("why", write(STIFF_PAIR)).out
+    for word in ["cause       step-above-limit", "limit       0.0632", "springs     0, between particles 0 and 1",
+                 "what to do: ", "  hooke run scene.json --step 0.05"]:
+        assert word in out, word
+
+
+def test_a_run_that_ends_well_has_nothing_to_explain(hooke, write):
+    scene = write(SIX_PARTICLES)
+    answer = hooke("why", scene)
+    assert answer.code == 0 and "did not blow up" in answer.out
+    why = hooke("why", scene, "--json").json
+    assert list(why) == KEYS
+    assert (why["cause"], why["time"], why["blame"], why["advice"]) == (None, 0.5, [], [])
+
+
+def test_options_of_a_run_are_options_of_why(hooke, write):
+    scene = write(SIX_PARTICLES)
+    why = hooke("why", scene, "--step", "0.5", "--every", "0.5", "--duration", "50", "--json").json
+    assert why["cause"] == "step-above-limit" and why["step"] == 0.5
+    words = words_of(why["advice"][0]["command"])
+    assert "--every" in words and hooke(*words).code == 0
+
+
+def test_what_cannot_be_run_cannot_be_explained(hooke, write):
+    assert hooke("why", "missing.json").code == 3
+    assert hooke("why", write(SIX_PARTICLES, step=None)).code == 2
+    assert hooke("why").code == 2
+
+
+# ---- an output ----
+
+
+def test_an_output_is_explained_without_its_scene(hooke, write, tmp_path):
+    scene = write(STIFF_PAIR)
+    assert hooke("run", scene, "-o", "out.h5").code == 4
+    of_scene = hooke("why", scene, "--json").json
+    (tmp_path / scene).unlink()
+    why = hooke("why", "out.h5", "--json").json
+    for key in ["cause", "time", "method", "step", "limit", "blame"]:
+        assert why[key] == of_scene[key], key
+    words = words_of(why["advice"][0]["command"])
+    assert words[1] == "out.h5"
+    again = hooke(*words, "--json")
+    assert again.code == 0 and again.json["time"] == 100
+
+
+def test_an_output_late_in_a_run(hooke, tmp_path):
+    """Frames until it blows up: the last of them is where the inquiry begins."""
+    shutil.copy(SCENES / "stretching.json", tmp_path / "scene.json")
+    run = hooke("run", "scene.json", "--json", "-o", "out.h5")
+    assert run.code == 4 and run.json["time"] > 10
+    why = hooke("why", "out.h5", "--json").json
+    assert why["cause"] == "step-above-limit" and why["blame"][0]["group"] == "upright"
+
+
+def test_an_output_that_ended_well(hooke, write):
+    assert hooke("run", write(SIX_PARTICLES), "-o", "out.h5").code == 0
+    assert "did not blow up: it is 'finished' at t = 0.5 s" in hooke("why", "out.h5").out
+
+
+def test_an_output_can_be_run_again(hooke, write):
+    """With the options of its run, to the bit."""
+    first = hooke("run", write(SIX_PARTICLES), "--step", "2e-3", "-o", "out.h5", "--json", "--final").json
+    again = hooke("run", "out.h5", "--json", "--final").json
+    assert again["step"] == 2e-3 and again["final"] == first["final"]
+
+
+def test_a_file_that_is_no_output(hooke, tmp_path):
+    (tmp_path / "odd.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + b"junk" * 100)
+    answer = hooke("why", "odd.h5")
+    assert answer.code in (3, 5) and "odd.h5" in answer.err
+
+
+# ---- warnings ----
+
+
+def warnings_of(answer):
+    return [line for line in answer.err.splitlines() if "warning: " in line]
+
+
+def test_run_warns_before_it_blows_up(hooke, write):
+    """The limit of an oscillator and its bound are the same: 2/omega."""
+    limit = 2 / math.sqrt(1000)
+    for share, count, word in [(0.9, 0, ""), (0.97, 1, "within 5 % of"), (1.01, 1, "is above")]:
+        step = share * limit
+        answer = hooke("run", write(STIFF_PAIR, step=step, duration=100 * step, every=step))
+        (line,) = warnings_of(answer) or [""]
+        assert len(warnings_of(answer)) == count and word in line
+        if count:
+            for part in [f"{step:.6g} s", f"{limit:.6g} s", "spring 0 (particles 0 and 1)", "particle 1", "t = 0 s"]:
+                assert part in line
+    assert warnings_of(hooke("run", write(STIFF_PAIR), "--quiet")) == []
+
+
+def test_run_warns_of_a_method_that_is_never_stable(hooke, write):
+    (line,) = warnings_of(hooke("run", write(SIX_PARTICLES), "--method", "forward-euler"))
+    assert "forward-euler is stable at no step" in line
+
+
+def test_run_warns_when_the_step_becomes_too_large(hooke, tmp_path):
+    """Safe at the start; stretching then brings the bound down from 0.141 to 0.104 s. The run is long enough to pay for
+    looking again."""
+    scene = json.loads((SCENES / "stretching.json").read_text())
+    scene["run"] = {"method": "symplectic-euler", "step": 0.1, "duration": 100000, "every": 100}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    answer = hooke("run", "scene.json")
+    times = [float(line.split("at t = ")[1].split(" s")[0]) for line in warnings_of(answer)]
+    assert answer.code == 0 and len(times) == 1 and times[0] > 0
+
+
+def test_results_do_not_depend_on_the_watch(hooke, write):
+    scene = write(SIX_PARTICLES, step=0.02, every=0.02, duration=1)
+    watched, alone = (hooke("run", scene, "--json", "--final", *more).json for more in ([], ["--quiet"]))
+    assert watched["final"] == alone["final"] and watched["steps"] == alone["steps"]

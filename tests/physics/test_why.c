@@ -1,0 +1,558 @@
+/* Runs that callbacks blow up, the states that are kept, warnings, and the rules of a diagnosis. The scenes without
+ * callbacks are in tests/cli/scenes/exploding. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int32_t has_gsl(void) {
+  return hooke_build_fact("gsl")[0] != '\0';
+}
+
+#define needs_gsl()                                                                                          \
+  if (!has_gsl()) skip()
+
+/* ---- callbacks ---- */
+
+struct fault {
+  int64_t particle;
+  double from, beyond; /* time at which it begins; or the x that it begins beyond */
+  double value;
+  int64_t calls;
+};
+
+static int32_t faulty_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct fault *fault = ctx;
+  (void)n, (void)v;
+  fault->calls++;
+  force[3 * fault->particle + 1] -= 0.5;
+  if (t >= fault->from && q[3 * fault->particle] > fault->beyond) force[3 * fault->particle] = fault->value;
+  return 0;
+}
+
+static int32_t faulty_drive(int64_t count, double t, double *q, double *v, void *ctx) {
+  const struct fault *fault = ctx;
+  for (int64_t k = 0; k < 3 * count; k++)
+    q[k] = v[k] = 0.0;
+  if (t >= fault->from) q[1] = fault->value;
+  return 0;
+}
+
+/* Three masses in a row on springs, the first one pinned or driven; swinging along x. */
+static hooke_system *row(int32_t pin_first) {
+  const double position[] = {0, 0, 0, 1.1, 0, 0, 2, 0.1, 0};
+  const int64_t ends[] = {0, 1, 1, 2};
+  hooke_system *system = small_system(3, position, NULL, 1.0, pin_first);
+  small_springs(system, 2, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  return system;
+}
+
+static hooke_why *explain(hooke_integrator *integrator) {
+  hooke_why *why = NULL;
+  check_ok(hooke_why_create(integrator, &why));
+  return why;
+}
+
+static void check_text(const char *found, const char *expected) {
+  if (found == NULL || strcmp(found, expected) != 0)
+    check_failed("\"%s\" instead of \"%s\"", found ? found : "(null)", expected);
+}
+
+/* The run with advice `place` goes to its end. */
+static void check_advice(const hooke_system *system, const hooke_integrator *integrator, const hooke_why *why,
+                         int64_t place) {
+  hooke_options *options = NULL;
+  hooke_integrator *again = NULL;
+  hooke_state *state = start_state(system);
+  check_ok(hooke_options_copy(hooke_integrator_options(integrator), &options));
+  check_ok(hooke_why_advice_apply(why, place, options));
+  check_ok(hooke_integrator_create(system, options, &again));
+  check_ok(hooke_integrator_run(again, state));
+  check_close(hooke_state_time(state), hooke_options_number(options, "duration"), 1e-12);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(again);
+  hooke_options_destroy(options);
+}
+
+static void check_callback(hooke_system *system, struct run run, const char *word, double time, double slack,
+                           int64_t particle) {
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *state = start_state(system);
+  const int32_t outcome = hooke_integrator_run(integrator, state);
+  if (outcome != HOOKE_DIVERGED && outcome != HOOKE_SOLVER_FAILED) check_failed("outcome %d", (int)outcome);
+  hooke_why *why = explain(integrator);
+  check_text(hooke_why_text(why, "cause"), "force-not-finite");
+  check_text(hooke_why_text(why, "method"), run.method);
+  check_close(hooke_why_number(why, "particle"), (double)particle, 0.0);
+  check_between(hooke_why_number(why, "time"), time - slack, time + 1e-9);
+  if (strstr(hooke_why_text(why, "sentence"), word) == NULL)
+    check_failed("%s", hooke_why_text(why, "sentence"));
+  assert_true(hooke_why_advice_count(why) >= 2);
+  check_text(hooke_why_advice_text(why, 0, "option"), "duration");
+  check_advice(system, integrator, why, 0);
+  check_text(hooke_why_advice_text(why, 1, "option"), "");
+  if (strstr(hooke_why_advice_text(why, 1, "change"), word) == NULL)
+    check_failed("%s", hooke_why_advice_text(why, 1, "change"));
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* Not a number from a time on; infinite beyond a place; from fixed steps, from stages within steps, from a solver. */
+static void test_force_callbacks(void **unused) {
+  (void)unused;
+  needs_gsl();
+  const struct run runs[] = {
+      {.method = "symplectic-euler", .step = 0.01, .duration = 3.0, .every = 0.5},
+      {.method = "verlet", .step = 0.01, .duration = 30.0, .every = 30.0},
+      {.method = "rk4", .step = 0.01, .duration = 3.0},
+      {.method = "backward-euler", .step = 0.01, .duration = 3.0},
+      {.method = "cvode-adams", .duration = 3.0},
+  };
+  for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
+    if (!hooke_method_is_built(runs[k].method)) continue;
+    const double slack = runs[k].step > 0.0 ? 0.021 : 0.2;
+    struct fault at_time = {.particle = 2, .from = 1.0, .beyond = -1e9, .value = NAN};
+    hooke_system *system = row(1);
+    check_ok(hooke_system_set_force(system, faulty_force, NULL, &at_time));
+    check_ok(hooke_system_commit(system));
+    check_callback(system, runs[k], "force callback", 1.0, slack, 2);
+    assert_true(at_time.calls > 0);
+  }
+  /* the second mass swings about 1: beyond 1.02 when it comes from below for the first time */
+  struct fault at_place = {.particle = 1, .from = 0.3, .beyond = 1.02, .value = INFINITY};
+  hooke_system *system = row(1);
+  check_ok(hooke_system_set_force(system, faulty_force, NULL, &at_place));
+  check_ok(hooke_system_commit(system));
+  check_callback(system, runs[0], "force callback", 0.6, 0.3, 1);
+}
+
+static void test_drive_callback(void **unused) {
+  (void)unused;
+  needs_gsl();
+  struct fault fault = {.from = 0.995, .value = NAN};
+  const int64_t first = 0;
+  hooke_system *system = row(0);
+  check_ok(hooke_system_drive_callback(system, 1, &first, faulty_drive, &fault));
+  check_ok(hooke_system_commit(system));
+  check_callback(system, (struct run){.method = "symplectic-euler", .step = 0.01, .duration = 3.0},
+                 "drive callback", 1.0, 0.021, 0);
+}
+
+/* A callback that is asked for places beyond all numbers is not to blame for what it answers. */
+static int32_t cubic_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)t, (void)v, (void)ctx;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] -= 1e-3 * q[k] * q[k] * q[k];
+  return 0;
+}
+
+static void test_innocent_callback(void **unused) {
+  (void)unused;
+  needs_gsl();
+  hooke_system *system = row(1);
+  check_ok(hooke_system_set_force(system, cubic_force, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.2, .duration = 400.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_why *why = explain(integrator);
+  check_text(hooke_why_text(why, "cause"), "step-above-limit");
+  check_between(hooke_why_number(why, "limit"), 0.1, 0.2);
+  check_advice(system, integrator, why, 0);
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* ---- a diagnosis ---- */
+
+/* sqrt(k/m) = 10: the limit is 0.2, and the growth of symplectic Euler is known, so is the step that goes wrong. */
+static void test_numbers_of_an_oscillator(void **unused) {
+  (void)unused;
+  needs_gsl();
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *every_step = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
+  hooke_integrator *rarely = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 21.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(every_step, state), HOOKE_DIVERGED);
+  const double last_good = hooke_state_time(state), bad = hooke_integrator_diverged_at(every_step);
+  hooke_state *late = start_state(system);
+  check_status(hooke_integrator_run(rarely, late), HOOKE_DIVERGED);
+  check_close(hooke_state_time(late), 0.0, 0.0);
+  hooke_why *why = explain(rarely);
+  check_text(hooke_why_text(why, "cause"), "step-above-limit");
+  check_close(hooke_why_number(why, "limit"), 0.2, 1e-6);
+  check_close(hooke_why_number(why, "step"), 0.21, 0.0);
+  /* the exact step, found by taking the run again */
+  check_close(hooke_why_number(why, "time"), last_good, 0.0);
+  check_close(hooke_why_number(why, "noticed"), 21.0, 1e-12);
+  char words[64];
+  snprintf(words, sizeof words, "at t = %.6g s particle 1", bad);
+  if (strstr(hooke_why_text(why, "sentence"), words) == NULL)
+    check_failed("no \"%s\" in: %s", words, hooke_why_text(why, "sentence"));
+  assert_int_equal(hooke_why_blame_count(why), 1);
+  check_close(hooke_why_blame_number(why, 0, "share"), 1.0, 1e-9);
+  check_close(hooke_why_blame_number(why, 0, "second"), 1.0, 0.0);
+  check_text(hooke_why_blame_text(why, 0, "group"), "springs");
+  check_text(hooke_why_advice_text(why, 0, "option"), "step");
+  const double advised = strtod(hooke_why_advice_text(why, 0, "value"), NULL);
+  check_between(advised, 0.09, 0.1801);
+  check_advice(system, rarely, why, 0);
+  assert_true(isnan(hooke_why_number(why, "magic")) && hooke_why_text(why, "magic") == NULL);
+  assert_true(isnan(hooke_why_blame_number(why, 1, "share")) &&
+              hooke_why_advice_text(why, 9, "change") == NULL);
+  check_status(hooke_why_advice_apply(why, 9, NULL), HOOKE_BAD_VALUE);
+
+  /* the same from states that were kept */
+  hooke_why *kept = NULL;
+  hooke_state *first = start_state(system);
+  check_ok(hooke_why_create_kept(system, hooke_integrator_options(every_step), first, state, &kept));
+  check_text(hooke_why_text(kept, "cause"), "step-above-limit");
+  check_close(hooke_why_number(kept, "time"), last_good, 0.0);
+  check_close(hooke_why_number(kept, "noticed"), bad, 0.0);
+  hooke_why_destroy(kept);
+  hooke_why_destroy(why);
+  hooke_state_destroy(first);
+  hooke_state_destroy(late);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(rarely);
+  hooke_integrator_destroy(every_step);
+  hooke_system_destroy(system);
+}
+
+/* Taking the steps again and trying advice leaves the integrator as it was. */
+static void test_asking_changes_nothing(void **unused) {
+  (void)unused;
+  needs_gsl();
+  hooke_system *system = small_oscillator(10.0);
+  const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21};
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  const int64_t steps = hooke_integrator_count(integrator, "steps");
+  hooke_why *one = explain(integrator), *two = explain(integrator);
+  check_text(hooke_why_text(one, "sentence"), hooke_why_text(two, "sentence"));
+  check_text(hooke_why_advice_text(one, 0, "value"), hooke_why_advice_text(two, 0, "value"));
+  assert_int_equal(hooke_integrator_count(integrator, "steps"), steps);
+  hooke_why_destroy(one);
+  hooke_why_destroy(two);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* A loop of the caller's own has no duration. */
+static void test_own_loop(void **unused) {
+  (void)unused;
+  needs_gsl();
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
+  hooke_state *state = start_state(system);
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < 100 && status == HOOKE_OK; k++)
+    status = hooke_integrator_step(integrator, state, 100);
+  check_status(status, HOOKE_DIVERGED);
+  hooke_why *why = explain(integrator);
+  check_text(hooke_why_text(why, "cause"), "step-above-limit");
+  check_text(hooke_why_advice_text(why, 0, "option"), "step");
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are stiff across, too.
+ * Advice is then tried from a state shortly before the trouble. */
+static void test_trouble_that_comes_late(void **unused) {
+  (void)unused;
+  needs_gsl();
+  const double position[] = {-1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
+  const double velocity[] = {0, 0, 0, 0, 0, 0, 1e-3, 1e-3, 0, 0, 0, 0, 0, 0, 0};
+  const int64_t ends[] = {0, 2, 1, 2, 2, 3, 2, 4}, pinned[] = {3, 4}, left = 0, right = 1;
+  const double time[] = {0, 2.5e5, 2.6e5, 2.7e5, 2.8e5}, out[15] = {[12] = -6.0};
+  double other[15];
+  for (int k = 0; k < 15; k++)
+    other[k] = -out[k];
+  hooke_system *system = small_system(5, position, velocity, 1.0, 0);
+  check_ok(hooke_system_pin(system, 2, pinned));
+  small_springs(system, 4, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  check_ok(hooke_system_drive_table(system, 1, &left, 5, time, out));
+  check_ok(hooke_system_drive_table(system, 1, &right, 5, time, other));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator = start_run(
+      system,
+      (struct run){.method = "symplectic-euler", .step = 0.13, .duration = 0.13 * 3e6, .every = 130.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_why *why = explain(integrator);
+  check_text(hooke_why_text(why, "cause"), "step-above-limit");
+  check_between(hooke_why_number(why, "limit"), 0.1, 0.13);
+  check_between(hooke_why_number(why, "time"), 2.6e5, 2.81e5);
+  check_text(hooke_why_advice_text(why, 0, "option"), "step");
+  assert_non_null(strstr(hooke_why_advice_text(why, 0, "change"), "tried from t = 2"));
+  check_advice(system, integrator, why, 0);
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+static int32_t explode(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)t, (void)ctx;
+  for (int64_t k = 0; k < n; k++)
+    rate[k] = x[k] * x[k];
+  return 0;
+}
+
+static void test_nothing_to_explain(void **unused) {
+  (void)unused;
+  hooke_why *why = NULL;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.01, .duration = 1.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_why_create(integrator, &why), HOOKE_BAD_CALL);
+  check_ok(hooke_integrator_run(integrator, state));
+  check_status(hooke_why_create(integrator, &why), HOOKE_BAD_CALL);
+  check_message("did not blow up");
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+
+  hooke_integrator *first_order = start_first_order(
+      1, explode, NULL, (struct run){.method = "forward-euler", .step = 0.1, .duration = 10.0});
+  check_ok(hooke_state_create_first_order(1, &state));
+  hooke_state_position(state)[0] = 1.0;
+  check_status(hooke_integrator_run(first_order, state), HOOKE_DIVERGED);
+  check_status(hooke_why_create(first_order, &why), HOOKE_UNSUITED);
+  check_status(hooke_integrator_on_warning(first_order, NULL, NULL), HOOKE_UNSUITED);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(first_order);
+}
+
+/* ---- states that are kept ---- */
+
+static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
+  double *seen = ctx;
+  seen[4 * step] = hooke_state_time(state);
+  memcpy(seen + 4 * step + 1, hooke_state_position(state) + 3, 3 * sizeof(double));
+  return 0;
+}
+
+static void test_recent_states(void **unused) {
+  (void)unused;
+  enum { STEPS = 20 };
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "verlet", .step = 0.01, .duration = STEPS * 0.01, .every = 0.01});
+  hooke_state *state = start_state(system), *recent = start_state(system);
+  double *seen = new_doubles(4 * (STEPS + 1));
+  assert_int_equal(hooke_integrator_recent_count(integrator), 0);
+  check_status(hooke_integrator_recent(integrator, 0, recent), HOOKE_BAD_VALUE);
+  check_ok(hooke_integrator_on_frame(integrator, record, seen));
+  check_ok(hooke_integrator_run(integrator, state));
+  assert_int_equal(hooke_integrator_recent_count(integrator), 8);
+  for (int64_t k = 0; k < 8; k++) {
+    check_ok(hooke_integrator_recent(integrator, k, recent));
+    const double *expected = seen + 4 * (STEPS - k);
+    check_close(hooke_state_time(recent), expected[0], 0.0);
+    check_same_bits(3, hooke_state_position(recent) + 3, expected + 1);
+  }
+  check_status(hooke_integrator_recent(integrator, 8, recent), HOOKE_BAD_VALUE);
+  check_status(hooke_integrator_recent(integrator, -1, recent), HOOKE_BAD_VALUE);
+  free(seen);
+  hooke_state_destroy(recent);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* As many as 16 MB hold, and the last one always: a state of n particles has 48 n bytes. */
+static void test_recent_states_are_few_at_scale(void **unused) {
+  (void)unused;
+  const struct { int64_t n, count; } sizes[] = {{1000, 8}, {60000, 4}, {400000, 1}};
+  for (int s = 0; s < 3; s++) {
+    const int64_t n = sizes[s].n;
+    double *position = new_doubles(3 * n);
+    hooke_system *system = small_system(n, position, NULL, 1.0, 0);
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0, .every = 0.1});
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(hooke_integrator_recent_count(integrator), sizes[s].count);
+    check_between((double)hooke_integrator_count(integrator, "memory_bytes"), (double)(120 * n),
+                  (double)(120 * n) + fmax(16e6, 48.1 * (double)n) + 4096.0);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+    free(position);
+  }
+}
+
+/* ---- warnings ---- */
+
+struct warned {
+  int64_t count;
+  char kind[32], sentence[640];
+  double t, limit;
+  int64_t spring, particle;
+  int32_t answer;
+};
+
+static int32_t note(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                    int64_t particle, void *ctx) {
+  struct warned *warned = ctx;
+  warned->count++;
+  snprintf(warned->kind, sizeof warned->kind, "%s", kind);
+  snprintf(warned->sentence, sizeof warned->sentence, "%s", sentence);
+  warned->t = t;
+  warned->limit = limit;
+  warned->spring = spring;
+  warned->particle = particle;
+  return warned->answer;
+}
+
+/* One step of a run with a watch; the bound of the oscillator is its limit. */
+static int32_t watch_run(const char *method, double step, struct warned *warned, double *q) {
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = method, .step = step, .duration = 10.0 * step, .every = step});
+  hooke_state *state = start_state(system);
+  if (warned) check_ok(hooke_integrator_on_warning(integrator, note, warned));
+  const int32_t status = hooke_integrator_run(integrator, state);
+  if (q) memcpy(q, hooke_state_position(state), 6 * sizeof(double));
+  if (status == HOOKE_STOPPED) assert_int_equal(hooke_integrator_stop_value(integrator), warned->answer);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static void test_warnings(void **unused) {
+  (void)unused;
+  needs_gsl();
+  const struct {
+    const char *method;
+    double step;
+    const char *kind;
+  } cases[] = {
+      {"symplectic-euler", 0.188, ""},
+      {"symplectic-euler", 0.192, "near-limit"},
+      {"symplectic-euler", 0.2001, "above-limit"},
+      {"verlet", 0.188, ""},
+      {"verlet", 0.192, "near-limit"},
+      {"verlet", 0.2001, "above-limit"},
+      {"rk4", 0.2456, ""},
+      {"rk4", 0.2512, "near-limit"},
+      {"rk4", 0.2623, "above-limit"},
+      {"forward-euler", 1e-6, "never-stable"},
+      {"backward-euler", 100.0, ""},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct warned warned = {.count = 0};
+    watch_run(cases[k].method, cases[k].step, &warned, NULL);
+    check_text(warned.kind, cases[k].kind);
+    assert_int_equal(warned.count, cases[k].kind[0] != '\0');
+    if (warned.count == 0) continue;
+    const double limit = strcmp(cases[k].kind, "never-stable") == 0 ? 0.0
+                         : strcmp(cases[k].method, "rk4") == 0      ? 0.26156
+                                                                    : 0.2;
+    check_close(warned.limit, limit, 1e-9);
+    check_close(warned.t, 0.0, 0.0);
+    assert_int_equal(warned.spring, 0);
+    assert_int_equal(warned.particle, 1);
+    assert_non_null(strstr(warned.sentence, "spring 0 (particles 0 and 1, group springs)"));
+  }
+}
+
+static void test_a_warning_may_stop_the_run(void **unused) {
+  (void)unused;
+  needs_gsl();
+  struct warned warned = {.answer = 7};
+  check_status(watch_run("verlet", 0.192, &warned, NULL), HOOKE_STOPPED);
+  check_message("warning callback returned 7");
+}
+
+static void test_a_watch_changes_no_bits(void **unused) {
+  (void)unused;
+  needs_gsl();
+  double watched[6], alone[6];
+  struct warned warned = {.count = 0};
+  check_ok(watch_run("symplectic-euler", 0.192, &warned, watched));
+  check_ok(watch_run("symplectic-euler", 0.192, NULL, alone));
+  assert_int_equal(warned.count, 1);
+  check_same_bits(6, watched, alone);
+}
+
+/* Each kind once a run, and again in the next run. */
+static void test_once_a_run(void **unused) {
+  (void)unused;
+  needs_gsl();
+  struct warned warned = {.count = 0};
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.192, .duration = 1920.0, .every = 0.192});
+  check_ok(hooke_integrator_on_warning(integrator, note, &warned));
+  for (int k = 1; k <= 2; k++) {
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_run(integrator, state));
+    hooke_state_destroy(state);
+    assert_int_equal(warned.count, k);
+  }
+  check_ok(hooke_integrator_on_warning(integrator, NULL, NULL));
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_run(integrator, state));
+  assert_int_equal(warned.count, 2);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+static void test_without_gsl(void **unused) {
+  (void)unused;
+  if (has_gsl()) skip();
+  hooke_why *why = NULL;
+  struct warned warned = {.count = 0};
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3, .duration = 300.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_on_warning(integrator, note, &warned), HOOKE_NOT_BUILT);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  check_status(hooke_why_create(integrator, &why), HOOKE_NOT_BUILT);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_force_callbacks),
+      cmocka_unit_test(test_drive_callback),
+      cmocka_unit_test(test_innocent_callback),
+      cmocka_unit_test(test_numbers_of_an_oscillator),
+      cmocka_unit_test(test_asking_changes_nothing),
+      cmocka_unit_test(test_own_loop),
+      cmocka_unit_test(test_trouble_that_comes_late),
+      cmocka_unit_test(test_nothing_to_explain),
+      cmocka_unit_test(test_recent_states),
+      cmocka_unit_test(test_recent_states_are_few_at_scale),
+      cmocka_unit_test(test_warnings),
+      cmocka_unit_test(test_a_warning_may_stop_the_run),
+      cmocka_unit_test(test_a_watch_changes_no_bits),
+      cmocka_unit_test(test_once_a_run),
+      cmocka_unit_test(test_without_gsl),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
