@@ -41,10 +41,13 @@ static int read_state(struct limit *l, const char *at) {
   hooke_record *record = NULL;
   char *file = strndup(at, colon ? (size_t)(colon - at) : strlen(at));
   if (!file) return hooke_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  int32_t status = hooke_record_open(file, &record);
-  if (status == HOOKE_OK) status = hooke_record_read(record, frame, l->setup.state);
+  const char *report = hooke_arguments_text(l->arguments, "report");
+  const int code = hooke_setup_check_apart(l->arguments, file, "the trajectory of --at", report);
+  int32_t status = code == HOOKE_EXIT_DONE ? hooke_record_open(file, &record) : HOOKE_OK;
+  if (status == HOOKE_OK && record) status = hooke_record_read(record, frame, l->setup.state);
   free(file);
   hooke_record_close(record);
+  if (code != HOOKE_EXIT_DONE) return code;
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(l->arguments, status);
 }
 

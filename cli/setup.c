@@ -51,14 +51,19 @@ int hooke_setup_require(const struct hooke_arguments *arguments, const struct ho
   return HOOKE_EXIT_DONE;
 }
 
-int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output) {
-  struct stat scene, file;
-  if (output && stat(arguments->scene, &scene) == 0 && stat(output, &file) == 0 &&
-      scene.st_dev == file.st_dev && scene.st_ino == file.st_ino) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "%s is the scene itself; name another file for the output", output);
+int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char *input, const char *what,
+                            const char *output) {
+  struct stat in, out;
+  if (output && stat(input, &in) == 0 && stat(output, &out) == 0 && in.st_dev == out.st_dev &&
+      in.st_ino == out.st_ino) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output",
+                        output, what);
   }
   return HOOKE_EXIT_DONE;
+}
+
+int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output) {
+  return hooke_setup_check_apart(arguments, arguments->scene, "the scene", output);
 }
 
 int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {

@@ -79,6 +79,9 @@ def test_at_a_frame(hooke, write):
     assert hooke("limit", scene, "--predict", "--at", "out.h5:99").code == 3
     assert hooke("limit", scene, "--predict", "--at", "out.h5:x").code == 2
     assert hooke("limit", scene, "--predict", "--at", "missing.h5").code in (3, 5)
+    refused = hooke("limit", scene, "--predict", "--at", "out.h5:0", "--report", "out.h5")
+    assert refused.code == 2 and "out.h5 is the trajectory of --at itself" in refused.err
+    assert hooke("limit", scene, "--predict", "--at", "out.h5:0").code == 0
 
 
 def test_along_a_run(hooke, write):

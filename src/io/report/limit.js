@@ -175,10 +175,10 @@ const longestBlamed = () => Math.max(0, ...listed.filter(isBlamed).map(({ ends: 
 
 /* What is to be seen, and how long the longest arrow is. */
 function frameOf([across, up]) {
-  const near = looking.zoom === "mode" ? movers.filter((k) => sizes[k] > 0.1) : particles;
+  const near = looking.zoom === "mode" ? movers.filter((k) => sizes[k] > 0.4) : particles;
   const [left, right] = extentOf(near, across), [bottom, top] = extentOf(near, up);
   const size = Math.max(right - left, top - bottom) || longestBlamed() || 1;
-  const room = (looking.zoom === "mode" ? 0.5 : 0.14) * size;
+  const room = (looking.zoom === "mode" ? 0.35 : 0.14) * size;
   return { arrow: Math.min(0.12 * (size + room), longestBlamed() || Infinity),
     box: { left: left - room, right: right + room, bottom: bottom - room, top: top + room } };
 }

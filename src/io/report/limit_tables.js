@@ -56,7 +56,7 @@ function writePictured() {
   say.push(left > 0
     ? `${whole(listed.length)} of ${whole(picture.springs)} springs are drawn, with all that are to blame; ` +
       `${whole(left)} are left out.`
-    : `All ${whole(picture.springs)} springs are drawn.`);
+    : picture.springs === 1 ? "There is one spring." : `All ${whole(picture.springs)} springs are drawn.`);
   if (movers.length > MOST_ARROWS)
     say.push(`Arrows are at the ${MOST_ARROWS} that move the most, of ${whole(movers.length)} drawn that move.`);
   document.getElementById("pictured").textContent = say.join(" ");
