@@ -124,15 +124,9 @@ static int32_t multiply_rows(struct hooke_reduced *reduced, int all) {
   int32_t stop_value = 0;
   const struct hooke_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
                                     rows + 3 * size, &stop_value};
-  memset(out, 0, (size_t)size * sizeof(double));
-  for (int32_t k = 0; k < it->system->force_row_count; k++) {
-    const struct hooke_force_row *row = it->system->force_row[k];
-    if (row->add_product == NULL || (!all && is_own(row))) continue;
-    const int32_t status = row->add_product(it->system, &point, out);
-    if (status == HOOKE_STOPPED) it->stop_value = stop_value;
-    if (status != HOOKE_OK) return status;
-  }
-  return HOOKE_OK;
+  const int32_t status = hooke_forces_product(it->system, &point, all ? NULL : is_own, out);
+  if (status == HOOKE_STOPPED) it->stop_value = stop_value;
+  return status;
 }
 
 static void rows_from_vector(int64_t n, double factor, const double *x, double *rows) {

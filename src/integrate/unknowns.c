@@ -161,18 +161,6 @@ int hooke_unknowns_linearise(hooke_integrator *it, const struct hooke_unknowns *
   return HOOKE_SLOPE_FINE;
 }
 
-/* out = (df/dq) dq + (df/dv) dv of all forces, the value of a callback that stops kept. */
-static int32_t multiply(hooke_integrator *it, const struct hooke_point *point, double *out) {
-  memset(out, 0, (size_t)it->size * sizeof(double));
-  for (int32_t k = 0; k < it->system->force_row_count; k++) {
-    const struct hooke_force_row *row = it->system->force_row[k];
-    const int32_t status = row->add_product ? row->add_product(it->system, point, out) : HOOKE_OK;
-    if (status == HOOKE_STOPPED) it->stop_value = *point->stop_value;
-    if (status != HOOKE_OK) return status;
-  }
-  return HOOKE_OK;
-}
-
 int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u, double t,
                            const double *direction, double *product) {
   if (u->free_count == 0) {
@@ -184,7 +172,10 @@ int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u,
   it->count.derivative_products++;
   int32_t stop_value = 0;
   const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
-  if (multiply(it, &point, out) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  if (hooke_forces_product(it->system, &point, NULL, out) != HOOKE_OK) {
+    it->stop_value = stop_value;
+    return HOOKE_SLOPE_STOPPED;
+  }
   const int64_t m = u->free_count;
   memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
   for (int64_t k = 0; k < m; k++) {

@@ -3,26 +3,17 @@
 #include "core/number.h"
 #include "hooke/io.h"
 #include "io/place.h"
+#include "measure/study.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 
-static const char *const numbers[] = {"step",         "rtol",
-                                      "atol",         "error",
-                                      "error_max",    "error_final",
-                                      "energy_drift", "force_evaluations",
-                                      "steps",        "linear_iterations",
-                                      "wall_seconds", "wall_median",
-                                      "repeats",      "near_floor",
-                                      "timed_alone"};
-enum { NUMBER_COUNT = sizeof numbers / sizeof numbers[0] };
-
 static void write_row(FILE *file, const hooke_study *study, int64_t row) {
   fputs(hooke_study_text(study, row, "method"), file);
-  for (int k = 0; k < NUMBER_COUNT; k++) {
-    const double value = hooke_study_number(study, row, numbers[k]);
+  for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++) {
+    const double value = hooke_study_number(study, row, hooke_study_row_number[k]);
     char text[HOOKE_NUMBER_SIZE] = "";
     if (isfinite(value)) hooke_number_print(value, text);
     fprintf(file, ",%s", text);
@@ -35,8 +26,8 @@ static int32_t write_rows(const char *path, const char *temporary, const hooke_s
   FILE *file = fopen(temporary, "wx");
   if (file == NULL) return hooke_place_fail(path, "create the file", errno);
   fputs("method", file);
-  for (int k = 0; k < NUMBER_COUNT; k++)
-    fprintf(file, ",%s", numbers[k]);
+  for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++)
+    fprintf(file, ",%s", hooke_study_row_number[k]);
   fputs(",status\n", file);
   for (int64_t row = 0; row < hooke_study_row_count(study); row++)
     write_row(file, study, row);

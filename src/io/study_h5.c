@@ -31,15 +31,6 @@
 
 enum { TEXT_LENGTH = 32, NOTE_LENGTH = 256 };
 
-static const char *const columns[] = {"step",         "rtol",
-                                      "atol",         "error",
-                                      "error_max",    "error_final",
-                                      "energy_drift", "force_evaluations",
-                                      "steps",        "linear_iterations",
-                                      "wall_seconds", "wall_median",
-                                      "repeats",      "near_floor",
-                                      "timed_alone"};
-enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 static const char *const series[] = {"error", "energy_drift"};
 static const char *const figures[] = {"order", "low", "high", "theory"};
 enum { FIGURE_COUNT = sizeof figures / sizeof figures[0] };
@@ -100,8 +91,8 @@ static herr_t write_rows(hid_t table, const hooke_study *study) {
   herr_t result = group < 0 ? -1 : 0;
   if (result >= 0) result = write_row_texts(table, study, "method");
   if (result >= 0) result = write_row_texts(table, study, "status");
-  for (int k = 0; result >= 0 && k < COLUMN_COUNT; k++)
-    result = write_column(table, study, columns[k], line);
+  for (int k = 0; result >= 0 && k < HOOKE_STUDY_ROW_NUMBERS; k++)
+    result = write_column(table, study, hooke_study_row_number[k], line);
   if (result >= 0) {
     const double none = NAN, *time = frames > 0 ? hooke_study_series(study, 0, "time") : &none;
     result = hooke_h5_array_of(group, "time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &frames, time);

@@ -1,6 +1,7 @@
 /* The page of a study: what it shows, as JSON. */
 #include "hooke/io.h"
 #include "io/report.h"
+#include "measure/study.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,14 +10,6 @@
 /* A curve over time has this many points at most; each is the largest of the frames that it stands for. */
 enum { MOST_POINTS = 240 };
 
-static const char *const row_numbers[] = {"step",         "rtol",
-                                          "atol",         "error",
-                                          "error_max",    "error_final",
-                                          "energy_drift", "force_evaluations",
-                                          "steps",        "linear_iterations",
-                                          "wall_seconds", "wall_median",
-                                          "repeats",      "near_floor",
-                                          "timed_alone"};
 static const char *const reference_numbers[] = {"agreement", "trusted_until", "growth",
                                                 "duration",  "frames",        "budget_spent"};
 static const char *const order_numbers[] = {"order", "low", "high", "theory"};
@@ -80,8 +73,9 @@ static void add_rows(struct hooke_text *text, const hooke_study *study) {
     hooke_text_open(text, NULL, '{');
     hooke_text_word(text, "method", hooke_study_text(study, row, "method"));
     hooke_text_word(text, "status", hooke_study_text(study, row, "status"));
-    for (int k = 0; k < COUNT_OF(row_numbers); k++)
-      hooke_text_number(text, row_numbers[k], hooke_study_number(study, row, row_numbers[k]));
+    for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++)
+      hooke_text_number(text, hooke_study_row_number[k],
+                        hooke_study_number(study, row, hooke_study_row_number[k]));
     add_curve(text, study, row, "error");
     add_curve(text, study, row, "energy_drift");
     hooke_text_close(text, '}');

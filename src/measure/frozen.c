@@ -13,10 +13,8 @@ static const double MOST_RATIO = 1e8;
 static const double SHORTEST = 1e9;
 
 struct hooke_frozen_spring hooke_frozen_view(const struct hooke_spring *spring, const double *q) {
-  struct hooke_spring taut = *spring;
-  taut.pull_only = 0;
   struct hooke_stretch s;
-  hooke_spring_stretch(&taut, q, NULL, &s);
+  hooke_spring_stretch_taut(spring, q, &s);
   struct hooke_frozen_spring view = {spring->head,  spring->tail, {0.0, 0.0, 0.0},
                                      spring->kappa, 0.0,          spring->gamma};
   memcpy(view.u, s.direction, sizeof view.u);

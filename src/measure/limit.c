@@ -6,6 +6,7 @@
 #include "core/option.h"
 #include "core/status.h"
 #include "measure/limit_measure.h"
+#include "measure/method_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -47,31 +48,16 @@ int32_t hooke_limit_options_create(hooke_options **options) {
 
 /* ---- making ---- */
 
-static int32_t add_row(hooke_limit *limit, const char *name, size_t length) {
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
-    const char *known = hooke_method_name(k);
-    if (strlen(known) != length || strncmp(known, name, length) != 0) continue;
-    if (limit->row_count == HOOKE_LIMIT_METHODS)
-      return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
-    limit->row[limit->row_count++].method = known;
-    return HOOKE_OK;
-  }
-  return hooke_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, name);
+static int32_t add_row(const char *method, void *ctx) {
+  hooke_limit *limit = ctx;
+  if (limit->row_count == HOOKE_LIMIT_METHODS)
+    return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
+  limit->row[limit->row_count++].method = method;
+  return HOOKE_OK;
 }
 
-static int32_t add_rows(hooke_limit *limit) {
-  int32_t status = HOOKE_OK;
-  const char *names = hooke_options_text(limit->options, "methods");
-  for (int64_t k = 0; k < hooke_method_count() && names[0] == '\0' && status == HOOKE_OK; k++) {
-    const char *name = hooke_method_name(k);
-    if (!hooke_method_is_adaptive(name)) status = add_row(limit, name, strlen(name));
-  }
-  while (status == HOOKE_OK && *names) {
-    const size_t length = strcspn(names, ", ");
-    if (length > 0) status = add_row(limit, names, length);
-    names += length + strspn(names + length, ", ");
-  }
-  return status;
+static int32_t has_fixed_step(const char *method) {
+  return !hooke_method_is_adaptive(method);
 }
 
 static void forget(hooke_limit *limit) {
@@ -120,7 +106,10 @@ int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
   status =
       options ? hooke_options_copy(options, &limit->options) : hooke_limit_options_create(&limit->options);
   if (status == HOOKE_OK && run) status = hooke_options_copy(run, &limit->run);
-  if (status == HOOKE_OK) status = add_rows(limit);
+  if (status == HOOKE_OK) {
+    const char *names = hooke_options_text(limit->options, "methods");
+    status = hooke_method_list_read(names, has_fixed_step, add_row, limit);
+  }
   if (status == HOOKE_OK) status = make_room(limit);
   if (status != HOOKE_OK) {
     hooke_limit_destroy(limit);
@@ -201,8 +190,8 @@ static int32_t find_blame(hooke_limit *limit, const double *q) {
   }
   for (int64_t k = 0; k < 3 * n; k++)
     limit->shape[k] = longest > 0.0 ? row->mode[k] / longest : 0.0;
-  /* where damping is implicit, or nothing is stable, stiffness alone is to blame */
-  const int stiffness_alone = strcmp(row->method, "verlet") == 0 || !(row->predicted > 0.0);
+  /* where nothing is stable, stiffness alone is to blame */
+  const int stiffness_alone = hooke_limit_rule_damps_implicitly(row->method) || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
       hooke_blame_find(limit->system, q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);

@@ -1,32 +1,19 @@
 /* Reading a limit. */
 #include "measure/limit.h"
 
+#include "core/figure.h"
+
 #include <math.h>
 #include <string.h>
 
-/* A number by its name. */
-struct figure {
-  const char *name;
-  double value;
-};
-
-static double pick(const struct figure *figure, size_t count, const char *what) {
-  for (size_t k = 0; k < count; k++) {
-    if (strcmp(figure[k].name, what) == 0) return figure[k].value;
-  }
-  return NAN;
-}
-
-#define PICK(figures, what) pick((figures), sizeof(figures) / sizeof((figures)[0]), (what))
-
 double hooke_limit_figure(const hooke_limit *limit, const char *what) {
   if (!limit->found) return NAN;
-  const struct figure figures[] = {
+  const struct hooke_figure figures[] = {
       {"frequency_max", limit->frequency},  {"rate_max", limit->decay},
       {"modes", (double)limit->mode_count}, {"products", (double)limit->products},
       {"clamped", (double)limit->clamped},
   };
-  return PICK(figures, what);
+  return HOOKE_FIGURE(figures, what);
 }
 
 /* ---- rows ---- */
@@ -51,7 +38,7 @@ double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *wha
   if (r == NULL) return NAN;
   const int32_t found = limit->found;
   const int comparable = r->predicted > 0.0 && isfinite(r->predicted) && isfinite(r->measured);
-  const struct figure figures[] = {
+  const struct hooke_figure figures[] = {
       {"bound", r->bound},
       {"predicted", r->predicted},
       {"exact", found ? (double)r->exact : (double)NAN},
@@ -63,7 +50,7 @@ double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *wha
       {"smallest", r->smallest},
       {"smallest_time", r->smallest_time},
   };
-  return PICK(figures, what);
+  return HOOKE_FIGURE(figures, what);
 }
 
 /* ---- blame ---- */
@@ -75,11 +62,11 @@ int64_t hooke_limit_blame_count(const hooke_limit *limit) {
 double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what) {
   if (place < 0 || place >= limit->blame.spring_count) return NAN;
   const struct hooke_blamed_spring *s = &limit->blame.spring[place];
-  const struct figure figures[] = {{"spring", (double)s->spring},
-                                   {"first", (double)s->first},
-                                   {"second", (double)s->second},
-                                   {"share", s->share}};
-  return PICK(figures, what);
+  const struct hooke_figure figures[] = {{"spring", (double)s->spring},
+                                         {"first", (double)s->first},
+                                         {"second", (double)s->second},
+                                         {"share", s->share}};
+  return HOOKE_FIGURE(figures, what);
 }
 
 const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what) {
@@ -94,8 +81,9 @@ int64_t hooke_limit_mover_count(const hooke_limit *limit) {
 double hooke_limit_mover_number(const hooke_limit *limit, int64_t place, const char *what) {
   if (place < 0 || place >= limit->blame.particle_count) return NAN;
   const struct hooke_blamed_particle *p = &limit->blame.particle[place];
-  const struct figure figures[] = {{"particle", (double)p->particle}, {"share", p->share}, {"mass", p->mass}};
-  return PICK(figures, what);
+  const struct hooke_figure figures[] = {
+      {"particle", (double)p->particle}, {"share", p->share}, {"mass", p->mass}};
+  return HOOKE_FIGURE(figures, what);
 }
 
 const char *hooke_limit_remedy_text(const hooke_limit *limit, const char *what) {
@@ -108,13 +96,13 @@ double hooke_limit_remedy_number(const hooke_limit *limit, const char *what) {
   const struct hooke_remedy *r = &limit->remedy;
   if (r->kind == NULL) return NAN;
   const int soften = strcmp(r->kind, "soften") == 0;
-  const struct figure figures[] = {{"springs", soften ? (double)r->count : NAN},
-                                   {"particles", soften ? NAN : (double)r->count},
-                                   {"factor", r->factor},
-                                   {"cost", r->cost},
-                                   {"gain", r->gain},
-                                   {"gain_predicted", r->gain_predicted}};
-  return PICK(figures, what);
+  const struct hooke_figure figures[] = {{"springs", soften ? (double)r->count : NAN},
+                                         {"particles", soften ? NAN : (double)r->count},
+                                         {"factor", r->factor},
+                                         {"cost", r->cost},
+                                         {"gain", r->gain},
+                                         {"gain_predicted", r->gain_predicted}};
+  return HOOKE_FIGURE(figures, what);
 }
 
 /* ---- modes ---- */
@@ -126,9 +114,9 @@ int64_t hooke_limit_mode_count(const hooke_limit *limit) {
 double hooke_limit_mode_number(const hooke_limit *limit, int64_t mode, const char *what) {
   if (mode < 0 || mode >= limit->mode_count) return NAN;
   const struct hooke_limit_mode *m = &limit->mode[mode];
-  const struct figure figures[] = {
+  const struct hooke_figure figures[] = {
       {"real", m->real}, {"imaginary", m->imaginary}, {"frequency", m->frequency}, {"decay", m->decay}};
-  return PICK(figures, what);
+  return HOOKE_FIGURE(figures, what);
 }
 
 const double *hooke_limit_shape(const hooke_limit *limit) {

@@ -175,17 +175,17 @@ static const struct rule {
   const char *method;
   int32_t (*find)(struct hooke_spectrum *s, struct hooke_prediction *out);
   double (*of_mode)(double k, double c); /* the step of one mode, x'' + c x' + k x = 0 */
-  int32_t needs_all;
+  int32_t needs_all, damps_implicitly;
   const char *note;
 } rules[] = {
-    {"forward-euler", forward_euler, forward_euler_mode, 1, ""},
-    {"symplectic-euler", symplectic_euler, symplectic_step, 0, ""},
-    {"verlet", verlet, verlet_step, 0, ""},
-    {"rk4", rk4, rk4_mode, 1, ""},
-    {"backward-euler", unlimited, unlimited_mode, 0,
+    {"forward-euler", forward_euler, forward_euler_mode, 1, 0, ""},
+    {"symplectic-euler", symplectic_euler, symplectic_step, 0, 0, ""},
+    {"verlet", verlet, verlet_step, 0, 1, ""},
+    {"rk4", rk4, rk4_mode, 1, 0, ""},
+    {"backward-euler", unlimited, unlimited_mode, 0, 1,
      "stable at every step; accuracy limits it, and in large steps whether the equations can be solved"},
-    {"cvode-bdf", unlimited, unlimited_mode, 0, "chooses its steps; error control limits them"},
-    {"cvode-adams", unlimited, unlimited_mode, 0,
+    {"cvode-bdf", unlimited, unlimited_mode, 0, 1, "chooses its steps; error control limits them"},
+    {"cvode-adams", unlimited, unlimited_mode, 0, 0,
      "chooses its steps; error control limits them, and for fast motion also stability, which it sees as "
      "error"},
 };
@@ -200,6 +200,11 @@ static const struct rule *rule_of(const char *method) {
 int32_t hooke_limit_rule_needs_all(const char *method) {
   const struct rule *rule = rule_of(method);
   return rule ? rule->needs_all : 0;
+}
+
+int32_t hooke_limit_rule_damps_implicitly(const char *method) {
+  const struct rule *rule = rule_of(method);
+  return rule ? rule->damps_implicitly : 0;
 }
 
 double hooke_limit_of_mode(const char *method, double frequency, double decay) {

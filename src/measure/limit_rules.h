@@ -16,6 +16,9 @@ struct hooke_prediction {
 /* 1 if the rule asks for eigenvalues other than the extreme ones of K and of h^2 K + 2 h C. */
 int32_t hooke_limit_rule_needs_all(const char *method);
 
+/* 1 if the method solves for damping, which then has no part in its limit. */
+int32_t hooke_limit_rule_damps_implicitly(const char *method);
+
 /* HOOKE_BAD_VALUE for an unknown method. */
 int32_t hooke_limit_rule(struct hooke_spectrum *spectrum, const char *method, struct hooke_prediction *out);
 

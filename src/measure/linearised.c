@@ -14,11 +14,8 @@ static const double ROUNDING = 1e-9;
 
 static void see_spring(struct hooke_linearised *lin, int64_t k, const struct hooke_spring *spring,
                        const double *q, double scale) {
-  /* a cable counts as taut: it may become so at any time */
-  struct hooke_spring taut = *spring;
-  taut.pull_only = 0;
   struct hooke_stretch s;
-  hooke_spring_stretch(&taut, q, NULL, &s);
+  hooke_spring_stretch_taut(spring, q, &s);
   const double slight = ROUNDING * spring->kappa * s.length;
   for (int a = 0; a < 3; a++)
     lin->u[a][k] = s.direction[a];

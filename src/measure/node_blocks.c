@@ -19,11 +19,8 @@ static void add_axial(double block[6], const double u[3], double along, double a
 
 static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spring *spring, const double *q) {
   const hooke_system *system = blocks->system;
-  /* a cable counts as taut: it may become so at any time */
-  struct hooke_spring taut = *spring;
-  taut.pull_only = 0;
   struct hooke_stretch s;
-  hooke_spring_stretch(&taut, q, NULL, &s);
+  hooke_spring_stretch_taut(spring, q, &s);
   const int no_direction = s.length == 0.0;
   const double across = no_direction ? spring->kappa : fmax(0.0, s.tension / s.length);
   if (spring->kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, spring->gamma / spring->kappa);

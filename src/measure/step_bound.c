@@ -8,18 +8,24 @@
 #include <stddef.h>
 #include <string.h>
 
+/* Drag over the mass of the heaviest free particle [1/s]. */
+static double least_drag_rate(const struct hooke_node_blocks *blocks) {
+  const hooke_system *system = blocks->system;
+  double heaviest = 0.0;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (!system->held[p]) heaviest = fmax(heaviest, system->mass[p]);
+  }
+  return system->drag / heaviest;
+}
+
 /* Stable where h <= c/k for every mode with k its stiffness and c its damping, and h <= 2/c. Along springs
  * c/k is at least the smallest gamma/kappa; across a taut spring, and where a spring is undamped, only drag
  * damps. */
 static double forward_euler(const struct hooke_node_blocks *blocks) {
   const double frequency = hooke_node_blocks_frequency(blocks), rate = hooke_node_blocks_damping_rate(blocks);
-  double heaviest = 0.0;
-  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (!blocks->system->held[p]) heaviest = fmax(heaviest, blocks->system->mass[p]);
-  }
   if (frequency == 0.0) return rate > 0.0 ? 2.0 / rate : INFINITY;
   const double by_springs = blocks->across ? 0.0 : blocks->least_ratio;
-  const double by_drag = blocks->system->drag / heaviest / (frequency * frequency);
+  const double by_drag = least_drag_rate(blocks) / (frequency * frequency);
   return fmin(fmax(by_springs, by_drag), 2.0 / rate);
 }
 
@@ -40,13 +46,9 @@ static double rk4(const struct hooke_node_blocks *blocks) {
 /* ---- the same, asked of one step ---- */
 
 static int32_t forward_euler_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
-  double heaviest = 0.0;
-  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (!blocks->system->held[p]) heaviest = fmax(heaviest, blocks->system->mass[p]);
-  }
   if (!hooke_node_blocks_stay_below(blocks, 0.0, h, 2.0, particle)) return 0;
   if (!blocks->across && h <= blocks->least_ratio) return 1;
-  return hooke_node_blocks_stay_below(blocks, h, 0.0, blocks->system->drag / heaviest, particle);
+  return hooke_node_blocks_stay_below(blocks, h, 0.0, least_drag_rate(blocks), particle);
 }
 
 static int32_t symplectic_euler_allows(const struct hooke_node_blocks *blocks, double h, int64_t *particle) {
@@ -77,28 +79,27 @@ static const struct rule {
 
 static const struct rule *rule_of(const char *method) {
   for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
-    if (rules[k].bound && strcmp(rules[k].method, method) == 0) return &rules[k];
+    if (strcmp(rules[k].method, method) == 0) return &rules[k];
   }
   return NULL;
 }
 
 int32_t hooke_step_is_bounded(const char *method) {
-  return rule_of(method) != NULL;
+  const struct rule *rule = rule_of(method);
+  return rule != NULL && rule->bound != NULL;
 }
 
 int32_t hooke_step_is_safe(const struct hooke_node_blocks *blocks, const char *method, double h,
                            int64_t *particle) {
   const struct rule *rule = rule_of(method);
-  return rule == NULL || rule->allows(blocks, h, particle);
+  return rule == NULL || rule->allows == NULL || rule->allows(blocks, h, particle);
 }
 
 double hooke_step_bound_of(const struct hooke_node_blocks *blocks, const char *method) {
   if (hooke_method_is_adaptive(method)) return INFINITY;
-  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
-    if (strcmp(rules[k].method, method) == 0)
-      return rules[k].bound ? rules[k].bound(blocks) : (double)INFINITY;
-  }
-  return NAN;
+  const struct rule *rule = rule_of(method);
+  if (rule == NULL) return NAN;
+  return rule->bound ? rule->bound(blocks) : (double)INFINITY;
 }
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
@@ -107,9 +108,9 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   struct hooke_node_blocks blocks = {.system = system};
-  if (rule_of(method)) status = hooke_node_blocks_create(system, q, &blocks);
+  if (hooke_step_is_bounded(method)) status = hooke_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
   *bound = hooke_step_bound_of(&blocks, method);
-  if (rule_of(method)) hooke_node_blocks_release(&blocks);
+  if (hooke_step_is_bounded(method)) hooke_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "measure/method_list.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -62,38 +63,16 @@ int32_t hooke_study_options_create(hooke_options **options) {
 
 /* ---- making ---- */
 
-static int32_t add_method(hooke_study *study, const char *name, size_t length) {
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
-    const char *known = hooke_method_name(k);
-    if (strlen(known) != length || strncmp(known, name, length) != 0) continue;
-    if (!hooke_method_is_built(known)) {
-      return hooke_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", known);
-    }
-    if (study->method_count == HOOKE_STUDY_METHODS) {
-      return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
-    }
-    study->method[study->method_count++] = known;
-    return HOOKE_OK;
+static int32_t add_method(const char *method, void *ctx) {
+  hooke_study *study = ctx;
+  if (!hooke_method_is_built(method)) {
+    return hooke_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
-  return hooke_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, name);
-}
-
-static int32_t add_methods(hooke_study *study) {
-  int32_t status = HOOKE_OK;
-  const char *names = hooke_options_text(study->options, "methods");
-  if (names[0] == '\0') {
-    for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
-      const char *name = hooke_method_name(k);
-      if (hooke_method_is_built(name)) status = add_method(study, name, strlen(name));
-    }
-    return status;
+  if (study->method_count == HOOKE_STUDY_METHODS) {
+    return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
   }
-  while (status == HOOKE_OK && *names) {
-    const size_t length = strcspn(names, ", ");
-    if (length > 0) status = add_method(study, names, length);
-    names += length + strspn(names + length, ", ");
-  }
-  return status;
+  study->method[study->method_count++] = method;
+  return HOOKE_OK;
 }
 
 static int32_t read_times(hooke_study *study) {
@@ -125,7 +104,10 @@ int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
     status =
         options ? hooke_options_copy(options, &study->options) : hooke_study_options_create(&study->options);
   }
-  if (status == HOOKE_OK) status = add_methods(study);
+  if (status == HOOKE_OK) {
+    const char *names = hooke_options_text(study->options, "methods");
+    status = hooke_method_list_read(names, hooke_method_is_built, add_method, study);
+  }
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hooke_study_check_ladder(study);
   if (status == HOOKE_OK)

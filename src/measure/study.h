@@ -104,4 +104,8 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want);
 /* Least squares of log error on log step for a method (order_gsl.c). */
 void hooke_study_fit_order(hooke_study *study, int32_t method);
 
+/* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */
+enum { HOOKE_STUDY_ROW_NUMBERS = 15 };
+extern const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
+
 #endif

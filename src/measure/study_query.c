@@ -1,9 +1,20 @@
 /* Reading a study. */
 #include "measure/study.h"
 
+#include "core/figure.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS] = {"step",         "rtol",
+                                                                     "atol",         "error",
+                                                                     "error_max",    "error_final",
+                                                                     "energy_drift", "force_evaluations",
+                                                                     "steps",        "linear_iterations",
+                                                                     "wall_seconds", "wall_median",
+                                                                     "repeats",      "near_floor",
+                                                                     "timed_alone"};
 
 static const struct hooke_study_row *row_at(const hooke_study *study, int64_t row) {
   return row >= 0 && row < study->row_count ? &study->row[row] : NULL;
@@ -25,10 +36,7 @@ static double time_until(const hooke_study *study, int64_t count) {
 double hooke_study_figure(const hooke_study *study, const char *what) {
   const struct hooke_reference *r = &study->reference;
   const int made = r->frames.count > 0;
-  const struct {
-    const char *name;
-    double value;
-  } figures[] = {
+  const struct hooke_figure figures[] = {
       {"agreement", made ? r->agreement : NAN},
       {"trusted_until", made ? time_until(study, r->trusted) : NAN},
       {"checked_until", made ? time_until(study, r->checked) : NAN},
@@ -37,10 +45,7 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"frames", made ? (double)r->trusted : NAN},
       {"budget_spent", (double)study->budget_spent},
   };
-  for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++) {
-    if (strcmp(figures[k].name, what) == 0) return figures[k].value;
-  }
-  return NAN;
+  return HOOKE_FIGURE(figures, what);
 }
 
 int64_t hooke_study_row_count(const hooke_study *study) {
@@ -109,10 +114,7 @@ double hooke_study_recommendation_number(const hooke_study *study, const char *w
   const struct hooke_study_recommendation *r = &study->recommendation;
   if (!r->made) return NAN;
   const int adaptive = r->method >= 0 && hooke_study_is_adaptive(study, r->method);
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {
+  const struct hooke_figure numbers[] = {
       {"met", (double)r->met},
       {"want", r->want},
       {"step", adaptive ? NAN : r->value},
@@ -122,8 +124,5 @@ double hooke_study_recommendation_number(const hooke_study *study, const char *w
       {"wall_seconds", r->wall_seconds},
       {"force_evaluations", r->force_evaluations},
   };
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    if (strcmp(numbers[k].name, what) == 0) return numbers[k].value;
-  }
-  return NAN;
+  return HOOKE_FIGURE(numbers, what);
 }

@@ -1,5 +1,6 @@
 #include "measure/trial.h"
 
+#include "core/figure.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -24,10 +25,7 @@ void hooke_trial_release(struct hooke_trial *trial) {
 
 double hooke_trial_number(const struct hooke_trial *trial, const char *what) {
   if (trial->status == NULL) return NAN;
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {
+  const struct hooke_figure numbers[] = {
       {"step", trial->step},
       {"rtol", trial->rtol},
       {"atol", trial->atol},
@@ -40,10 +38,7 @@ double hooke_trial_number(const struct hooke_trial *trial, const char *what) {
       {"linear_iterations", trial->linear_iterations},
       {"wall_seconds", trial->wall_seconds},
   };
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    if (strcmp(numbers[k].name, what) == 0) return numbers[k].value;
-  }
-  return NAN;
+  return HOOKE_FIGURE(numbers, what);
 }
 
 /* ---- a run under way ---- */

@@ -1,6 +1,7 @@
 /* Making a diagnosis, and asking it. */
 #include "measure/why.h"
 
+#include "core/figure.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -82,18 +83,12 @@ const char *hooke_why_text(const hooke_why *why, const char *what) {
 }
 
 double hooke_why_number(const hooke_why *why, const char *what) {
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {{"time", why->time},
-                 {"noticed", why->noticed},
-                 {"step", why->step},
-                 {"limit", why->limit},
-                 {"particle", why->particle}};
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    if (strcmp(numbers[k].name, what) == 0) return numbers[k].value;
-  }
-  return NAN;
+  const struct hooke_figure numbers[] = {{"time", why->time},
+                                         {"noticed", why->noticed},
+                                         {"step", why->step},
+                                         {"limit", why->limit},
+                                         {"particle", why->particle}};
+  return HOOKE_FIGURE(numbers, what);
 }
 
 int64_t hooke_why_blame_count(const hooke_why *why) {

@@ -65,18 +65,24 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
   return HOOKE_OK;
 }
 
+int32_t hooke_forces_product(const hooke_system *system, const struct hooke_point *point,
+                             int (*left_out)(const struct hooke_force_row *row), double *out) {
+  memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hooke_force_row *row = system->force_row[k];
+    if (row->add_product == NULL || (left_out && left_out(row))) continue;
+    const int32_t status = row->add_product(system, point, out);
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}
+
 int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
                                         const double *v, const double *dq, const double *dv, double *out) {
   int32_t stop_value;
   const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
-  int32_t status = hooke_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));
-  for (int32_t k = 0; k < system->force_row_count && status == HOOKE_OK; k++) {
-    const struct hooke_force_row *row = system->force_row[k];
-    if (row->add_product) status = row->add_product(system, &point, out);
-  }
-  return status;
+  const int32_t status = hooke_system_require_committed(system);
+  return status == HOOKE_OK ? hooke_forces_product(system, &point, NULL, out) : status;
 }
 
 int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,

@@ -32,6 +32,11 @@ struct hooke_force_row {
 extern const struct hooke_force_row hooke_force_springs, hooke_force_drag, hooke_force_callback,
     hooke_force_gravity;
 
+/* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out` (NULL: none) says.
+ * HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
+int32_t hooke_forces_product(const hooke_system *system, const struct hooke_point *point,
+                             int (*left_out)(const struct hooke_force_row *row), double *out);
+
 /* Row `k` of the table, NULL past the last. */
 const struct hooke_force_row *hooke_force_table(int32_t k);
 

@@ -17,14 +17,10 @@ struct finder {
   int32_t *lane_of;              /* of each run */
 };
 
-static int64_t low_of(const struct hooke_run *run) {
-  return run->offset > 0 ? run->start : run->start + run->offset;
-}
-
 /* From the last lane backwards, past those that end below the run. */
 static int32_t choose(const struct finder *finder, const struct hooke_run *run) {
   const struct hooke_lanes *lanes = finder->lanes;
-  const int64_t low = low_of(run);
+  const int64_t low = hooke_run_low(run);
   for (int32_t k = lanes->count - 1; k >= 0; k--) {
     const struct hooke_lane *lane = &lanes->lane[k];
     if (lane->offset == labs((long)run->offset) && lane->last < low) return k;
@@ -39,10 +35,10 @@ static int add_run(struct finder *finder, const struct hooke_run *run, int64_t n
   if (run->shape & HOOKE_RUN_INDEXED || k == HOOKE_MOST_LANES) return 0;
   struct hooke_lane *lane = &lanes->lane[k];
   if (k == lanes->count) {
-    *lane = (struct hooke_lane){.offset = labs((long)run->offset), .first = low_of(run)};
+    *lane = (struct hooke_lane){.offset = labs((long)run->offset), .first = hooke_run_low(run)};
     lanes->count++;
   }
-  lane->last = low_of(run) + run->count - 1;
+  lane->last = hooke_run_high(run) - 1;
   lane->run_count++;
   finder->top[k] = lane->last + lane->offset;
   finder->lane_of[number] = k;

@@ -21,19 +21,12 @@ struct window {
 struct hooke_windows {
   struct window window[HOOKE_MOST_LANES];
   double *block, *f[3]; /* f: HOOKE_TILE each */
+  const struct hooke_spring_set *set;
   int64_t memory;
 };
 
 static int64_t whole(int64_t count, int64_t unit) {
   return (count + unit - 1) / unit * unit;
-}
-
-static int64_t low_of(const struct hooke_run *run) {
-  return run->offset > 0 ? run->start : run->start + run->offset;
-}
-
-static int64_t high_of(const struct hooke_run *run) {
-  return low_of(run) + run->count;
 }
 
 struct hooke_windows *hooke_windows_create(const struct hooke_lanes *lanes) {
@@ -52,6 +45,7 @@ struct hooke_windows *hooke_windows_create(const struct hooke_lanes *lanes) {
     hooke_free(windows);
     return NULL;
   }
+  windows->set = hooke_spring_set(0);
   windows->memory = (int64_t)sizeof *windows + numbers * (int64_t)sizeof(double);
   double *next = windows->block + (8 - ((uintptr_t)windows->block / sizeof(double)) % 8) % 8;
   for (int a = 0; a < 3; a++, next += HOOKE_TILE)
@@ -90,17 +84,18 @@ static void advance(struct window *window, int64_t count) {
 
 static int may_join(const struct hooke_run *run, const struct hooke_run *next) {
   return run->shape == next->shape && !(run->shape & HOOKE_RUN_MIXED) &&
-         low_of(next) - high_of(run) <= SMALL_GAP && run->kappa == next->kappa && run->gamma == next->gamma &&
-         run->rest_length == next->rest_length;
+         hooke_run_low(next) - hooke_run_high(run) <= SMALL_GAP && run->kappa == next->kappa &&
+         run->gamma == next->gamma && run->rest_length == next->rest_length;
 }
 
 /* Springs of one run within [from, to) that have a rest length but no direction. */
 static int64_t count_lost(const struct hooke_run *run, const struct hooke_motion *m, int64_t from,
                           int64_t to) {
-  const int64_t low = low_of(run) > from ? low_of(run) : from, high = high_of(run) < to ? high_of(run) : to;
+  const int64_t low = hooke_run_low(run) > from ? hooke_run_low(run) : from,
+                high = hooke_run_high(run) < to ? hooke_run_high(run) : to;
   int64_t lost = 0;
   for (int64_t l = low; l < high; l++) {
-    const struct hooke_spring s = hooke_run_spring(run, l - low_of(run));
+    const struct hooke_spring s = hooke_run_spring(run, l - hooke_run_low(run));
     const double r = hooke_spring_length(m->q[0][s.head] - m->q[0][s.tail], m->q[1][s.head] - m->q[1][s.tail],
                                          m->q[2][s.head] - m->q[2][s.tail]);
     lost += r == 0.0 && s.rest_length != 0.0;
@@ -119,11 +114,11 @@ static int64_t fill(const struct hooke_lane *lane, int64_t first, int64_t last, 
     at.v[a] = m->v[a] + from;
     b[a] = window->b[a] + window->at + (from - tile);
   }
-  int64_t lost = hooke_spring_set(0)->fill[run->shape](run, &at, from - low_of(run), to - from, b);
+  int64_t lost = m->windows->set->fill[run->shape](run, &at, from - hooke_run_low(run), to - from, b);
   if (first == last) return lost;
   for (int64_t r = first; r < last; r++) {
-    const int64_t gap = high_of(lane->run[r]) > from ? high_of(lane->run[r]) : from;
-    const int64_t end = low_of(lane->run[r + 1]) < to ? low_of(lane->run[r + 1]) : to;
+    const int64_t gap = hooke_run_high(lane->run[r]) > from ? hooke_run_high(lane->run[r]) : from;
+    const int64_t end = hooke_run_low(lane->run[r + 1]) < to ? hooke_run_low(lane->run[r + 1]) : to;
     clear(window, window->at + gap - tile, window->at + end - tile);
   }
   if (lost == 0) return 0;
@@ -137,13 +132,13 @@ static int64_t fill(const struct hooke_lane *lane, int64_t first, int64_t last, 
 static int64_t fill_tile(const struct hooke_lane *lane, struct window *window, const struct hooke_motion *m,
                          int64_t tile, int64_t end) {
   int64_t lost = 0, done = tile;
-  while (window->next < lane->run_count && low_of(lane->run[window->next]) < end) {
-    const int64_t first = window->next, low = low_of(lane->run[first]), from = low > tile ? low : tile;
+  while (window->next < lane->run_count && hooke_run_low(lane->run[window->next]) < end) {
+    const int64_t first = window->next, low = hooke_run_low(lane->run[first]), from = low > tile ? low : tile;
     int64_t last = first;
-    while (last + 1 < lane->run_count && low_of(lane->run[last + 1]) < end &&
+    while (last + 1 < lane->run_count && hooke_run_low(lane->run[last + 1]) < end &&
            may_join(lane->run[last], lane->run[last + 1]))
       last++;
-    const int64_t high = high_of(lane->run[last]), to = high < end ? high : end;
+    const int64_t high = hooke_run_high(lane->run[last]), to = high < end ? high : end;
     clear(window, window->at + done - tile, window->at + from - tile);
     lost += fill(lane, first, last, window, m, tile, from, to);
     done = to;
@@ -180,7 +175,7 @@ int64_t hooke_lanes_pass(const struct hooke_lanes *lanes, struct hooke_motion *m
       active++;
     }
     for (int a = 0; a < 3; a++)
-      hooke_spring_set(0)->sum(end - from, active, upper[a], lower[a], windows->f[a]);
+      windows->set->sum(end - from, active, upper[a], lower[a], windows->f[a]);
     tile(from, end - from, windows->f, ctx);
     for (int32_t k = 0; k < lanes->count; k++) {
       if (windows->window[k].at > 0) advance(&windows->window[k], end - from);

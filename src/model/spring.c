@@ -90,6 +90,13 @@ void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, co
   stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
 }
 
+void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *q,
+                               struct hooke_stretch *stretch) {
+  struct hooke_spring taut = *spring;
+  taut.pull_only = 0;
+  hooke_spring_stretch(&taut, q, NULL, stretch);
+}
+
 /* ---- adding a group ---- */
 
 static int32_t check_ends(const hooke_system *system, int64_t count, const int64_t *ends) {

@@ -44,6 +44,15 @@ static inline struct hooke_spring hooke_run_spring(const struct hooke_run *run, 
   return spring;
 }
 
+/* Particles of the lower ends of a run of constant offset: from the first to the one after the last. */
+static inline int64_t hooke_run_low(const struct hooke_run *run) {
+  return run->offset > 0 ? run->start : run->start + run->offset;
+}
+
+static inline int64_t hooke_run_high(const struct hooke_run *run) {
+  return hooke_run_low(run) + run->count;
+}
+
 /* A spring at given ends: length, direction (zeros where it has none), tension and rate of stretch; v may be
  * NULL. */
 struct hooke_stretch {
@@ -52,6 +61,9 @@ struct hooke_stretch {
 };
 void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
                           struct hooke_stretch *stretch);
+/* The same at rest and under tension: a spring that only pulls may become taut at any time. */
+void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *q,
+                               struct hooke_stretch *stretch);
 
 /* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
 int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_count,
