@@ -46,5 +46,6 @@ extern const struct hooke_verb hooke_verb_compare;
 extern const struct hooke_verb hooke_verb_study;
 extern const struct hooke_verb hooke_verb_limit;
 extern const struct hooke_verb hooke_verb_why;
+extern const struct hooke_verb hooke_verb_needs;
 
 #endif

@@ -24,6 +24,7 @@
 #include "hooke/study.h"
 #include "hooke/limit.h"
 #include "hooke/why.h"
+#include "hooke/needs.h"
 #include "hooke/io.h"
 
 #endif

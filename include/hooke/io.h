@@ -9,6 +9,7 @@
 #include "integrator.h"
 #include "limit.h"
 #include "measure.h"
+#include "needs.h"
 #include "study.h"
 
 #ifdef __cplusplus
@@ -40,6 +41,13 @@ HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char
 /* Commits the system of the scene; like hooke_system_commit(), with messages that give the place in the file.
  */
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
+
+/* Writes a committed system as a scene file: parts and spring groups by the options that they were made from, the rest
+ * number by number, so that loading it gives the same system to the bit. Particles of parts come after the others there.
+ * `title` and `run` (options of a run) may be NULL. An older file is replaced when the new one is complete. HOOKE_UNSUITED
+ * for a system with callbacks, HOOKE_BAD_CALL before commit, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
+                                    const hooke_options *run);
 
 /* Releases the scene, its system and its options. NULL is allowed. */
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
@@ -129,6 +137,11 @@ HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char 
  * another system, and the failures above. */
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
                                            const char *path, const char *scene);
+
+/* The same of what a scene needs: the table, what each ingredient changes and costs, the lean system laid over the full one,
+ * and the resolutions if they were looked at. `command`, the line to type for the lean scene, may be NULL. */
+HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
+                                           const char *command);
 
 #ifdef __cplusplus
 }

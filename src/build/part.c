@@ -239,6 +239,14 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
   struct hooke_part part = {system, name && name[0] ? name : unnamed, options, 0, 0};
   status = build(found, &part);
+  if (status == HOOKE_OK) {
+    const struct hooke_part_record record = {.add = hooke_system_add_part,
+                                             .grid = found->grid,
+                                             .kind = found->table->name,
+                                             .first = part.first,
+                                             .count = part.count};
+    status = hooke_part_record_keep(system, record, part.name, options);
+  }
   if (status != HOOKE_OK) {
     hooke_system_roll_back(system, mark);
     return status;

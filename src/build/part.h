@@ -4,6 +4,7 @@
 
 #include "core/option.h"
 #include "hooke/build.h"
+#include "model/part_record.h"
 
 /* A part under construction. */
 struct hooke_part {
@@ -18,6 +19,7 @@ struct hooke_part_kind {
   int32_t (*build)(struct hooke_part *part);
   /* The k-th particle (0, 1, ...) that a word of `pinned` stands for; -1 past the last. */
   int64_t (*named)(const struct hooke_part *part, const char *word, int64_t k);
+  const struct hooke_part_grid *grid; /* NULL: its particles are no grid */
 };
 
 extern const struct hooke_part_kind hooke_part_rope;

@@ -56,4 +56,15 @@ static int64_t named(const struct hooke_part *part, const char *word, int64_t k)
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
-const struct hooke_part_kind hooke_part_rope = {&table, build, named};
+static int32_t cells(const hooke_options *options, int64_t cells[3]) {
+  cells[0] = (int64_t)hooke_options_number(options, "segments");
+  return 1;
+}
+
+static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
+  return hooke_options_set_number(options, "segments", (double)cells[0]);
+}
+
+static const struct hooke_part_grid grid = {cells, set_cells};
+
+const struct hooke_part_kind hooke_part_rope = {&table, build, named, &grid};

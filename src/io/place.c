@@ -91,3 +91,24 @@ int32_t hooke_place_take(const char *place, char **temporary) {
   if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
   return HOOKE_OK;
 }
+
+static int32_t write_bytes(const char *path, const char *temporary, const char *bytes, int64_t length) {
+  unlink(temporary);
+  FILE *file = fopen(temporary, "wx");
+  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
+  int error = 0;
+  if (fwrite(bytes, 1, (size_t)length, file) != (size_t)length || fflush(file) != 0) error = errno;
+  if (fclose(file) != 0 && error == 0) error = errno;
+  return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
+}
+
+int32_t hooke_place_write(const char *path, const char *bytes, int64_t length) {
+  char *place = NULL, *temporary = NULL;
+  int32_t status = hooke_place_find(path, &place, &temporary);
+  if (status == HOOKE_OK) status = write_bytes(path, temporary, bytes, length);
+  if (status == HOOKE_OK) status = hooke_place_take(place, &temporary);
+  if (temporary) unlink(temporary);
+  hooke_free(temporary);
+  hooke_free(place);
+  return status;
+}

@@ -16,6 +16,9 @@ int32_t hooke_place_find(const char *path, char **place, char **temporary);
 /* Brings the closed file `temporary` to the disk and gives it the name `place`; then frees and clears `temporary`. */
 int32_t hooke_place_take(const char *place, char **temporary);
 
+/* Writes a whole file, which takes its place when it is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+int32_t hooke_place_write(const char *path, const char *bytes, int64_t length);
+
 /* Brings the data of a file to the disk. HOOKE_IO_FAILED. */
 int32_t hooke_place_sync(const char *path);
 

@@ -1,15 +1,12 @@
 /* Pages: a frame with the style, the drawing library, the data, the body and the scripts put in. */
 #include "io/report.h"
 
-#include "core/memory.h"
 #include "core/status.h"
 #include "io/place.h"
 #include "io/share.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #if HOOKE_HAVE_CHARTJS
 
@@ -70,29 +67,10 @@ static int32_t make_page(struct hooke_text *page, const struct hooke_report *rep
   return status;
 }
 
-/* ---- the file ---- */
-
-static int32_t write_page(const char *path, const char *temporary, const struct hooke_text *page) {
-  unlink(temporary);
-  FILE *file = fopen(temporary, "wx");
-  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
-  int error = 0;
-  if (fwrite(page->bytes, 1, (size_t)page->length, file) != (size_t)page->length || fflush(file) != 0)
-    error = errno;
-  if (fclose(file) != 0 && error == 0) error = errno;
-  return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
-}
-
 int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
   struct hooke_text page = {.bytes = NULL};
-  char *place = NULL, *temporary = NULL;
   int32_t status = make_page(&page, report);
-  if (status == HOOKE_OK) status = hooke_place_find(path, &place, &temporary);
-  if (status == HOOKE_OK) status = write_page(path, temporary, &page);
-  if (status == HOOKE_OK) status = hooke_place_take(place, &temporary);
-  if (temporary) unlink(temporary);
-  hooke_free(temporary);
-  hooke_free(place);
+  if (status == HOOKE_OK) status = hooke_place_write(path, page.bytes, page.length);
   hooke_text_release(&page);
   return status;
 }

@@ -74,6 +74,11 @@ void hooke_text_number(struct hooke_text *text, const char *key, double value) {
   add(text, number);
 }
 
+void hooke_text_flag(struct hooke_text *text, const char *key, int32_t flag) {
+  begin(text, key);
+  add(text, flag ? "true" : "false");
+}
+
 void hooke_text_word(struct hooke_text *text, const char *key, const char *word) {
   begin(text, key);
   if (word)

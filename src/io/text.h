@@ -20,5 +20,9 @@ void hooke_text_open(struct hooke_text *text, const char *key, char bracket);
 void hooke_text_close(struct hooke_text *text, char bracket);
 void hooke_text_number(struct hooke_text *text, const char *key, double value);
 void hooke_text_word(struct hooke_text *text, const char *key, const char *word);
+void hooke_text_flag(struct hooke_text *text, const char *key, int32_t flag);
+
+/* Adds to `laid` what `json` holds, one whole value, in lines for people. */
+void hooke_text_lay_out(const struct hooke_text *json, struct hooke_text *laid);
 
 #endif

@@ -2,6 +2,7 @@
 #include "measure/study.h"
 
 #include "core/status.h"
+#include "measure/step_unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,21 +79,6 @@ double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
 
 /* ---- checking ---- */
 
-static int32_t is_whole(double ratio) {
-  return fabs(ratio - round(ratio)) <= 1e-9 * ratio && round(ratio) >= 1.0;
-}
-
-/* The largest step that divides both times, for times that have one not too small. */
-static int32_t find_unit(hooke_study *study) {
-  for (int32_t parts = 1; parts <= 10000; parts++) {
-    study->unit = study->every / (double)parts;
-    if (is_whole(study->duration / study->unit)) return HOOKE_OK;
-  }
-  return hooke_fail(HOOKE_BAD_VALUE, "every",
-                    "%.17g s and duration %.17g s have no step in common; take a part of the duration",
-                    study->every, study->duration);
-}
-
 static int32_t check_list(const hooke_options *options, const char *name) {
   const int64_t count = hooke_options_number_count(options, name);
   const double *value = hooke_options_numbers(options, name);
@@ -110,7 +96,7 @@ static int32_t check_steps(const hooke_study *study) {
   const int64_t count = hooke_options_number_count(study->options, "steps");
   for (int64_t k = 0; k < count; k++) {
     const double step = hooke_options_numbers(study->options, "steps")[k];
-    if (is_whole(study->every / step) && is_whole(study->duration / step)) continue;
+    if (hooke_step_is_whole(study->every / step) && hooke_step_is_whole(study->duration / step)) continue;
     char place[64];
     snprintf(place, sizeof place, "steps[%lld]", (long long)k);
     return hooke_fail(
@@ -123,7 +109,7 @@ static int32_t check_steps(const hooke_study *study) {
 }
 
 int32_t hooke_study_check_ladder(hooke_study *study) {
-  int32_t status = find_unit(study);
+  int32_t status = hooke_step_unit(study->duration, study->every, &study->unit);
   if (status == HOOKE_OK) status = check_list(study->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);
   return status == HOOKE_OK ? check_list(study->options, "tolerances") : status;

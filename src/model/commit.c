@@ -45,15 +45,8 @@ static int32_t sort_springs(hooke_system *system) {
 }
 
 static void drop_building_arrays(hooke_system *system) {
-  for (int64_t k = 0; k < system->group_count; k++) {
-    struct hooke_group *group = &system->group[k];
-    char *name = group->name;
-    const int64_t count = group->count;
-    group->name = NULL;
-    hooke_group_release(group);
-    group->name = name;
-    group->count = count;
-  }
+  for (int64_t k = 0; k < system->group_count; k++)
+    hooke_group_release_arrays(&system->group[k]);
 }
 
 static int32_t fill_particles(hooke_system *system) {

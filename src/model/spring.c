@@ -59,13 +59,20 @@ int32_t hooke_spring_options_create(hooke_options **options) {
   return hooke_options_create(&spring_table, options);
 }
 
-void hooke_group_release(struct hooke_group *group) {
-  hooke_free(group->name);
+void hooke_group_release_arrays(struct hooke_group *group) {
   hooke_free(group->head);
   hooke_free(group->tail);
   hooke_free(group->kappa);
   hooke_free(group->gamma);
   hooke_free(group->rest_length);
+  group->head = group->tail = NULL;
+  group->kappa = group->gamma = group->rest_length = NULL;
+}
+
+void hooke_group_release(struct hooke_group *group) {
+  hooke_group_release_arrays(group);
+  hooke_free(group->name);
+  hooke_options_destroy(group->options);
   memset(group, 0, sizeof *group);
 }
 
@@ -199,6 +206,14 @@ static int32_t fill_group(const hooke_system *system, const char *name, int64_t 
   return find_material(system, options, group);
 }
 
+static int32_t keep_options(const hooke_options *options, struct hooke_group *group) {
+  static const char *const lists[] = {"stiffness", "damping", "rest_length"};
+  for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
+    if (hooke_options_number_count(options, lists[k]) > 1) return HOOKE_OK;
+  }
+  return hooke_options_copy(options, &group->options);
+}
+
 static int32_t add_group(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
                          const hooke_options *options, int32_t from_part) {
   int32_t status = hooke_system_require_open(system);
@@ -213,8 +228,9 @@ static int32_t add_group(hooke_system *system, const char *name, int64_t count, 
     if (status == HOOKE_OK) system->group_capacity = capacity;
   }
   if (status != HOOKE_OK) return status;
-  struct hooke_group group = {.from_part = from_part};
+  struct hooke_group group = {.from_part = from_part, .part = system->part_count - 1};
   status = fill_group(system, name, count, ends, options, &group);
+  if (status == HOOKE_OK && !from_part) status = keep_options(options, &group);
   if (status == HOOKE_OK)
     system->group[system->group_count++] = group;
   else

@@ -8,7 +8,9 @@
 struct hooke_group {
   char *name;
   int64_t count;
-  int32_t from_part; /* springs of parts are numbered after those of groups */
+  int32_t from_part;      /* springs of parts are numbered after those of groups */
+  int64_t part;           /* of those: which part */
+  hooke_options *options; /* as given, where they hold for all springs alike; else NULL */
   int32_t pull_only;
   /* count each; taken over by the runs at commit */
   int32_t *head, *tail;
@@ -72,5 +74,7 @@ void hooke_springs_release(struct hooke_springs *springs);
 int64_t hooke_springs_memory(const struct hooke_springs *springs);
 
 void hooke_group_release(struct hooke_group *group);
+/* Releases what is one number a spring; the runs have it. */
+void hooke_group_release_arrays(struct hooke_group *group);
 
 #endif

@@ -17,6 +17,8 @@ void hooke_system_destroy(hooke_system *system) {
   if (system == NULL) return;
   for (int64_t k = 0; k < system->group_count; k++)
     hooke_group_release(&system->group[k]);
+  for (int64_t k = 0; k < system->part_count; k++)
+    hooke_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hooke_drive_release(&system->drive[k]);
   hooke_lanes_release(&system->lanes);
@@ -28,6 +30,7 @@ void hooke_system_destroy(hooke_system *system) {
   hooke_free(system->inverse_mass);
   hooke_free(system->held_particle);
   hooke_free(system->group);
+  hooke_free(system->part);
   hooke_free(system->drive);
   hooke_free(system->force_row);
   hooke_free(system);

@@ -5,6 +5,7 @@
 #include "hooke/system.h"
 #include "model/drive.h"
 #include "model/lane.h"
+#include "model/part_record.h"
 #include "model/spring.h"
 
 struct hooke_force_row;
@@ -27,8 +28,9 @@ struct hooke_system {
   int64_t group_count, group_capacity;
   struct hooke_group *group;
   int64_t part_count;
-  struct hooke_springs springs; /* from commit on */
-  struct hooke_lanes lanes;     /* from commit on, of all springs or of none */
+  struct hooke_part_record *part; /* part_count, in the order of adding */
+  struct hooke_springs springs;   /* from commit on */
+  struct hooke_lanes lanes;       /* from commit on, of all springs or of none */
 
   double gravity[3];
   int32_t has_gravity;

@@ -1,0 +1,102 @@
+/* What a scene needs, as JSON. */
+#include "needs_results.h"
+
+#include <math.h>
+
+static const char *const cost_numbers[] = {"wall_seconds", "springs", "step_limit",        "particles",
+                                           "step",         "rtol",    "force_evaluations", "steps"};
+enum { COSTS = sizeof cost_numbers / sizeof cost_numbers[0] };
+
+static void print_full(struct hooke_json *json, const hooke_needs *needs) {
+  hooke_json_open(json, "full", '{');
+  for (int k = 0; k < COSTS; k++)
+    hooke_json_number(json, cost_numbers[k], hooke_needs_figure(needs, cost_numbers[k]));
+  hooke_json_number(json, "step_error", hooke_needs_figure(needs, "step_error"));
+  hooke_json_close(json);
+}
+
+static void print_rows(struct hooke_json *json, const hooke_needs *needs) {
+  hooke_json_open(json, "rows", '[');
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    hooke_json_open(json, NULL, '{');
+    hooke_json_text(json, "without", hooke_needs_text(needs, row, "without"));
+    hooke_json_text(json, "kind", hooke_needs_text(needs, row, "kind"));
+    hooke_json_number(json, "error", hooke_needs_number(needs, row, "error"));
+    for (int k = 0; k < COSTS; k++)
+      hooke_json_number(json, cost_numbers[k], hooke_needs_number(needs, row, cost_numbers[k]));
+    hooke_json_flag(json, "needed", hooke_needs_number(needs, row, "needed") == 1.0);
+    hooke_json_text(json, "note", hooke_needs_text(needs, row, "note"));
+    hooke_json_close(json);
+  }
+  hooke_json_close(json);
+}
+
+static void print_lean(struct hooke_json *json, const struct hooke_needs_results *results) {
+  static const char *const numbers[] = {"lean_wall_seconds",      "lean_springs", "lean_step_limit",
+                                        "lean_particles",         "lean_step",    "lean_rtol",
+                                        "lean_force_evaluations", "lean_steps"};
+  const hooke_needs *needs = results->needs;
+  if (!hooke_needs_lean(needs)) {
+    hooke_json_text(json, "lean", NULL);
+    return;
+  }
+  hooke_json_open(json, "lean", '{');
+  hooke_json_text(json, "scene", results->written);
+  hooke_json_open(json, "without", '[');
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    if (hooke_needs_number(needs, row, "left_out") == 1.0)
+      hooke_json_text(json, NULL, hooke_needs_text(needs, row, "without"));
+  }
+  hooke_json_close(json);
+  hooke_json_number(json, "error", hooke_needs_figure(needs, "lean_error"));
+  for (int k = 0; k < COSTS; k++)
+    hooke_json_number(json, numbers[k] + sizeof "lean_" - 1, hooke_needs_figure(needs, numbers[k]));
+  hooke_json_text(json, "command", results->command);
+  hooke_json_close(json);
+}
+
+static void print_cells(struct hooke_json *json, const hooke_needs *needs, int64_t part, const char *key,
+                        const char *const numbers[3]) {
+  hooke_json_open(json, key, '[');
+  for (int a = 0; a < 3; a++) {
+    const double cells = hooke_needs_part_number(needs, part, numbers[a]);
+    if (!isnan(cells)) hooke_json_number(json, NULL, cells);
+  }
+  hooke_json_close(json);
+}
+
+static void print_parts(struct hooke_json *json, const hooke_needs *needs) {
+  static const char *const has[] = {"cells", "cells_second", "cells_third"};
+  static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
+  static const char *const numbers[] = {"change", "change_fine", "order", "error", "factor"};
+  hooke_json_open(json, "parts", '[');
+  for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
+    hooke_json_open(json, NULL, '{');
+    hooke_json_text(json, "part", hooke_needs_part_text(needs, part, "part"));
+    print_cells(json, needs, part, "cells", has);
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+      hooke_json_number(json, numbers[k], hooke_needs_part_number(needs, part, numbers[k]));
+    print_cells(json, needs, part, "wanted", wanted);
+    hooke_json_text(json, "note", hooke_needs_part_text(needs, part, "note"));
+    hooke_json_close(json);
+  }
+  hooke_json_close(json);
+}
+
+void hooke_needs_results_print_json(const struct hooke_needs_results *results) {
+  const hooke_needs *needs = results->needs;
+  struct hooke_json json;
+  hooke_json_begin(&json, stdout);
+  hooke_json_number(&json, "want", hooke_needs_figure(needs, "want"));
+  hooke_json_text(&json, "method", hooke_needs_word(needs, "method"));
+  hooke_json_number(&json, "duration", hooke_needs_figure(needs, "duration"));
+  hooke_json_number(&json, "judged_until", hooke_needs_figure(needs, "judged_until"));
+  print_full(&json, needs);
+  if (results->refine) {
+    print_parts(&json, needs);
+  } else {
+    print_rows(&json, needs);
+    print_lean(&json, results);
+  }
+  hooke_json_end(&json);
+}

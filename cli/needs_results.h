@@ -1,0 +1,20 @@
+/* What `hooke needs` found, for the files that print it. */
+#ifndef HOOKE_CLI_NEEDS_RESULTS_H
+#define HOOKE_CLI_NEEDS_RESULTS_H
+
+#include "print.h"
+#include "setup.h"
+
+struct hooke_needs_results {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  hooke_needs *needs;
+  int32_t refine;      /* 1: resolutions instead of ingredients */
+  const char *written; /* file of the lean scene, NULL: none */
+  char *command;       /* that runs it; NULL: none */
+};
+
+void hooke_needs_results_print(const struct hooke_needs_results *results);
+void hooke_needs_results_print_json(const struct hooke_needs_results *results);
+
+#endif

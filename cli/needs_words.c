@@ -1,0 +1,175 @@
+/* What a scene needs, for a person. */
+#include "needs_results.h"
+#include "rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH = 110, LABEL = 10 };
+
+static double nanoseconds(double wall, double steps) {
+  return steps > 0.0 ? 1e9 * wall / steps : (double)NAN;
+}
+
+/* ---- the table ---- */
+
+static void print_head(int32_t width) {
+  printf("%-*s %10s %12s %10s %10s %10s %10s\n", width, "without", "change", "evaluations", "ns a",
+         "wall time", "largest", "");
+  printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
+}
+
+static void print_limit(double limit) {
+  if (isinf(limit))
+    printf(" %10s", "none");
+  else
+    hooke_rows_print_cell(10, limit);
+}
+
+static void print_costs(double evaluations, double per_step, double wall, double limit) {
+  printf(" %12.0f", evaluations);
+  hooke_rows_print_cell(10, per_step);
+  hooke_rows_print_cell(10, wall);
+  print_limit(limit);
+}
+
+static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
+  const char *note = hooke_needs_text(needs, row, "note");
+  const double wall = hooke_needs_number(needs, row, "wall_seconds");
+  printf("%-*s", width, hooke_needs_text(needs, row, "without"));
+  if (isnan(hooke_needs_number(needs, row, "error"))) {
+    printf("  needed: ");
+    hooke_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
+    return;
+  }
+  hooke_rows_print_cell(10, hooke_needs_number(needs, row, "error"));
+  print_costs(hooke_needs_number(needs, row, "force_evaluations"),
+              nanoseconds(wall, hooke_needs_number(needs, row, "steps")), wall,
+              hooke_needs_number(needs, row, "step_limit"));
+  printf("  %s%s%s\n", hooke_needs_number(needs, row, "needed") == 1.0 ? "needed" : "-", note[0] ? "; " : "",
+         note);
+}
+
+static void print_table(const hooke_needs *needs) {
+  int32_t width = (int32_t)strlen("nothing (the full scene)");
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    const int32_t length = (int32_t)strlen(hooke_needs_text(needs, row, "without"));
+    if (length > width) width = length;
+  }
+  const double wall = hooke_needs_figure(needs, "wall_seconds");
+  print_head(width);
+  printf("%-*s %10s", width, "nothing (the full scene)", "");
+  print_costs(hooke_needs_figure(needs, "force_evaluations"),
+              nanoseconds(wall, hooke_needs_figure(needs, "steps")), wall,
+              hooke_needs_figure(needs, "step_limit"));
+  printf("\n");
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++)
+    print_row(needs, row, width);
+}
+
+/* ---- the lean scene ---- */
+
+static void print_lean(const struct hooke_needs_results *results) {
+  const hooke_needs *needs = results->needs;
+  if (!hooke_needs_lean(needs)) return;
+  int32_t left_out = 0;
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    if (hooke_needs_number(needs, row, "left_out") != 1.0) continue;
+    printf("%s%-*s%s\n", left_out ? "" : "\n", LABEL, left_out ? "" : "lean",
+           hooke_needs_text(needs, row, "without"));
+    left_out++;
+  }
+  if (!left_out) {
+    printf("\n%-*sall that would save something is needed: there is nothing to leave out\n", LABEL, "lean");
+    return;
+  }
+  printf("%-*sleft out together: error %.3g m, wall time %.3g s instead of %.3g s (%.1f times less), %.0f "
+         "springs "
+         "instead of %.0f\n",
+         LABEL, "", hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_wall_seconds"),
+         hooke_needs_figure(needs, "wall_seconds"),
+         hooke_needs_figure(needs, "wall_seconds") / hooke_needs_figure(needs, "lean_wall_seconds"),
+         hooke_needs_figure(needs, "lean_springs"), hooke_needs_figure(needs, "springs"));
+  printf("%-*s", LABEL, "");
+  if (results->command)
+    hooke_print_text(stdout, results->command);
+  else
+    printf("add -o LEAN.json to have it as a scene");
+  printf("\n");
+}
+
+/* ---- resolutions ---- */
+
+static void print_cells(const hooke_needs *needs, int64_t part, const char *const numbers[3]) {
+  char text[64] = "";
+  for (int a = 0; a < 3; a++) {
+    const double cells = hooke_needs_part_number(needs, part, numbers[a]);
+    const size_t used = strlen(text);
+    if (!isnan(cells)) snprintf(text + used, sizeof text - used, "%s%.0f", used ? " x " : "", cells);
+  }
+  printf(" %14s", text[0] ? text : "-");
+}
+
+static void print_parts(const hooke_needs *needs) {
+  static const char *const has[] = {"cells", "cells_second", "cells_third"};
+  static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
+  static const char *const numbers[] = {"change", "change_fine", "order", "error"};
+  int32_t width = (int32_t)strlen("part");
+  for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
+    const int32_t length = (int32_t)strlen(hooke_needs_part_text(needs, part, "part"));
+    if (length > width) width = length;
+  }
+  printf("%-*s %14s %12s %12s %8s %12s %14s\n", width, "part", "cells N", "N to 2N [m]", "2N to 4N [m]",
+         "order", "left [m]", "want asks for");
+  for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
+    const char *note = hooke_needs_part_text(needs, part, "note");
+    printf("%-*s", width, hooke_needs_part_text(needs, part, "part"));
+    print_cells(needs, part, has);
+    for (int k = 0; k < 4; k++)
+      hooke_rows_print_cell(k == 2 ? 8 : 12, hooke_needs_part_number(needs, part, numbers[k]));
+    print_cells(needs, part, wanted);
+    printf("\n");
+    if (note[0]) {
+      printf("%*s", width + 1, "");
+      hooke_print_wrapped(stdout, width + 1, width + 1, WIDTH, note);
+    }
+  }
+}
+
+static void print_trust(const hooke_needs *needs) {
+  const double until = hooke_needs_figure(needs, "judged_until");
+  if (until >= hooke_needs_figure(needs, "duration") * (1.0 - 1e-9)) return;
+  char text[256];
+  snprintf(
+      text, sizeof text,
+      "after %g s small differences grow so fast that no time step keeps its error below a tenth of what is "
+      "wanted: changes are those up to %g s of %g s",
+      until, until, hooke_needs_figure(needs, "duration"));
+  printf("%-*s", LABEL, "WARNING");
+  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  printf("\n");
+}
+
+void hooke_needs_results_print(const struct hooke_needs_results *results) {
+  const hooke_needs *needs = results->needs;
+  const char *title = hooke_scene_title(results->setup.scene);
+  hooke_print_text(stdout, title && title[0] ? title : results->arguments->scene);
+  printf("\n%s%s, %g m wanted", hooke_needs_word(needs, "method"),
+         hooke_needs_figure(needs, "method_picked") == 1.0 ? " (picked)" : "",
+         hooke_needs_figure(needs, "want"));
+  const double step_error = hooke_needs_figure(needs, "step_error");
+  if (isnan(step_error)) {
+    printf("; the full scene was not run to its end\n");
+    return;
+  }
+  printf("; the time step puts the full scene off by at most %.2g m\n\n", step_error);
+  print_trust(needs);
+  if (results->refine) {
+    print_parts(needs);
+    return;
+  }
+  print_table(needs);
+  printf("\nchange: of the watched positions, the largest over time of their root mean square\n");
+  print_lean(results);
+}

@@ -1,0 +1,126 @@
+/* What a `needs` holds, and its pieces. */
+#ifndef HOOKE_MEASURE_NEEDS_H
+#define HOOKE_MEASURE_NEEDS_H
+
+#include "hooke/needs.h"
+#include "model/variant.h"
+
+enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
+#define HOOKE_NEEDS_STEP_SHARE 0.1 /* of the want: what a time step may put a run off by */
+
+/* What a run takes, of one variant. NaN where it does not apply. */
+struct hooke_needs_cost {
+  double particles, springs, step_limit;
+  double step, rtol, atol, steps, force_evaluations, wall_seconds;
+  double step_error; /* how far the step may put it off [m] */
+};
+
+/* Watched positions at every frame: count numbers a frame. */
+struct hooke_needs_path {
+  int64_t recorded;
+  double *position;
+};
+
+struct hooke_needs_row {
+  char without[HOOKE_NEEDS_NAME];
+  const char *kind;
+  char note[HOOKE_NEEDS_NOTE];
+  struct hooke_variant variant;
+  double error; /* [m] */
+  int32_t measured, needed, left_out;
+  struct hooke_needs_cost cost;
+};
+
+struct hooke_needs_part {
+  const char *name;
+  int32_t axes;
+  int64_t cells[3];
+  double change, change_fine, order, error, factor;
+  char note[HOOKE_NEEDS_NOTE];
+};
+
+struct hooke_needs {
+  const hooke_system *system;
+  hooke_options *run, *options;
+  double want, duration, every, unit; /* unit: the largest step that frames allow [s] */
+  int32_t method_picked;
+  int64_t watch_count, *watch; /* particles */
+  int64_t frame_count, judged; /* frames; those up to which differences of the step stay small */
+
+  struct hooke_needs_cost full;
+  struct hooke_needs_path path; /* of the full system */
+  double *largest_force;        /* of each spring over the frames of the full system [N] */
+
+  int64_t row_count, row_capacity;
+  struct hooke_needs_row *row;
+
+  hooke_system *lean;
+  struct hooke_variant lean_variant;
+  struct hooke_variant_map lean_map;
+  hooke_options *lean_run;
+  struct hooke_needs_cost lean_cost;
+  struct hooke_needs_path lean_path; /* of the run that is recommended */
+  double lean_error;
+
+  int64_t part_count;
+  struct hooke_needs_part *part;
+
+  hooke_progress *progress;
+  void *progress_ctx;
+  const char *under_way;
+  int64_t pieces, pieces_done, runs; /* measurements expected and done; runs made */
+  double told;
+};
+
+/* ---- needs_watch.c ---- */
+
+/* Fills `watch` from the option. HOOKE_BAD_VALUE. */
+int32_t hooke_needs_read_watch(hooke_needs *needs);
+
+/* ---- needs_ingredients.c ---- */
+
+/* A row for every ingredient that the system has. */
+int32_t hooke_needs_list(hooke_needs *needs);
+/* Puts into an idle row the springs whose force never passes `force` [N]; returns how many. */
+int64_t hooke_needs_mark_idle(const hooke_needs *needs, double force, struct hooke_needs_row *row);
+
+/* ---- needs_run.c, needs_step.c ---- */
+
+int32_t hooke_needs_path_create(const hooke_needs *needs, struct hooke_needs_path *path);
+void hooke_needs_path_release(struct hooke_needs_path *path);
+/* Maximum over frames of the root mean square distance of the watched particles [m]. */
+double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_path *a,
+                            const struct hooke_needs_path *b);
+
+/* Frames up to which the same stays within `bound`. */
+int64_t hooke_needs_agreed(const hooke_needs *needs, const struct hooke_needs_path *a,
+                           const struct hooke_needs_path *b, double bound);
+
+/* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as well). */
+struct hooke_needs_trial {
+  const hooke_system *system;
+  const struct hooke_variant_map *map;
+};
+/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `coarse` (may be NULL)
+ * is the path of that run, `fine` that of the one with half the step. Where differences grow so fast that no step is small
+ * enough, step_error is that of the best; the full system then says how many frames are judged. It is NaN, and there are no
+ * paths, if no run came to its end. HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
+int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                            struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
+                            struct hooke_needs_path *fine);
+/* Sets the step or tolerances of a cost in options of a run. */
+int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run);
+
+/* ---- needs.c, needs_rows.c, needs_lean.c, needs_refine.c ---- */
+
+/* Runs the full system unless that was done. */
+int32_t hooke_needs_run_full(hooke_needs *needs);
+/* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
+int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row);
+int32_t hooke_needs_run_rows(hooke_needs *needs);
+int32_t hooke_needs_find_lean(hooke_needs *needs);
+
+/* Tells the share of one measurement; anything but 0 asks to stop. */
+int32_t hooke_needs_tell(hooke_needs *needs, double share);
+
+#endif

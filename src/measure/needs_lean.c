@@ -1,0 +1,135 @@
+/* Leaving out together what is not needed. */
+#include "measure/needs.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What a run of a lean system found. */
+struct candidate {
+  struct hooke_variant variant;
+  hooke_system *system;
+  struct hooke_variant_map map;
+  struct hooke_needs_cost cost;
+  struct hooke_needs_path path; /* of the run that is recommended */
+  double error;
+};
+
+static void release(struct candidate *candidate) {
+  hooke_variant_release(&candidate->variant);
+  hooke_variant_map_release(&candidate->map);
+  hooke_needs_path_release(&candidate->path);
+  hooke_system_destroy(candidate->system);
+  memset(candidate, 0, sizeof *candidate);
+}
+
+/* The run that is recommended, with its own step, against the full system: NaN where it has none. */
+static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
+  candidate->error = NAN;
+  int32_t status =
+      hooke_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
+  if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
+  if (status != HOOKE_OK) return status;
+  const struct hooke_needs_trial trial = {candidate->system, &candidate->map};
+  status = hooke_needs_measure(needs, &trial, &candidate->cost, &candidate->path, NULL);
+  if (status == HOOKE_OK && candidate->path.position)
+    candidate->error = hooke_needs_distance(needs, &needs->path, &candidate->path);
+  return status;
+}
+
+static int32_t take(hooke_needs *needs, struct candidate *candidate) {
+  hooke_variant_release(&needs->lean_variant);
+  hooke_variant_map_release(&needs->lean_map);
+  hooke_system_destroy(needs->lean);
+  hooke_options_destroy(needs->lean_run);
+  hooke_needs_path_release(&needs->lean_path);
+  needs->lean_variant = candidate->variant;
+  needs->lean_map = candidate->map;
+  needs->lean = candidate->system;
+  needs->lean_cost = candidate->cost;
+  needs->lean_path = candidate->path;
+  needs->lean_error = candidate->error;
+  memset(candidate, 0, sizeof *candidate);
+  const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
+  return status == HOOKE_OK ? hooke_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
+}
+
+/* Whether it makes a run cheaper: springs that only pull cost a comparison more, and lone springs that are left out break
+ * up runs of equal ones. */
+static int32_t saves(const hooke_needs *needs, const struct hooke_needs_row *row) {
+  if (strcmp(row->kind, "compression") == 0) return 0;
+  return strcmp(row->kind, "idle") != 0 || row->cost.wall_seconds < needs->full.wall_seconds;
+}
+
+static int32_t comes_before(const struct hooke_needs_row *a, const struct hooke_needs_row *b) {
+  if (a->error != b->error) return a->error < b->error;
+  return a->cost.particles + a->cost.springs < b->cost.particles + b->cost.springs;
+}
+
+/* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left out or tried;
+ * -1 if there is none. */
+static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
+  int64_t found = -1;
+  for (int64_t k = 0; k < needs->row_count; k++) {
+    const struct hooke_needs_row *row = &needs->row[k];
+    if (tried[k] || !row->measured || row->needed || !saves(needs, row)) continue;
+    if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
+    if (found < 0 || comes_before(row, &needs->row[found])) found = k;
+  }
+  return found;
+}
+
+static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
+  struct candidate candidate = {.system = NULL};
+  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  if (status == HOOKE_OK) {
+    hooke_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
+    hooke_variant_join(needs->system, &candidate.variant, &row->variant);
+    status = try_variant(needs, &candidate);
+  }
+  if (status == HOOKE_OK && candidate.error <= needs->want) {
+    row->left_out = 1;
+    status = take(needs, &candidate);
+  }
+  release(&candidate);
+  return status;
+}
+
+static int32_t begin_with_everything(hooke_needs *needs) {
+  struct candidate candidate = {.system = NULL};
+  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  if (status == HOOKE_OK) status = try_variant(needs, &candidate);
+  if (status == HOOKE_OK) status = take(needs, &candidate);
+  release(&candidate);
+  return status;
+}
+
+int32_t hooke_needs_find_lean(hooke_needs *needs) {
+  uint8_t *tried = hooke_new(needs->row_count, 1);
+  if (tried == NULL) return HOOKE_NO_MEMORY;
+  needs->under_way = "the lean scene";
+  int32_t status = begin_with_everything(needs);
+  needs->pieces_done++;
+  for (int64_t k; status == HOOKE_OK && (k = next_row(needs, tried)) >= 0;) {
+    tried[k] = 1;
+    status = add_row(needs, &needs->row[k]);
+    needs->pieces_done++;
+  }
+  hooke_free(tried);
+  return status;
+}
+
+int32_t hooke_needs_find(hooke_needs *needs) {
+  if (needs->row_count > 0 || needs->lean) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
+  }
+  int32_t status = hooke_needs_list(needs);
+  needs->pieces += 2 * needs->row_count + 1;
+  if (status == HOOKE_OK) status = hooke_needs_run_full(needs);
+  if (status == HOOKE_OK) status = hooke_needs_run_rows(needs);
+  if (status == HOOKE_OK) status = hooke_needs_find_lean(needs);
+  return status;
+}

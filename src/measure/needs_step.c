@@ -1,0 +1,202 @@
+/* Finding the step with which a variant is off by a tenth of the want at most. */
+#include "measure/needs_run.h"
+
+#include "core/status.h"
+#include "integrate/method.h"
+#include "measure/limit_predict.h"
+
+#include <math.h>
+
+static const double BELOW_LIMIT = 0.9; /* where the search begins */
+static const double DIFFERENCE_FACTOR =
+    2.0; /* error of a step over the change when it is halved, at order 1 or more */
+static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
+static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
+static const double STALLED = 0.75, LEAST_GAIN = 0.1; /* of the error by a finer step; of the duration */
+static const double MARGIN = 4.0; /* of the step's error, where only a part of the run can be judged */
+enum { REPEATS = 20 };
+static const double SHORT = 0.02; /* [s]: runs are repeated that long for their time */
+
+/* Steps are unit / value, tolerances 10^-value. */
+struct search {
+  struct hooke_needs_recorder recorder;
+  hooke_options *options;
+  int32_t adaptive;
+  double ratio; /* atol / rtol */
+  double value; /* of the coarser of two runs */
+  double first_stable;
+  double error; /* of the last pair; how far it agreed; how often in a row that did not improve */
+  int64_t frames;
+  int32_t stalls;
+  struct hooke_needs_path path[2];
+  struct hooke_needs_cost cost[2];
+  int32_t finished[2];
+};
+
+int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run) {
+  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
+  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}
+
+static double finer(const struct search *search, double value) {
+  return search->adaptive ? value + 1.0 : 2.0 * value;
+}
+
+static int32_t run_at(struct search *search, double value, int32_t which) {
+  struct hooke_needs_cost *cost = &search->cost[which];
+  cost->step = search->adaptive ? NAN : search->recorder.needs->unit / value;
+  cost->rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
+  cost->atol = cost->rtol * search->ratio;
+  search->recorder.path = &search->path[which];
+  const int32_t status = hooke_needs_set_step(cost, search->options);
+  return status == HOOKE_OK
+             ? hooke_needs_run_once(&search->recorder, search->options, &search->finished[which], cost)
+             : status;
+}
+
+static int32_t is_exhausted(const struct search *search) {
+  if (search->adaptive) return 1.0 / pow(10.0, search->value + 1.0) < FINEST_RTOL;
+  return search->value > FINEST * search->first_stable;
+}
+
+/* Frames up to which the two runs stay within `bound` of each other. */
+static int64_t agreed(const struct search *search, double bound) {
+  return hooke_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
+                            bound / DIFFERENCE_FACTOR);
+}
+
+/* 1 if smaller steps no longer help: differences grow too fast for any step to be small enough. */
+static int32_t has_stalled(struct search *search, double error, int64_t frames) {
+  const double gain = (double)(frames - search->frames) / (double)search->recorder.needs->frame_count;
+  const int32_t idle = error > STALLED * search->error && gain < LEAST_GAIN;
+  search->stalls = idle ? search->stalls + 1 : 0;
+  search->error = error;
+  search->frames = frames;
+  return search->stalls >= 2;
+}
+
+static void swap_runs(struct search *search) {
+  const struct hooke_needs_path path = search->path[0];
+  const struct hooke_needs_cost cost = search->cost[0];
+  search->path[0] = search->path[1];
+  search->cost[0] = search->cost[1];
+  search->finished[0] = search->finished[1];
+  search->path[1] = path;
+  search->cost[1] = cost;
+}
+
+/* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place 1. */
+static int32_t find_step(struct search *search) {
+  const hooke_needs *needs = search->recorder.needs;
+  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
+  int32_t status = run_at(search, search->value, 0);
+  for (search->error = INFINITY; status == HOOKE_OK;) {
+    status = run_at(search, finer(search, search->value), 1);
+    if (status != HOOKE_OK) break;
+    if (search->finished[0] && search->finished[1]) {
+      const double error =
+          DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+      if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
+    } else {
+      search->first_stable = finer(search, search->value);
+    }
+    if (is_exhausted(search)) break;
+    search->value = finer(search, search->value);
+    swap_runs(search);
+    search->recorder.share_begun += (1.0 - search->recorder.share_begun) / 3.0;
+  }
+  return status;
+}
+
+static double step_limit(const hooke_system *system, const char *method) {
+  hooke_state *state = NULL;
+  double limit = NAN;
+  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
+  const double *q = hooke_state_position(state);
+  if (hooke_limit_predict(system, q, method, NULL, NULL, 1e-3, &limit) != HOOKE_OK &&
+      hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
+    limit = NAN;
+  }
+  hooke_state_destroy(state);
+  return limit;
+}
+
+static void begin_search(struct search *search, double limit) {
+  const hooke_needs *needs = search->recorder.needs;
+  const double unit = needs->unit;
+  search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
+  search->recorder.share = 0.25;
+  if (search->adaptive) {
+    search->value = -log10(COARSEST_RTOL);
+    return;
+  }
+  double start = BELOW_LIMIT * limit;
+  if (limit == 0.0) start = unit / 64.0; /* stable at no step: a run is short enough or not */
+  search->value = start < unit ? ceil(unit / start) : 1.0;
+  search->first_stable = search->value;
+}
+
+/* The least of some runs, for those too short for one clock reading. */
+static int32_t repeat_for_time(struct search *search, struct hooke_needs_cost *cost) {
+  double spent = cost->wall_seconds;
+  search->recorder.path = NULL;
+  int32_t status = hooke_needs_set_step(cost, search->options);
+  for (int k = 1; k < REPEATS && spent < SHORT && status == HOOKE_OK; k++) {
+    struct hooke_needs_cost again = *cost;
+    int32_t finished;
+    status = hooke_needs_run_once(&search->recorder, search->options, &finished, &again);
+    if (again.wall_seconds < cost->wall_seconds) cost->wall_seconds = again.wall_seconds;
+    spent += again.wall_seconds;
+  }
+  return status;
+}
+
+/* The full system is judged, and all others against it, up to where the step can be trusted with a margin: variants grow
+ * differences about as fast. */
+static void judge_full(struct search *search, double *step_error) {
+  hooke_needs *needs = search->recorder.needs;
+  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
+  if (*step_error <= bound) return;
+  needs->judged = agreed(search, bound / MARGIN);
+  *step_error = DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+}
+
+static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to) {
+  if (to == NULL) return;
+  hooke_needs_path_release(to);
+  *to = *from;
+  from->position = NULL;
+}
+
+int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                            struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
+                            struct hooke_needs_path *fine) {
+  const char *name = hooke_options_text(needs->run, "method");
+  const double limit = step_limit(trial->system, name);
+  struct search search = {.recorder = {.needs = needs, .trial = trial},
+                          .adaptive = hooke_method_find(name)->adaptive};
+  begin_search(&search, limit);
+  int32_t status = hooke_options_copy(needs->run, &search.options);
+  for (int k = 0; k < 2 && status == HOOKE_OK; k++)
+    status = hooke_needs_path_create(needs, &search.path[k]);
+  if (status == HOOKE_OK) status = find_step(&search);
+  const int32_t finished = search.finished[0] && search.finished[1];
+  double step_error = finished ? search.error : (double)NAN;
+  if (status == HOOKE_OK && finished && trial->map == NULL) judge_full(&search, &step_error);
+  *cost = search.cost[0];
+  cost->step_error = step_error;
+  cost->step_limit = limit;
+  cost->springs = (double)hooke_system_spring_count(trial->system);
+  cost->particles = (double)hooke_system_particle_count(trial->system);
+  if (status == HOOKE_OK && finished) {
+    status = repeat_for_time(&search, cost);
+    hand_over(&search.path[0], coarse);
+    hand_over(&search.path[1], fine);
+  }
+  for (int k = 0; k < 2; k++)
+    hooke_needs_path_release(&search.path[k]);
+  hooke_options_destroy(search.options);
+  return status;
+}

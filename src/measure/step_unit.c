@@ -1,0 +1,19 @@
+#include "measure/step_unit.h"
+
+#include "core/status.h"
+
+#include <math.h>
+
+int32_t hooke_step_is_whole(double quotient) {
+  return fabs(quotient - round(quotient)) <= 1e-9 * quotient && round(quotient) >= 1.0;
+}
+
+int32_t hooke_step_unit(double duration, double every, double *unit) {
+  for (int32_t parts = 1; parts <= 10000; parts++) {
+    *unit = every / (double)parts;
+    if (hooke_step_is_whole(duration / *unit)) return HOOKE_OK;
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, "every",
+                    "%.17g s and duration %.17g s have no step in common; take a part of the duration", every,
+                    duration);
+}

@@ -1,0 +1,123 @@
+#include "model/variant.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <string.h>
+
+void hooke_variant_release(struct hooke_variant *variant) {
+  hooke_free(variant->group);
+  hooke_free(variant->spring);
+  hooke_free(variant->particle);
+  hooke_free(variant->part);
+  hooke_free(variant->scale);
+  memset(variant, 0, sizeof *variant);
+}
+
+int32_t hooke_variant_create(const hooke_system *system, struct hooke_variant *variant) {
+  memset(variant, 0, sizeof *variant);
+  variant->group = hooke_new(system->group_count, 1);
+  variant->spring = hooke_new(system->springs.count, 1);
+  variant->particle = hooke_new(system->particle_count, 1);
+  variant->part = hooke_new(system->part_count, 1);
+  variant->scale = hooke_new(system->part_count, sizeof(double));
+  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->scale) {
+    hooke_variant_release(variant);
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t k = 0; k < system->part_count; k++)
+    variant->scale[k] = 1.0;
+  return HOOKE_OK;
+}
+
+static void join(int64_t count, uint8_t *flag, const uint8_t *other) {
+  for (int64_t k = 0; k < count; k++)
+    flag[k] |= other[k];
+}
+
+void hooke_variant_join(const hooke_system *system, struct hooke_variant *variant,
+                        const struct hooke_variant *other) {
+  variant->gravity |= other->gravity;
+  variant->drag |= other->drag;
+  variant->force |= other->force;
+  variant->damping |= other->damping;
+  variant->compression |= other->compression;
+  join(system->group_count, variant->group, other->group);
+  join(system->springs.count, variant->spring, other->spring);
+  join(system->particle_count, variant->particle, other->particle);
+  join(system->part_count, variant->part, other->part);
+  for (int64_t k = 0; k < system->part_count; k++)
+    variant->scale[k] *= other->scale[k];
+}
+
+static int32_t covers_springs(const hooke_system *system, const struct hooke_variant *variant,
+                              const struct hooke_variant *other) {
+  int64_t first = 0;
+  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+    const struct hooke_group *group = &system->group[g];
+    if (variant->group[g] || (group->from_part && variant->part[group->part])) continue;
+    if (other->group[g]) return 0;
+    for (int64_t s = first; s < first + group->count; s++) {
+      if (other->spring[s] && !variant->spring[s]) return 0;
+    }
+  }
+  return 1;
+}
+
+int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_variant *variant,
+                             const struct hooke_variant *other) {
+  int32_t covered = other->gravity <= variant->gravity && other->drag <= variant->drag &&
+                    other->force <= variant->force && other->damping <= variant->damping &&
+                    other->compression <= variant->compression;
+  for (int64_t k = 0; k < system->part_count && covered; k++)
+    covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
+  for (int64_t p = 0; p < system->particle_count && covered; p++)
+    covered = other->particle[p] <= variant->particle[p];
+  return covered && covers_springs(system, variant, other);
+}
+
+/* A callback of the caller's knows particles by their numbers. */
+static int32_t check_callbacks(const hooke_system *from, const struct hooke_variant *variant) {
+  int32_t renumbered = 0;
+  for (int64_t k = 0; k < from->particle_count; k++)
+    renumbered |= variant->particle[k];
+  for (int64_t k = 0; k < from->part_count; k++)
+    renumbered |= variant->part[k] || variant->scale[k] != 1.0;
+  if (!renumbered || !from->force || variant->force) return HOOKE_OK;
+  return hooke_fail(HOOKE_UNSUITED, NULL,
+                    "a force callback knows particles by their numbers, which would change");
+}
+
+static int32_t add_forces(const struct hooke_variant_maker *maker) {
+  const hooke_system *from = maker->from;
+  const struct hooke_variant *variant = maker->variant;
+  int32_t status = HOOKE_OK;
+  if (from->has_gravity && !variant->gravity) status = hooke_system_set_gravity(maker->made, from->gravity);
+  if (status == HOOKE_OK && !variant->drag) status = hooke_system_set_drag(maker->made, from->drag);
+  if (status == HOOKE_OK && from->force && !variant->force) {
+    status = hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx);
+  }
+  return status;
+}
+
+int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant *variant, hooke_system **made,
+                           struct hooke_variant_map *map) {
+  struct hooke_variant_maker maker = {from, variant, NULL, map};
+  *map = (struct hooke_variant_map){.from = from};
+  *made = NULL;
+  int32_t status = hooke_system_require_committed(from);
+  if (status == HOOKE_OK) status = check_callbacks(from, variant);
+  if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
+  if (status == HOOKE_OK) status = hooke_variant_add_particles(&maker);
+  if (status == HOOKE_OK) status = hooke_variant_hold(&maker);
+  if (status == HOOKE_OK) status = hooke_variant_add_springs(&maker);
+  if (status == HOOKE_OK) status = add_forces(&maker);
+  if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
+  if (status == HOOKE_OK) {
+    *made = maker.made;
+  } else {
+    hooke_system_destroy(maker.made);
+    hooke_variant_map_release(map);
+  }
+  return status;
+}
