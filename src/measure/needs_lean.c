@@ -107,6 +107,25 @@ static int32_t begin_with_everything(hooke_needs *needs) {
   return status;
 }
 
+/* What went with another row is not told twice. */
+static void tidy_up(hooke_needs *needs) {
+  for (int64_t k = 0; k < needs->row_count; k++) {
+    struct hooke_needs_row *row = &needs->row[k];
+    for (int64_t other = 0; other < needs->row_count && row->left_out; other++) {
+      row->left_out = other == k || !needs->row[other].left_out ||
+                      !hooke_variant_covers(needs->system, &needs->row[other].variant, &row->variant);
+    }
+  }
+}
+
+/* Why a row that is not needed stays in the lean system, where it has nothing else to say. */
+static void say_why_it_stays(const hooke_needs *needs, struct hooke_needs_row *row) {
+  if (row->needed || row->left_out || row->note[0]) return;
+  if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
+  snprintf(row->note, sizeof row->note, "%s",
+           saves(needs, row) ? "not together with the rest" : "saves nothing");
+}
+
 int32_t hooke_needs_find_lean(hooke_needs *needs) {
   uint8_t *tried = hooke_new(needs->row_count, 1);
   if (tried == NULL) return HOOKE_NO_MEMORY;
@@ -119,6 +138,9 @@ int32_t hooke_needs_find_lean(hooke_needs *needs) {
     needs->pieces_done++;
   }
   hooke_free(tried);
+  tidy_up(needs);
+  for (int64_t k = 0; k < needs->row_count && status == HOOKE_OK; k++)
+    say_why_it_stays(needs, &needs->row[k]);
   return status;
 }
 

@@ -67,11 +67,18 @@ static int64_t agreed(const struct search *search, double bound) {
                             bound / DIFFERENCE_FACTOR);
 }
 
+/* 1 if the step is not yet as small as that of the full system. */
+static int32_t is_coarser_than_full(const struct search *search) {
+  const struct hooke_needs_cost *full = &search->recorder.needs->full, *own = &search->cost[0];
+  if (search->recorder.trial->map == NULL) return 0;
+  return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
+}
+
 /* 1 if smaller steps no longer help: differences grow too fast for any step to be small enough. */
 static int32_t has_stalled(struct search *search, double error, int64_t frames) {
   const double gain = (double)(frames - search->frames) / (double)search->recorder.needs->frame_count;
   const int32_t idle = error > STALLED * search->error && gain < LEAST_GAIN;
-  search->stalls = idle ? search->stalls + 1 : 0;
+  search->stalls = idle && !is_coarser_than_full(search) ? search->stalls + 1 : 0;
   search->error = error;
   search->frames = frames;
   return search->stalls >= 2;

@@ -1,0 +1,81 @@
+"""Scenes with something in them that does nothing, and something that counts: `hooke needs` tells which is which."""
+
+import pathlib
+
+import h5py
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.everything
+
+FOLDER = pathlib.Path(__file__).parent / "scenes" / "needs"
+
+# scene: want [m], what is watched, what is not needed, what is needed
+PLANTED = {
+    "flat-cloth": (1e-4, None, ["cloth.bend", "cloth.shear"], ["cloth.structural", "gravity"]),
+    "only-falls": (1e-3, None, ["rope.stretch", "rope.bend", "damping"], ["gravity"]),
+    "far-away": (1e-3, "rope", ["curtain", "curtain.structural", "curtain.shear", "half the resolution of curtain"],
+                 ["rope.stretch", "gravity"]),
+    "faint-drag": (1e-3, None, ["drag"], ["rod", "gravity"]),
+    "short-beat": (5e-3, None, ["gravity"], ["pair"]),
+    "taut-chain": (1e-3, None, ["resistance to compression"], ["rope.stretch", "gravity"]),
+    "idle-net": (5e-3, None, ["7 springs that never pass"], ["net", "gravity"]),
+    "pinned-marks": (2e-3, None, ["3 particles that touch nothing"], ["rod", "gravity"]),
+    "smooth-rope": (1e-3, None, ["half the resolution of rope"], ["rope.stretch", "gravity"]),
+    "damped-mass": (1e-3, None, ["drag"], ["damper", "damping"]),
+    "shaken-rope": (1e-3, "rope", ["rope.bend", "twin"], ["rope.stretch", "damping"]),
+    "free-sheet": (1e-3, "0-24", ["u", "v", "damping", "drag"], []),
+}
+
+
+# Shapes of the grids of particles that are compared after half the resolution, in the full scene.
+GRIDS = {"flat-cloth": (7, 7), "only-falls": (17,), "smooth-rope": (41,), "taut-chain": (11,)}
+
+
+def rows_called(rows, name):
+    return [row for row in rows if row["without"] == name or row["without"].startswith(name + " ")]
+
+
+def find(hooke, name, *options):
+    want, watch, _, _ = PLANTED[name]
+    watching = ["--watch", watch] if watch else []
+    answer = hooke("needs", FOLDER / f"{name}.json", "--want", repr(want), *watching, *options, "--json")
+    assert answer.code == 0, answer.err
+    return answer.json
+
+
+@pytest.mark.parametrize("name", sorted(PLANTED))
+def test_what_does_nothing_is_found_and_what_counts_is_kept(hooke, name):
+    want, _, unneeded, needed = PLANTED[name]
+    found = find(hooke, name)
+    for expected, ingredients in ((False, unneeded), (True, needed)):
+        for ingredient in ingredients:
+            rows = rows_called(found["rows"], ingredient)
+            assert len(rows) == 1, (ingredient, [row["without"] for row in found["rows"]])
+            assert rows[0]["needed"] is expected, rows[0]
+            assert (rows[0]["error"] > want) is expected
+    assert not set(needed) & set(found["lean"]["without"])
+    assert found["lean"]["error"] <= want
+    assert found["lean"]["springs"] <= found["full"]["springs"]
+
+
+def positions(hooke, scene, path, *options):
+    answer = hooke("run", scene, "-o", path, *options)
+    assert answer.code == 0, answer.err
+    with h5py.File(path) as file:
+        return file["particles/all/position/value"][:]
+
+
+@pytest.mark.parametrize("name", ["damped-mass", "flat-cloth", "free-sheet", "only-falls", "smooth-rope", "taut-chain"])
+def test_the_lean_scene_is_within_the_want_of_a_full_run_made_apart(hooke, tmp_path, name):
+    found = find(hooke, name, "-o", tmp_path / "lean.json")
+    fine = ("--method", "rk4", "--step", repr(found["full"]["step"] / 8))
+    full = positions(hooke, FOLDER / f"{name}.json", tmp_path / "full.h5", *fine)
+    lean = positions(hooke, tmp_path / "lean.json", tmp_path / "lean.h5")
+    if lean.shape != full.shape:
+        grid = full.reshape(len(full), *GRIDS[name], 3)
+        full = grid[(slice(None),) + (slice(None, None, 2),) * len(GRIDS[name])].reshape(lean.shape)
+    error = np.sqrt(((full - lean) ** 2).sum(axis=2).mean(axis=1)).max()
+    # of every second particle rather than of all, the mean may be a little larger
+    assert error <= 1.3 * PLANTED[name][0]
+    assert error == pytest.approx(found["lean"]["error"], rel=0.5, abs=0.2 * PLANTED[name][0])

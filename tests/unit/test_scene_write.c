@@ -1,0 +1,135 @@
+/* A system written as a scene and read again is the same system, to the bit. */
+#include "check.h"
+#include "random_scene.h"
+
+#include "model/system.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#if HOOKE_HAVE_JANSSON
+
+static void check_springs(const hooke_system *found, const hooke_system *expected) {
+  const int64_t count = hooke_system_spring_count(expected);
+  assert_int_equal(hooke_system_spring_count(found), count);
+  double *a = new_doubles(3 * count), *b = new_doubles(3 * count);
+  int64_t *ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
+  check_ok(hooke_system_spring_ends(found, ends));
+  check_ok(hooke_system_spring_ends(expected, other));
+  assert_memory_equal(ends, other, (size_t)(2 * count) * sizeof *ends);
+  check_ok(hooke_system_spring_material(found, a, a + count, a + 2 * count));
+  check_ok(hooke_system_spring_material(expected, b, b + count, b + 2 * count));
+  check_same_bits(3 * count, a, b);
+  free(a);
+  free(b);
+  free(ends);
+  free(other);
+}
+
+static void check_same_system(const hooke_system *found, const hooke_system *expected) {
+  const int64_t n = expected->particle_count;
+  assert_int_equal(found->particle_count, n);
+  check_same_bits(3 * n, found->position, expected->position);
+  check_same_bits(3 * n, found->velocity, expected->velocity);
+  check_same_bits(n, found->mass, expected->mass);
+  assert_memory_equal(found->held, expected->held, (size_t)n);
+  assert_int_equal(found->group_count, expected->group_count);
+  for (int64_t g = 0; g < expected->group_count; g++)
+    assert_string_equal(found->group[g].name, expected->group[g].name);
+  check_springs(found, expected);
+  check_same_bits(3, found->gravity, expected->gravity);
+  check_same_bits(1, &found->drag, &expected->drag);
+  assert_int_equal(found->drive_count, expected->drive_count);
+}
+
+static void write_and_read(const hooke_system *system, hooke_scene **scene) {
+  char path[] = "/tmp/hooke-scene-XXXXXX";
+  hooke_options *run;
+  const int descriptor = mkstemp(path);
+  assert_true(descriptor >= 0);
+  close(descriptor);
+  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_set_number(run, "step", 0.1));
+  check_ok(hooke_options_set_text(run, "method", "rk4"));
+  check_ok(hooke_scene_write(path, system, "a \"title\" \\ <b> \xc3\xa4", run));
+  check_ok(hooke_scene_load(path, scene));
+  check_ok(hooke_scene_commit(*scene));
+  assert_string_equal(hooke_scene_title(*scene), "a \"title\" \\ <b> \xc3\xa4");
+  assert_true(hooke_options_number(hooke_scene_run_options(*scene), "step") == 0.1);
+  assert_string_equal(hooke_options_text(hooke_scene_run_options(*scene), "method"), "rk4");
+  assert_false(hooke_options_is_set(hooke_scene_run_options(*scene), "duration"));
+  hooke_options_destroy(run);
+  unlink(path);
+}
+
+static void random_systems_come_back(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 64; seed++) {
+    const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
+    struct random_scene scene;
+    hooke_scene *read;
+    random_scene_create(
+        (struct random_scene_request){
+            .seed = seed, .particles = 20, .springs = 40, .features = features, .cloth = {5, 4}, .rope = 7},
+        &scene);
+    write_and_read(scene.system, &read);
+    check_same_system(hooke_scene_system(read), scene.system);
+    hooke_scene_destroy(read);
+    random_scene_destroy(&scene);
+  }
+}
+
+/* Driven as before: at some times, in the same places to the bit. */
+static void drives_come_back(void **state) {
+  (void)state;
+  const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};
+  const double time[3] = {0, 0.5, 2}, displacement[9] = {0, 0, 0, 0.1, 0.2, 0.3, 0, 1, 0};
+  const int64_t first = 0, last = 2;
+  hooke_system *system;
+  hooke_scene *read;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 3, at, NULL, 3, mass, NULL));
+  check_ok(hooke_system_drive_harmonic(system, 1, &first, amplitude, 1.5, 0.25));
+  check_ok(hooke_system_drive_table(system, 1, &last, 3, time, displacement));
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  for (int64_t d = 0; d < 2; d++) {
+    for (double t = -0.5; t < 3.0; t += 0.11) {
+      double a[6], b[6];
+      check_ok(hooke_drive_evaluate(&system->drive[d], t, a, a + 3));
+      check_ok(hooke_drive_evaluate(&hooke_scene_system(read)->drive[d], t, b, b + 3));
+      check_same_bits(6, b, a);
+    }
+  }
+  hooke_scene_destroy(read);
+  hooke_system_destroy(system);
+}
+
+#endif
+
+static void callbacks_cannot_be_written(void **state) {
+  (void)state;
+  struct random_scene scene;
+  random_scene_create(
+      (struct random_scene_request){.seed = 5, .particles = 10, .springs = 9, .features = SCENE_CALLBACK},
+      &scene);
+  check_status(hooke_scene_write("/tmp/hooke-never-written.json", scene.system, NULL, NULL), HOOKE_UNSUITED);
+  check_message("callback");
+  assert_int_not_equal(access("/tmp/hooke-never-written.json", F_OK), 0);
+  random_scene_destroy(&scene);
+}
+
+int main(void) {
+#if HOOKE_HAVE_JANSSON
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(random_systems_come_back),
+      cmocka_unit_test(drives_come_back),
+      cmocka_unit_test(callbacks_cannot_be_written),
+  };
+#else
+  const struct CMUnitTest tests[] = {cmocka_unit_test(callbacks_cannot_be_written)};
+#endif
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,307 @@
+/* Variants of a system: what is not changed has the same bits, what is left out is out, and parts at another resolution
+ * stand for the same material. */
+#include "check.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include "model/variant.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static hooke_system *make(const hooke_system *from, const struct hooke_variant *variant,
+                          struct hooke_variant_map *map) {
+  hooke_system *made;
+  check_ok(hooke_variant_make(from, variant, &made, map));
+  return made;
+}
+
+static struct hooke_variant nothing_of(const hooke_system *system) {
+  struct hooke_variant variant;
+  check_ok(hooke_variant_create(system, &variant));
+  return variant;
+}
+
+static void release(struct hooke_variant *variant, struct hooke_variant_map *map, hooke_system *made) {
+  hooke_variant_release(variant);
+  hooke_variant_map_release(map);
+  hooke_system_destroy(made);
+}
+
+/* ---- nothing changed ---- */
+
+static void check_same_run(const hooke_system *a, const hooke_system *b) {
+  const int64_t size = 3 * hooke_system_particle_count(a);
+  const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.02};
+  double *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size), *v2 = new_doubles(size);
+  run_to_end(a, run, q, v);
+  run_to_end(b, run, q2, v2);
+  check_same_bits(size, q2, q);
+  check_same_bits(size, v2, v);
+  free(q);
+  free(v);
+  free(q2);
+  free(v2);
+}
+
+static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 64; seed++) {
+    struct random_scene scene;
+    random_scene_create((struct random_scene_request){.seed = seed,
+                                                      .particles = 30,
+                                                      .springs = 60,
+                                                      .features = (int32_t)(seed * 37 % 256),
+                                                      .cloth = {5, 4},
+                                                      .rope = 7},
+                        &scene);
+    struct hooke_variant variant = nothing_of(scene.system);
+    struct hooke_variant_map map;
+    hooke_system *made = make(scene.system, &variant, &map);
+    const int64_t springs = hooke_system_spring_count(scene.system);
+    assert_int_equal(hooke_system_particle_count(made), hooke_system_particle_count(scene.system));
+    assert_int_equal(hooke_system_spring_count(made), springs);
+    assert_int_equal(hooke_system_group_count(made), hooke_system_group_count(scene.system));
+    for (int64_t p = 0; p < hooke_system_particle_count(made); p++)
+      assert_int_equal(map.to[p], p);
+    check_same_run(scene.system, made);
+    release(&variant, &map, made);
+    random_scene_destroy(&scene);
+  }
+}
+
+/* ---- a scene of two parts and a group that joins them ---- */
+
+static void add_family(hooke_options *options, const char *family, double stiffness, double damping) {
+  char name[64];
+  snprintf(name, sizeof name, "%s.stiffness", family);
+  check_ok(hooke_options_set_number(options, name, stiffness));
+  snprintf(name, sizeof name, "%s.damping", family);
+  check_ok(hooke_options_set_number(options, name, damping));
+}
+
+/* Particles 0 and 1 alone, a rope of 9 (2 to 10), a cloth of 7 x 5 (11 to 45). */
+static hooke_system *two_parts(void) {
+  hooke_system *system;
+  hooke_options *rope, *cloth, *ties;
+  const double alone[6] = {-1, 0, 0, 5, 5, 5}, mass = 0.5, gravity[3] = {0, -9.81, 0};
+  const double from[3] = {0, 0, 0}, to[3] = {2, 0, 0}, origin[3] = {0, 0, 1}, edges[6] = {3, 0, 0, 0, 0, 2};
+  const double size[2] = {7, 5}, held[2] = {0, 1};
+  const int64_t ends[4] = {0, 2, 10, 11}, pinned = 1;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 2, alone, NULL, 1, &mass, NULL));
+  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
+  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  check_ok(hooke_options_set_number(rope, "segments", 8));
+  check_ok(hooke_options_set_number(rope, "mass", 1));
+  check_ok(hooke_options_set_numbers(rope, "pinned", 2, held));
+  add_family(rope, "stretch", 100, 0.1);
+  add_family(rope, "bend", 10, 0);
+  check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
+  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
+  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
+  check_ok(hooke_options_set_number(cloth, "mass", 2));
+  check_ok(hooke_options_set_text(cloth, "pinned", "top"));
+  add_family(cloth, "structural", 50, 0.2);
+  add_family(cloth, "shear", 20, 0);
+  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
+  check_ok(hooke_spring_options_create(&ties));
+  check_ok(hooke_options_set_number(ties, "stiffness", 30));
+  check_ok(hooke_options_set_number(ties, "damping", 0.3));
+  check_ok(hooke_system_add_springs(system, "ties", 2, ends, ties));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_set_drag(system, 0.1));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(rope);
+  hooke_options_destroy(cloth);
+  hooke_options_destroy(ties);
+  return system;
+}
+
+enum { TIES = 0, STRETCH = 1, BEND = 2, STRUCTURAL = 3, SHEAR = 4, ROPE = 0, CLOTH = 1 };
+
+static int64_t size_of(const hooke_system *system, const char *name) {
+  for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
+    if (strcmp(hooke_system_group_name(system, g), name) == 0) return hooke_system_group_size(system, g);
+  }
+  return 0;
+}
+
+static void check_sizes(const hooke_system *made, const int64_t size[5]) {
+  static const char *const names[] = {"ties", "rope.stretch", "rope.bend", "cloth.structural", "cloth.shear"};
+  for (int k = 0; k < 5; k++)
+    assert_int_equal(size_of(made, names[k]), size[k]);
+}
+
+static void what_is_left_out_is_out(void **state) {
+  (void)state;
+  hooke_system *system = two_parts(), *made;
+  struct hooke_variant variant = nothing_of(system);
+  struct hooke_variant_map map;
+  check_sizes(system, (const int64_t[]){2, 8, 7, 58, 48});
+  assert_int_equal(hooke_system_force_count(system), 3);
+
+  variant.group[BEND] = variant.group[TIES] = 1;
+  variant.gravity = variant.drag = variant.damping = 1;
+  made = make(system, &variant, &map);
+  check_sizes(made, (const int64_t[]){0, 8, 0, 58, 48});
+  assert_int_equal(hooke_system_force_count(made), 1);
+  double gamma[128];
+  check_ok(hooke_system_spring_material(made, NULL, gamma, NULL));
+  for (int64_t k = 0; k < hooke_system_spring_count(made); k++)
+    assert_true(gamma[k] == 0.0);
+  release(&variant, &map, made);
+
+  /* a part takes its springs with it, and the ties to it; particles after it move up */
+  variant = nothing_of(system);
+  variant.part[ROPE] = variant.particle[1] = 1;
+  made = make(system, &variant, &map);
+  check_sizes(made, (const int64_t[]){0, 0, 0, 58, 48});
+  assert_int_equal(hooke_system_particle_count(made), 36);
+  assert_int_equal(map.to[0], 0);
+  assert_int_equal(map.to[1], -1);
+  assert_int_equal(map.to[5], -1);
+  assert_int_equal(map.to[11], 1);
+  double place[3], *q = new_doubles(3 * 36);
+  hooke_variant_place(&map, 5, q, place);
+  assert_true(isnan(place[0]));
+  free(q);
+  release(&variant, &map, made);
+  hooke_system_destroy(system);
+}
+
+/* Of the seven springs two apart in the rope, two; the rest is a group of its own, in the numbers of the explicit ones. */
+static void single_springs_of_a_family_are_left_out(void **state) {
+  (void)state;
+  hooke_system *system = two_parts();
+  struct hooke_variant variant = nothing_of(system);
+  struct hooke_variant_map map;
+  variant.spring[2 + 8] = variant.spring[2 + 8 + 3] = variant.spring[1] = 1;
+  hooke_system *made = make(system, &variant, &map);
+  check_sizes(made, (const int64_t[]){1, 8, 5, 58, 48});
+  int64_t ends[2 * 128];
+  double kappa[128], gamma[128], full[128];
+  check_ok(hooke_system_spring_ends(made, ends));
+  check_ok(hooke_system_spring_material(made, kappa, gamma, NULL));
+  check_ok(hooke_system_spring_material(system, full, NULL, NULL));
+  const int64_t left[] = {3, 4, 6, 7, 8}; /* lower ends: 2 + 1, 2 + 2, 2 + 4, ... */
+  for (int k = 0; k < 5; k++) {
+    assert_int_equal(ends[2 * (1 + k)], left[k]);
+    assert_int_equal(ends[2 * (1 + k) + 1], left[k] + 2);
+    assert_true(kappa[1 + k] == full[2 + 8]);
+  }
+  release(&variant, &map, made);
+  hooke_system_destroy(system);
+}
+
+/* ---- resolution ---- */
+
+/* Positions of the variant that are an affine function of the material are found again at every particle. */
+static void check_affine(const hooke_system *system, const hooke_system *made,
+                         const struct hooke_variant_map *map) {
+  hooke_state *from, *to;
+  check_ok(hooke_state_create(system, &from));
+  check_ok(hooke_state_create(made, &to));
+  double *q = hooke_state_position(to);
+  for (int64_t p = 0; p < hooke_system_particle_count(made); p++) {
+    const double x = q[3 * p], y = q[3 * p + 1], z = q[3 * p + 2];
+    q[3 * p] = 1.0 + 2.0 * x - z;
+    q[3 * p + 1] = y + 0.5 * x;
+    q[3 * p + 2] = 3.0 * z - x;
+  }
+  for (int64_t p = 0; p < hooke_system_particle_count(system); p++) {
+    const double *at = hooke_state_position(from) + 3 * p;
+    double place[3];
+    hooke_variant_place(map, p, q, place);
+    check_close(place[0], 1.0 + 2.0 * at[0] - at[2], 1e-14);
+    check_close(place[1], at[1] + 0.5 * at[0], 1e-14);
+    check_close(place[2], 3.0 * at[2] - at[0], 1e-14);
+  }
+  hooke_state_destroy(from);
+  hooke_state_destroy(to);
+}
+
+static int64_t pinned_count(const hooke_system *system) {
+  return hooke_system_particle_count(system) - hooke_system_free_count(system);
+}
+
+static void parts_at_another_resolution_stand_for_the_same_material(void **state) {
+  (void)state;
+  static const struct {
+    double rope, cloth;
+    int64_t particles, pinned;
+  } cases[] = {
+      {0.5, 1.0, 2 + 5 + 35, 1 + 2 + 7},  /* the clamp of two stays one */
+      {2.0, 1.0, 2 + 17 + 35, 1 + 3 + 7}, /* and is as long as before */
+      {4.0, 1.0, 2 + 33 + 35, 1 + 5 + 7},
+      {1.0, 0.5, 2 + 9 + 4 * 3, 1 + 2 + 4}, /* 6 x 4 cells: 3 x 2 */
+      {1.0, 2.0, 2 + 9 + 13 * 9, 1 + 2 + 13},
+      {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the least */
+  };
+  hooke_system *system = two_parts();
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct hooke_variant variant = nothing_of(system);
+    struct hooke_variant_map map;
+    variant.scale[ROPE] = cases[k].rope;
+    variant.scale[CLOTH] = cases[k].cloth;
+    hooke_system *made = make(system, &variant, &map);
+    assert_int_equal(hooke_system_particle_count(made), cases[k].particles);
+    assert_int_equal(pinned_count(made), cases[k].pinned);
+    assert_int_equal(size_of(made, "ties"), 2);
+    check_affine(system, made, &map);
+    release(&variant, &map, made);
+  }
+  hooke_system_destroy(system);
+}
+
+static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+static void a_callback_keeps_its_particles(void **state) {
+  (void)state;
+  struct random_scene scene;
+  random_scene_create(
+      (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
+  struct hooke_variant variant = nothing_of(scene.system);
+  struct hooke_variant_map map;
+  hooke_system *made = make(scene.system, &variant, &map);
+  hooke_system_destroy(made);
+  hooke_variant_map_release(&map);
+
+  hooke_system *open;
+  const double at[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0;
+  check_ok(hooke_system_create(&open));
+  check_ok(hooke_system_add_particles(open, 2, at, NULL, 1, &mass, NULL));
+  check_ok(hooke_system_set_force(open, no_force, NULL, NULL));
+  check_ok(hooke_system_commit(open));
+  struct hooke_variant fewer = nothing_of(open);
+  fewer.particle[0] = 1;
+  check_status(hooke_variant_make(open, &fewer, &made, &map), HOOKE_UNSUITED);
+  assert_null(made);
+  fewer.force = 1; /* without the callback nobody minds */
+  made = make(open, &fewer, &map);
+  assert_int_equal(hooke_system_particle_count(made), 1);
+  release(&fewer, &map, made);
+  hooke_variant_release(&variant);
+  hooke_system_destroy(open);
+  random_scene_destroy(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_variant_that_changes_nothing_has_the_same_bits),
+      cmocka_unit_test(what_is_left_out_is_out),
+      cmocka_unit_test(single_springs_of_a_family_are_left_out),
+      cmocka_unit_test(parts_at_another_resolution_stand_for_the_same_material),
+      cmocka_unit_test(a_callback_keeps_its_particles),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
