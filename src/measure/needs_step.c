@@ -94,6 +94,14 @@ static void swap_runs(struct search *search) {
   search->cost[1] = cost;
 }
 
+/* 1 if a variant with a step as small as that of the full system is off by more than the want, whatever the step does. */
+static int32_t is_needed_for_certain(const struct search *search, double error) {
+  const hooke_needs *needs = search->recorder.needs;
+  if (search->recorder.trial->map == NULL || needs->path.position == NULL || is_coarser_than_full(search))
+    return 0;
+  return hooke_needs_distance(needs, &needs->path, &search->path[1]) - error > needs->want;
+}
+
 /* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place 1. */
 static int32_t find_step(struct search *search) {
   const hooke_needs *needs = search->recorder.needs;
@@ -106,6 +114,7 @@ static int32_t find_step(struct search *search) {
       const double error =
           DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
       if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
+      if (is_needed_for_certain(search, error)) break;
     } else {
       search->first_stable = finer(search, search->value);
     }
