@@ -51,6 +51,7 @@ static void test_small_scenes(void **unused) {
       compare_scene((struct random_scene_request){.seed = seed,
                                                   .particles = 7 + (int64_t)(seed * 37 % 900),
                                                   .springs = (int64_t)(seed * 53 % 1500),
+                                                  .triples = (int64_t)(round * (seed * 71 % 1900)),
                                                   .features = features});
     }
   }
@@ -62,7 +63,7 @@ static void test_large_scenes(void **unused) {
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
   for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
     compare_scene((struct random_scene_request){
-        .seed = 7001 + k, .particles = 30011, .springs = 100003, .features = features[k]});
+        .seed = 7001 + k, .particles = 30011, .springs = 100003, .triples = 50021, .features = features[k]});
   }
 }
 
@@ -76,6 +77,7 @@ static void test_parts(void **unused) {
       compare_scene((struct random_scene_request){.seed = (uint64_t)(9000 + k * sizes + m),
                                                   .particles = 7 + m,
                                                   .springs = k == m ? 0 : 20,
+                                                  .triples = m % 2 ? 5 : 0,
                                                   .features = features,
                                                   .cloth = {size[k], size[m]},
                                                   .rope = 1 + (k * sizes + m) % 70});
