@@ -1,4 +1,4 @@
-/* What parts make of material values that mean the same at every resolution: density, damping ratio, bending stiffness.
+/* What parts make of values of a material, which do not name a resolution: density, damping ratio, bending stiffness.
  * Every number that comes of them goes into the system's list of derived numbers. */
 #ifndef HOOKE_BUILD_MATERIAL_H
 #define HOOKE_BUILD_MATERIAL_H
