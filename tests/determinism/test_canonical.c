@@ -172,6 +172,39 @@ static void test_planted_faults(void **unused) {
   free(b);
 }
 
+/* Triples in another order have to show. */
+static void test_planted_bending(void **unused) {
+  (void)unused;
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = 31, .particles = 200, .triples = 900}, &scene);
+  struct canonical *c = &scene.canonical;
+  const int64_t n = c->particle_count, m = c->triple_count;
+  assert_true(m > 500);
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  random_scene_shake(&scene, 32, q, v);
+  canonical_acceleration(c, 0.0, q, v, a);
+  check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
+  check_same_bits(3 * n, b, a);
+  for (int64_t low = 0, high = m - 1; low < high; low++, high--) {
+    for (int e = 0; e < 3; e++) {
+      const int64_t keep = c->triples[3 * low + e];
+      c->triples[3 * low + e] = c->triples[3 * high + e];
+      c->triples[3 * high + e] = keep;
+    }
+    const double keep = c->coefficient[low];
+    c->coefficient[low] = c->coefficient[high];
+    c->coefficient[high] = keep;
+  }
+  canonical_acceleration(c, 0.0, q, v, b);
+  assert_true(first_difference(3 * n, a, b) >= 0);
+  assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
+  random_scene_destroy(&scene);
+  free(q);
+  free(v);
+  free(a);
+  free(b);
+}
+
 /* Steps that are solved for: a velocity off by 1e-7 of its change, a position off by a bit, have to show. */
 static void test_planted_defects(void **unused) {
   (void)unused;
@@ -229,6 +262,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_hash),
       cmocka_unit_test(test_planted_faults),
+      cmocka_unit_test(test_planted_bending),
       cmocka_unit_test(test_planted_defects),
       cmocka_unit_test(test_small_scenes),
       cmocka_unit_test(test_large_scenes),
