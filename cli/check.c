@@ -1,4 +1,5 @@
 /* hooke check: validates a scene and tells its size, memory and step limits, without running it. */
+#include "derived.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -72,13 +73,25 @@ static void warn_of_coincident_springs(struct check *check) {
        count, count == 1 ? "spring starts" : "springs start");
 }
 
-/* Particles that no spring holds. */
+/* Marks what bends. */
+static int32_t mark_triples(const hooke_system *system, char *held) {
+  const int64_t count = 3 * hooke_system_bending_count(system);
+  int64_t *triples = malloc((size_t)(count + 1) * sizeof *triples);
+  const int32_t status = triples ? hooke_system_bending_ends(system, triples) : HOOKE_NO_MEMORY;
+  for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
+    held[triples[i]] = 1;
+  free(triples);
+  return status;
+}
+
+/* Particles that neither a spring nor bending holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
   int64_t particles = hooke_system_particle_count(check->setup.system);
   int64_t springs = hooke_system_spring_count(check->setup.system);
   int64_t *ends = malloc((size_t)(2 * springs + 1) * sizeof *ends);
   char *held = calloc((size_t)particles + 1, 1);
   int32_t status = ends && held ? hooke_system_spring_ends(check->setup.system, ends) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = mark_triples(check->setup.system, held);
   if (status == HOOKE_OK) {
     int64_t count = 0, first = 0;
     for (int64_t i = 0; i < 2 * springs; i++)
@@ -131,6 +144,7 @@ static void print_json(const struct check *check) {
     hooke_json_close(&json);
   }
   hooke_json_close(&json);
+  hooke_derived_json(&json, system);
   hooke_json_open(&json, "forces", '[');
   for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
     hooke_json_text(&json, NULL, hooke_system_force_name(system, i));
@@ -202,6 +216,7 @@ static void print_words(const struct check *check) {
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_free_count(system));
   print_groups(system);
+  hooke_derived_words(system);
   printf("forces       ");
   for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
     printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));

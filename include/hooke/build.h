@@ -4,6 +4,9 @@
  *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals of
  *          each cell), bend (two apart along u, then v)
  *
+ * Both have bending along their lines of particles (option `bending`, hooke_system_add_bending()), as a group
+ * "<name>.bending"; and one of the options `mass` (shared equally) and `density` (by the piece that each particle stands for).
+ *
  * A family that is not named has no springs. Stiffness is that of the strain law, so a finer part of the same
  * material stretches the same. Rest lengths are one per family and direction, from the edges and not from
  * rounded positions. */
@@ -23,7 +26,7 @@ HOOKE_API const char *hooke_part_kind(int64_t kind);
 /* Options of a part of this kind, for the caller to set and destroy. HOOKE_BAD_VALUE for an unknown kind. */
 HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
 
-/* Adds a part's particles and springs. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
+/* Adds a part's particles, springs and triples. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
  * called by its kind and its number among the parts. `first` and `count`, if not NULL, receive its particles.
  * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,

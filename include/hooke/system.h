@@ -13,8 +13,14 @@
  * hooke_system_coincident_springs() counts such springs. A spring with `compression` false only pulls: its
  * force is zero where r <= l0, and where damping would make it push.
  *
+ * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with the fourth power
+ * of the curvature) acts on triples of particles a, b, c:
+ *   U = c/2 |q_a - 2 q_b + q_c|^2               c [N/m]
+ * A beam of bending stiffness B [N m^2] in pieces of length l has c = B/l^3. Three particles in a line at equal distances
+ * have no such force, wherever they are.
+ *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
- * springs of parts. All sums over springs are taken in that order, so results do not depend on threads or
+ * springs of parts; and so are triples. All sums are taken in that order, springs first, so results do not depend on threads or
  * instruction sets. */
 #ifndef HOOKE_SYSTEM_H
 #define HOOKE_SYSTEM_H
@@ -64,6 +70,13 @@ HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
  * pair). `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *ends, const hooke_options *options);
+
+/* Adds a group of `count` triples, 3 count particle numbers (different within a triple), for bending with coefficients >= 0
+ * [N/m], `coefficient_count` being 1 (shared) or `count`. `name` may be NULL. HOOKE_BAD_VALUE names the triple;
+ * HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *triples, int64_t coefficient_count,
+                                           const double *coefficient);
 
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
@@ -121,7 +134,22 @@ HOOKE_API int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *
 HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
                                                double *rest_length);
 
-/* The forces that this system computes ("springs", "drag", "callback", "gravity"); nothing else costs
+/* The same of bending: triples, their groups, a b c of every triple (3 bending_count), coefficients [N/m]
+ * (bending_count). Triples of coefficient 0 have no force: commit drops them, and they are not counted any more. */
+HOOKE_API int64_t hooke_system_bending_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_bending_group_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group);
+HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
+HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
+
+/* Numbers that parts derived from their `density`, `damping_ratio` and `bending`: a list of texts "part", "family" (NULL:
+ * of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not there. */
+HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
+HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
+
+/* The forces that this system computes ("springs", "bending", "drag", "callback", "gravity"); nothing else costs
  * anything. */
 HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
@@ -133,7 +161,7 @@ HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, drag on free particles, callback, m g on free particles. */
+/* Force on every particle [N], 3n: springs, bending, drag on free particles, callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
 /* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
@@ -157,10 +185,11 @@ HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, in
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
 
-/* Energies [J] of the springs and of the free particles; gravity's is the sum of -m g.q. A callback has none. Sums keep
+/* Energies [J] of the springs, of bending and of the free particles; gravity's is the sum of -m g.q. A callback has none. Sums keep
  * what each addition rounds off (Neumaier 1974). Beyond the largest number they are infinite. */
 HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
 HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);

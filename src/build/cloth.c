@@ -27,12 +27,14 @@ static const struct hooke_option_row rows[] = {
      .required = 1,
      .doc = "particles along u and along v"},
     HOOKE_PART_MASS,
+    HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED(
         "corners top top-corners",
         "particles held still: numbers within the cloth, or words; top is the row at the origin"),
     HOOKE_PART_FAMILY("structural", "springs between neighbours along u and v"),
     HOOKE_PART_FAMILY("shear", "springs along both diagonals of every cell"),
     HOOKE_PART_FAMILY("bend", "springs two apart along u and v"),
+    HOOKE_PART_BENDING("N m", "stiffness of a strip of the cloth as a beam, over its width"),
 };
 
 static const struct hooke_option_table table = {"cloth", HOOKE_OPTION_ROWS(rows)};
@@ -50,26 +52,53 @@ static void place_particles(const double *origin, const double *edges, int64_t n
   }
 }
 
-static int32_t add_springs(struct hooke_part *part, const double *edges, int64_t nu, int64_t nv) {
-  double u[3], v[3], along[3], across[3]; /* sides and diagonals of a cell */
+/* One cell of the cloth. */
+struct cell {
+  int64_t nu, nv;
+  double u, v, along, across, area; /* sides, diagonals */
+};
+
+static struct cell find_cell(const double *edges, int64_t nu, int64_t nv) {
+  double u[3], v[3], along[3], across[3], normal[3];
   for (int i = 0; i < 3; i++) {
     u[i] = edges[i] / (double)(nu - 1);
     v[i] = edges[3 + i] / (double)(nv - 1);
     along[i] = u[i] + v[i];
     across[i] = u[i] - v[i];
   }
-  const double side_u = hooke_part_length(edges) / (double)(nu - 1);
-  const double side_v = hooke_part_length(edges + 3) / (double)(nv - 1);
+  for (int i = 0; i < 3; i++)
+    normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  return (struct cell){.nu = nu,
+                       .nv = nv,
+                       .u = hooke_part_length(edges) / (double)(nu - 1),
+                       .v = hooke_part_length(edges + 3) / (double)(nv - 1),
+                       .along = hooke_part_length(along),
+                       .across = hooke_part_length(across),
+                       .area = hooke_part_length(normal)};
+}
 
-  const struct hooke_part_strip structural[] = {{nv, nu - 1, 0, 1, side_u}, {nv - 1, nu, 0, nu, side_v}};
-  const struct hooke_part_strip shear[] = {{nv - 1, nu - 1, 0, nu + 1, hooke_part_length(along)},
-                                           {nv - 1, nu - 1, 1, nu, hooke_part_length(across)}};
-  const struct hooke_part_strip bend[] = {{nv, nu - 2, 0, 2, 2.0 * side_u},
-                                          {nv - 2, nu, 0, 2 * nu, 2.0 * side_v}};
+static int32_t add_springs(struct hooke_part *part, const struct cell *cell) {
+  const int64_t nu = cell->nu, nv = cell->nv;
+  const struct hooke_part_strip structural[] = {{nv, nu - 1, 0, 1, cell->u, HOOKE_PART_U},
+                                                {nv - 1, nu, 0, nu, cell->v, HOOKE_PART_V}};
+  const struct hooke_part_strip shear[] = {{nv - 1, nu - 1, 0, nu + 1, cell->along, HOOKE_PART_DIAGONAL},
+                                           {nv - 1, nu - 1, 1, nu, cell->across, HOOKE_PART_OTHER_DIAGONAL}};
+  const struct hooke_part_strip bend[] = {{nv, nu - 2, 0, 2, 2.0 * cell->u, HOOKE_PART_U},
+                                          {nv - 2, nu, 0, 2 * nu, 2.0 * cell->v, HOOKE_PART_V}};
   int32_t status = hooke_part_add_family(part, "structural", nu, 2, structural);
   if (status == HOOKE_OK) status = hooke_part_add_family(part, "shear", nu, 2, shear);
   if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", nu, 2, bend);
   return status;
+}
+
+/* A line is a beam as wide as the distance of its neighbours, at right angles to it. */
+static int32_t add_bending(struct hooke_part *part, const struct cell *cell) {
+  const double stiffness = hooke_options_number(part->options, "bending"), u = cell->u, v = cell->v;
+  const struct hooke_part_beams beams[] = {
+      {cell->nv, cell->nu - 2, 1, stiffness * (cell->area / u) / (u * u * u), HOOKE_PART_U, HOOKE_BEAMS_ROWS},
+      {cell->nv - 2, cell->nu, cell->nu, stiffness * (cell->area / v) / (v * v * v), HOOKE_PART_V,
+       HOOKE_BEAMS_COLUMNS}};
+  return hooke_part_add_bending(part, cell->nu, 2, beams);
 }
 
 static int32_t build(struct hooke_part *part) {
@@ -81,10 +110,12 @@ static int32_t build(struct hooke_part *part) {
   int32_t status = hooke_part_new_positions(part, nu * nv, &position, "a cloth of %lld x %lld particles",
                                             (long long)nu, (long long)nv);
   if (status != HOOKE_OK) return hooke_fail_within(status, "size");
+  const struct cell cell = find_cell(edges, nu, nv);
   place_particles(hooke_options_numbers(part->options, "origin"), edges, nu, nv, position);
-  status = hooke_part_add_particles(part, position);
+  status = hooke_part_add_particles(part, nv, nu, cell.area, position);
   hooke_free(position);
-  return status == HOOKE_OK ? add_springs(part, edges, nu, nv) : status;
+  if (status == HOOKE_OK) status = add_springs(part, &cell);
+  return status == HOOKE_OK ? add_bending(part, &cell) : status;
 }
 
 static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {

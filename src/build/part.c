@@ -1,6 +1,7 @@
 /* The table of kinds, and the steps that all builders share: size, mass, springs of a family, pins. */
 #include "build/part.h"
 
+#include "build/material.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/system.h"
@@ -29,6 +30,11 @@ static const struct hooke_option_row family_rows[] = {
      .low = 0,
      .high = 1e300,
      .doc = "damping along the spring"},
+    {.name = "damping_ratio",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0,
+     .high = 1e300,
+     .doc = "damping over the critical one of two inner particles on the spring, instead of damping"},
     {.name = "rest_scale",
      .type = HOOKE_OPTION_NUMBER,
      .fallback = "1",
@@ -101,9 +107,17 @@ int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double 
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hooke_part_add_particles(struct hooke_part *part, const double *position) {
-  const double share = hooke_options_number(part->options, "mass") / (double)part->count;
-  return hooke_system_add_particles(part->system, part->count, position, NULL, 1, &share, &part->first);
+int32_t hooke_part_add_particles(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
+                                 const double *position) {
+  int64_t mass_count = 0;
+  double *mass = NULL;
+  int32_t status = hooke_part_masses(part, rows, columns, piece, &mass_count, &mass);
+  if (status == HOOKE_OK) {
+    status =
+        hooke_system_add_particles(part->system, part->count, position, NULL, mass_count, mass, &part->first);
+  }
+  hooke_free(mass);
+  return status;
 }
 
 static void join(const struct hooke_part *part, int64_t stride, int32_t strip_count,
@@ -120,8 +134,18 @@ static void join(const struct hooke_part *part, int64_t stride, int32_t strip_co
   }
 }
 
+static int32_t set_damping(const struct hooke_part *part, const char *family, int64_t count,
+                           const double *rest_length, hooke_options *options) {
+  double *damping = hooke_new(count, sizeof(double));
+  if (damping == NULL) return HOOKE_NO_MEMORY;
+  hooke_part_damping(part, family, count, rest_length, damping);
+  const int32_t status = hooke_options_set_numbers(options, "damping", count, damping);
+  hooke_free(damping);
+  return status;
+}
+
 /* Options of a spring group with the values of a family. */
-static int32_t material(const struct hooke_part *part, const char *family, int64_t count,
+static int32_t material(const struct hooke_part *part, const char *family, int by_ratio, int64_t count,
                         const double *rest_length, hooke_options **options) {
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
   int32_t status = hooke_spring_options_create(options);
@@ -130,21 +154,33 @@ static int32_t material(const struct hooke_part *part, const char *family, int64
     snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
     status = hooke_options_set_number(*options, keys[k], hooke_options_number(part->options, dotted));
   }
+  if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
   return status;
 }
 
-static int32_t add_group(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
-                         const double *rest_length) {
+char *hooke_part_group_name(const struct hooke_part *part, const char *family) {
+  char *name = hooke_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
+  if (name) sprintf(name, "%s.%s", part->name, family);
+  return name;
+}
+
+static int is_given(const struct hooke_part *part, const char *family, const char *key) {
+  char dotted[64];
+  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
+  return hooke_options_is_set(part->options, dotted);
+}
+
+static int32_t add_group(struct hooke_part *part, const char *family, int by_ratio, int64_t count,
+                         const int64_t *ends, const double *rest_length) {
   int64_t different = 1;
   while (different < count && rest_length[different] == rest_length[0])
     different++;
 
-  char *name = hooke_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
+  char *name = hooke_part_group_name(part, family);
   if (name == NULL) return HOOKE_NO_MEMORY;
-  sprintf(name, "%s.%s", part->name, family);
   hooke_options *options = NULL;
-  int32_t status = material(part, family, different == count ? 1 : count, rest_length, &options);
+  int32_t status = material(part, family, by_ratio, different == count ? 1 : count, rest_length, &options);
   if (status == HOOKE_OK) status = hooke_system_add_part_springs(part->system, name, count, ends, options);
   hooke_options_destroy(options);
   hooke_free(name);
@@ -154,6 +190,12 @@ static int32_t add_group(struct hooke_part *part, const char *family, int64_t co
 int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
                               int32_t strip_count, const struct hooke_part_strip *strip) {
   if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
+  const int by_ratio = is_given(part, family, "damping_ratio");
+  if (by_ratio && is_given(part, family, "damping")) {
+    hooke_fail(HOOKE_BAD_VALUE, "damping_ratio",
+               "damping and damping_ratio are both given; a family has one of them");
+    return hooke_fail_within(HOOKE_BAD_VALUE, "%s", family);
+  }
   int64_t count = 0;
   for (int32_t s = 0; s < strip_count; s++) {
     const int64_t springs = strip[s].rows * strip[s].columns;
@@ -172,7 +214,8 @@ int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64
   int32_t status = HOOKE_NO_MEMORY;
   if (ends && rest_length) {
     join(part, stride, strip_count, strip, ends, rest_length);
-    status = add_group(part, family, count, ends, rest_length);
+    status = add_group(part, family, by_ratio, count, ends, rest_length);
+    if (status == HOOKE_OK && by_ratio) status = hooke_part_derive_springs(part, family, strip_count, strip);
   }
   hooke_free(ends);
   hooke_free(rest_length);
@@ -237,7 +280,7 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   const int64_t number = hooke_system_next_part(system);
   char unnamed[64];
   snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
-  struct hooke_part part = {system, name && name[0] ? name : unnamed, options, 0, 0};
+  struct hooke_part part = {.system = system, .name = name && name[0] ? name : unnamed, .options = options};
   status = build(found, &part);
   if (status == HOOKE_OK) {
     const struct hooke_part_record record = {.add = hooke_system_add_part,

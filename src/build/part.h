@@ -12,6 +12,7 @@ struct hooke_part {
   const char *name;
   const hooke_options *options;
   int64_t first, count;
+  double inner_mass; /* of a particle that is on no edge [kg], once particles are added */
 };
 
 struct hooke_part_kind {
@@ -25,7 +26,8 @@ struct hooke_part_kind {
 extern const struct hooke_part_kind hooke_part_rope;
 extern const struct hooke_part_kind hooke_part_cloth;
 
-/* Rows that kinds have in common: a point [m], the total mass, held particles, a family of springs. */
+/* Rows that kinds have in common: a point [m], the total mass or the density, bending stiffness, held particles, a
+ * family of springs. */
 #define HOOKE_PART_POINT(key, text)                                                                          \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
@@ -34,7 +36,17 @@ extern const struct hooke_part_kind hooke_part_cloth;
 #define HOOKE_PART_MASS                                                                                      \
   {                                                                                                          \
     .name = "mass", .type = HOOKE_OPTION_NUMBER, .unit = "kg", .low = 0, .above_low = 1, .high = 1e300,      \
-    .required = 1, .doc = "total mass, shared equally"                                                       \
+    .doc = "total mass, shared equally; or density"                                                          \
+  }
+#define HOOKE_PART_DENSITY(of, text)                                                                         \
+  {                                                                                                          \
+    .name = "density", .type = HOOKE_OPTION_NUMBER, .unit = (of), .low = 0, .above_low = 1, .high = 1e300,   \
+    .doc = (text)                                                                                            \
+  }
+#define HOOKE_PART_BENDING(of, text)                                                                         \
+  {                                                                                                          \
+    .name = "bending", .type = HOOKE_OPTION_NUMBER, .unit = (of), .fallback = "0", .low = 0, .high = 1e300,  \
+    .doc = (text)                                                                                            \
   }
 #define HOOKE_PART_PINNED(names, text)                                                                       \
   {                                                                                                          \
@@ -50,9 +62,27 @@ extern const struct hooke_option_table hooke_part_family;
 /* Springs of one family and direction between the points of a grid: row by row, spring (r, c) joins r*stride
  * + c + low and r*stride + c + high, low < high. One rest length serves them all, so that it is equal to the
  * bit. */
+enum hooke_part_direction {
+  HOOKE_PART_ALONG,
+  HOOKE_PART_U,
+  HOOKE_PART_V,
+  HOOKE_PART_DIAGONAL,
+  HOOKE_PART_OTHER_DIAGONAL
+};
 struct hooke_part_strip {
   int64_t rows, columns, low, high;
   double rest_length;
+  enum hooke_part_direction direction;
+};
+
+/* Lines of a grid as beams, side by side: triple (r, c) joins particles at = r*stride + c, at + step and at + 2 step. Those
+ * in the first and the last row (or column) stand for half as much as the others. */
+enum hooke_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
+struct hooke_part_beams {
+  int64_t rows, columns, step;
+  double coefficient; /* [N/m] */
+  enum hooke_part_direction direction;
+  enum hooke_part_beam_order side_by_side;
 };
 
 /* Checks `count` before anything is allocated and gives an array of 3 count coordinates, to be freed. The
@@ -60,12 +90,21 @@ struct hooke_part_strip {
 int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
                                  const char *format, ...) __attribute__((format(printf, 4, 5)));
 
-/* Adds the particles; the option `mass` is their total. */
-int32_t hooke_part_add_particles(struct hooke_part *part, const double *position);
+/* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an inner one stands
+ * for: its length (one row) or area. */
+int32_t hooke_part_add_particles(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
+                                 const double *position);
 
 /* Adds the springs of a family, strip after strip, as one group; nothing if the family is not named. */
 int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
                               int32_t strip_count, const struct hooke_part_strip *strip);
+
+/* Adds bending along the beams, one after the other, as one group; nothing if the option `bending` is 0. */
+int32_t hooke_part_add_bending(struct hooke_part *part, int64_t stride, int32_t count,
+                               const struct hooke_part_beams *beams);
+
+/* "<part>.<family>", the caller's to free; NULL without memory. */
+char *hooke_part_group_name(const struct hooke_part *part, const char *family);
 
 double hooke_part_length(const double *vector);
 

@@ -1,4 +1,4 @@
-/* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend). */
+/* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend), and bending. */
 #include "build/part.h"
 
 #include "core/memory.h"
@@ -17,9 +17,11 @@ static const struct hooke_option_row rows[] = {
      .required = 1,
      .doc = "pieces it is cut into; it has one particle more"},
     HOOKE_PART_MASS,
+    HOOKE_PART_DENSITY("kg/m", "mass over length, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED("start end", "particles held still: numbers within the rope, or words"),
     HOOKE_PART_FAMILY("stretch", "springs between neighbours"),
     HOOKE_PART_FAMILY("bend", "springs two apart"),
+    HOOKE_PART_BENDING("N m^2", "stiffness of the rope as a beam"),
 };
 
 static const struct hooke_option_table table = {"rope", HOOKE_OPTION_ROWS(rows)};
@@ -40,14 +42,18 @@ static int32_t build(struct hooke_part *part) {
       position[3 * k + i] = from[i] + share * span[i];
   }
   memcpy(position + 3 * segments, to, 3 * sizeof(double));
-  status = hooke_part_add_particles(part, position);
+  const double piece = hooke_part_length(span) / (double)segments;
+  status = hooke_part_add_particles(part, 1, segments + 1, piece, position);
   hooke_free(position);
 
-  const double piece = hooke_part_length(span) / (double)segments;
-  const struct hooke_part_strip stretch = {1, segments, 0, 1, piece};
-  const struct hooke_part_strip bend = {1, segments - 1, 0, 2, 2.0 * piece};
+  const struct hooke_part_strip stretch = {1, segments, 0, 1, piece, HOOKE_PART_ALONG};
+  const struct hooke_part_strip bend = {1, segments - 1, 0, 2, 2.0 * piece, HOOKE_PART_ALONG};
+  const double stiffness = hooke_options_number(part->options, "bending");
+  const struct hooke_part_beams beam = {
+      1, segments - 1, 1, stiffness / (piece * piece * piece), HOOKE_PART_ALONG, HOOKE_BEAMS_ALONE};
   if (status == HOOKE_OK) status = hooke_part_add_family(part, "stretch", segments + 1, 1, &stretch);
   if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", segments + 1, 1, &bend);
+  if (status == HOOKE_OK) status = hooke_part_add_bending(part, segments + 1, 1, &beam);
   return status;
 }
 

@@ -1,9 +1,9 @@
 /* What "diverged" means: a component that is not finite; or, where energy can only come from the scene itself (no
  * callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start and what gravity
  * has given since:
- *   E(t) - E(0) > 100 (T(0) + U_springs(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
+ *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
  * The last terms are what a scene at rest may have all the same: what gravity gives it in one step (forward Euler has it
- * in v before q has moved), and what errors do: K is the sum of all kappa, d = 1e-12 times the largest coordinate, which
+ * in v before q has moved), and what errors do: U is that of springs and bending, K the sum of all kappa and 16 c, d = 1e-12 times the largest coordinate, which
  * rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is atol_velocity. Energies
  * below the smallest normal number prove nothing, and neither do those of a scene that begins with energies
  * above the largest. */
@@ -41,6 +41,9 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
     for (int64_t k = 0; k < run->count; k++)
       stiffness += hooke_run_spring(run, k).kappa;
   }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+    stiffness += 16.0 * triple.coefficient;
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {
@@ -52,15 +55,20 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
 }
 
+/* Of springs and bending, which is never below 0. */
+static double elastic_energy(const hooke_system *system, const double *q) {
+  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q);
+}
+
 int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   if (has_energy_bound(it)) {
     const double kinetic = hooke_system_kinetic_energy(it->system, state->v);
-    const double springs = hooke_system_spring_energy(it->system, state->q);
+    const double elastic = elastic_energy(it->system, state->q);
     it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
     it->gravity_swing = 0.0;
-    it->scale0 = kinetic + springs + least_energy(it, state);
-    it->energy0 = kinetic + springs;
+    it->scale0 = kinetic + elastic + least_energy(it, state);
+    it->energy0 = kinetic + elastic;
   }
   hooke_recent_begin(&it->recent, state);
   return HOOKE_OK;
@@ -69,7 +77,7 @@ int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
   const double gravity = hooke_system_gravity_energy(it->system, state->q), risen = gravity - it->gravity0;
   const double rest =
-      hooke_system_kinetic_energy(it->system, state->v) + hooke_system_spring_energy(it->system, state->q);
+      hooke_system_kinetic_energy(it->system, state->v) + elastic_energy(it->system, state->q);
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits to spare for the others */

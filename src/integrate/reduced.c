@@ -12,7 +12,7 @@
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
 static int is_own(const struct hooke_force_row *row) {
-  return row == &hooke_force_springs || row == &hooke_force_drag;
+  return row == &hooke_force_springs || row == &hooke_force_bending || row == &hooke_force_drag;
 }
 
 static double *part(double **block, int64_t count) {
@@ -70,6 +70,18 @@ static void factorise(int64_t n, int64_t p, double *block) {
   *b[5] = -l32 * w22 * w33;
 }
 
+/* Diagonal blocks of alpha times the stiffness of triples. */
+static void add_bending(const struct hooke_bending *bending, double alpha, double *const block[6]) {
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++) {
+      const double factor = hooke_triple_factor(e);
+      for (int c = 0; c < 3; c++)
+        block[c][triple.particle[e]] += alpha * triple.coefficient * (factor * factor);
+    }
+  }
+}
+
 static void fill_diagonal(struct hooke_reduced *reduced) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
@@ -86,6 +98,7 @@ static void fill_diagonal(struct hooke_reduced *reduced) {
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hooke_tangent_diagonal(run, &reduced->tangent, block);
   }
+  if (reduced->alpha != 0.0) add_bending(&system->bending, reduced->alpha, block);
   for (int64_t p = 0; p < n; p++)
     factorise(n, p, reduced->factor);
   for (int64_t k = 0; k < system->held_count; k++) {
@@ -176,6 +189,7 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hooke_tangent_product(run, &reduced->tangent, from, to);
   }
+  if (reduced->alpha != 0.0) hooke_bending_add(&system->bending, -reduced->alpha, from, to);
   const int32_t status = reduced->rows_needed ? subtract_others(reduced, x, out) : HOOKE_OK;
   hooke_apply_factor(n, reduced->factor, out);
   return status;

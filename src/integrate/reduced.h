@@ -1,7 +1,7 @@
 /* The linear equations of an implicit step, (M - beta df/dv - alpha df/dq) x = b over the free particles.
  *
  * Products are exact. The equations are scaled by a symmetric positive definite S on the diagonal, one 3x3 block a
- * particle (block Jacobi): M, drag, and of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T).
+ * particle (block Jacobi): M, drag, alpha c (1, 4, 1) of each triple of bending, and of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T).
  * With S = L L^T what is iterated on is L^-1 (...) L^-T, whose residual weighs particles by their mass. */
 #ifndef HOOKE_INTEGRATE_REDUCED_H
 #define HOOKE_INTEGRATE_REDUCED_H
@@ -12,8 +12,8 @@
 
 struct hooke_reduced {
   hooke_integrator *integrator;
-  int32_t symmetric;   /* alpha = 0, and springs and drag alone */
-  int32_t rows_needed; /* some force is not among the springs and drag */
+  int32_t symmetric;   /* alpha = 0, and springs, bending and drag alone */
+  int32_t rows_needed; /* some force is none of springs, bending and drag */
   double t, alpha, beta;
   struct hooke_tangent tangent;
   double *diagonal;                /* n: m + beta c */

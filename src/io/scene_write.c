@@ -220,8 +220,14 @@ static void add_drive(struct hooke_text *text, const struct hooke_drive_group *d
   hooke_text_close(text, '}');
 }
 
-static int32_t check_callbacks(const hooke_system *system) {
+/* What a scene has no word for. */
+static int32_t check_words(const hooke_system *system) {
   int32_t callbacks = system->force != NULL;
+  for (int64_t g = 0; g < system->bending_group_count; g++) {
+    if (system->bending_group[g].from_part || system->bending_group[g].count == 0) continue;
+    return hooke_fail(HOOKE_UNSUITED, NULL,
+                      "a scene file has bending in its parts alone, and this system has triples of its own");
+  }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
   if (!callbacks) return HOOKE_OK;
@@ -261,7 +267,7 @@ int32_t hooke_scene_write(const char *path, const hooke_system *system, const ch
   struct hooke_text json = {.bytes = NULL}, laid = {.bytes = NULL};
   struct numbering numbering = {0};
   int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = check_callbacks(system);
+  if (status == HOOKE_OK) status = check_words(system);
   if (status == HOOKE_OK) status = find_numbers(system, &numbering);
   if (status == HOOKE_OK) {
     add_scene(&json, system, title, run, &numbering);

@@ -1,13 +1,10 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Forces of a block of springs go into a buffer
  * first, which vectorises whatever the ends are, and are then added in spring order, which keeps every sum
  * the same to the bit. */
+#include "kernel/instruction_set.h"
 #include "kernel/spring_body.h"
-#include "kernel/spring_loops.h"
 
 #include <stddef.h>
-
-#define JOIN_NAMES(a, b) a##b
-#define JOIN(a, b)       JOIN_NAMES(a, b)
 
 enum { BLOCK = 256 };
 
@@ -244,12 +241,12 @@ LOOPS(1, 1, 1)
 #define TEXT_OF(word) #word
 #define TEXT(word)    TEXT_OF(word)
 
-extern const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA);
-const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA) = {
+const struct hooke_spring_set HOOKE_SPRING_SET = {
     .name = TEXT(HOOKE_ISA),
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
     .fill = {BY_SHAPE(fill, 0)},
     .sum = sum,
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
+    .bending = HOOKE_BENDING_LOOPS,
 };

@@ -6,6 +6,8 @@
 #ifndef HOOKE_KERNEL_SPRING_LOOPS_H
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
+#include "kernel/bending_loops.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -65,6 +67,7 @@ struct hooke_spring_set {
   hooke_spring_fill *fill[HOOKE_RUN_SHAPES]; /* NULL for indexed runs */
   hooke_lane_sum *sum;
   hooke_step_loop *kick_then_drift, *drift_then_kick;
+  hooke_bending_loop *const *bending; /* by HOOKE_BENDING_* */
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
 

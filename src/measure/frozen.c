@@ -134,6 +134,23 @@ static int32_t add_springs(const struct thaw *thaw, hooke_system *system) {
   return status;
 }
 
+static int32_t add_bending(const struct hooke_bending *bending, hooke_system *system) {
+  int64_t *triples = hooke_new(3 * bending->count, sizeof(int64_t)), *end = triples;
+  double *coefficient = hooke_new(bending->count, sizeof(double)), *c = coefficient;
+  int32_t status = triples && coefficient ? HOOKE_OK : HOOKE_NO_MEMORY;
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {bending, 0, 0}; status == HOOKE_OK && hooke_next_triple(&at, &triple);) {
+    memcpy(end, triple.particle, sizeof triple.particle);
+    end += 3;
+    *c++ = triple.coefficient;
+  }
+  if (status == HOOKE_OK)
+    status = hooke_system_add_bending(system, NULL, bending->count, triples, bending->count, coefficient);
+  hooke_free(triples);
+  hooke_free(coefficient);
+  return status;
+}
+
 static int32_t hold(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t;
   (void)q;
@@ -170,6 +187,7 @@ static int32_t build(const struct thaw *thaw, const struct hooke_frozen *frozen,
     if (old->held[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && thaw->count > 0) status = add_springs(thaw, system);
+  if (status == HOOKE_OK && old->bending.count > 0) status = add_bending(&old->bending, system);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && balance)
     status = hooke_system_set_force(system, hold, hold_product, (void *)(uintptr_t)balance);
@@ -181,7 +199,7 @@ static int32_t build(const struct thaw *thaw, const struct hooke_frozen *frozen,
   return status;
 }
 
-/* The force of the springs at rest, taken back: the sum that the integrators form is then 0 to the bit. */
+/* The force of springs and bending at rest, taken back: the sum that the integrators form is then 0 to the bit. */
 static int32_t find_balance(struct hooke_frozen *frozen, int *needed) {
   const int64_t size = 3 * frozen->system->particle_count;
   double *still = hooke_new(size, sizeof(double));
@@ -205,6 +223,11 @@ static int32_t find_slow_step(struct hooke_frozen *frozen) {
     const struct hooke_frozen_spring *s = &frozen->spring[k];
     sum[2 * s->head] += s->kappa, sum[2 * s->tail] += s->kappa;
     sum[2 * s->head + 1] += s->gamma, sum[2 * s->tail + 1] += s->gamma;
+  }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      sum[2 * triple.particle[e]] += 0.5 * hooke_triple_row(system, &triple, e) * triple.coefficient;
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
     stiff = fmax(stiff, 2.0 * sum[2 * p] * system->inverse_mass[p]);
@@ -254,9 +277,26 @@ void hooke_frozen_release(struct hooke_frozen *frozen) {
 
 /* ---- asking ---- */
 
+/* Twice the energy of bending of a displacement from `place`. */
+static double bending_energy(const struct hooke_frozen *frozen, const double *q) {
+  struct hooke_triple triple;
+  double sum = 0.0;
+  for (struct hooke_triples at = {&frozen->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int a = 0; a < 3; a++) {
+      double d = 0.0;
+      for (int e = 0; e < 3; e++) {
+        const int64_t k = 3 * triple.particle[e] + a;
+        d += hooke_triple_factor(e) * (q[k] - frozen->place[k]);
+      }
+      sum += triple.coefficient * (d * d);
+    }
+  }
+  return sum;
+}
+
 double hooke_frozen_energy(const struct hooke_frozen *frozen, const double *q, const double *v) {
   const double *mass = frozen->system->mass, *place = frozen->place;
-  double sum = 0.0;
+  double sum = bending_energy(frozen, q);
   for (int64_t p = 0; p < frozen->system->particle_count; p++) {
     const double *u = v + 3 * p;
     sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
@@ -280,6 +320,16 @@ void hooke_frozen_push(const struct hooke_frozen *frozen, const double *x, doubl
   const double t = frozen->slow_step, *w = system->inverse_mass;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
     out[k] = t * system->drag * w[k / 3] * x[k];
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    double d[3];
+    hooke_triple_bend(&triple, x, d);
+    for (int e = 0; e < 3; e++) {
+      const double factor = t * t * triple.coefficient * hooke_triple_factor(e) * w[triple.particle[e]];
+      for (int a = 0; a < 3; a++)
+        out[3 * triple.particle[e] + a] += factor * d[a];
+    }
+  }
   for (int64_t k = 0; k < frozen->spring_count; k++) {
     const struct hooke_frozen_spring *s = &frozen->spring[k];
     const int64_t i = 3 * s->head, j = 3 * s->tail;

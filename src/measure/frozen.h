@@ -8,7 +8,7 @@
  * numbers about 1 need no thought.) A spring keeps kappa and gamma; its rest length
  * l0/r of its new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is its
  * length. One that only pulls counts as taut. One of length 0 is linear as it is if it wants to be of length 0, and else
- * has no force and is left out. A constant force balances the tensions. Gravity and callbacks are left out, driven particles
+ * has no force and is left out. Bending is linear as it is. A constant force balances the tensions. Gravity and callbacks are left out, driven particles
  * are pinned. */
 #ifndef HOOKE_MEASURE_FROZEN_H
 #define HOOKE_MEASURE_FROZEN_H

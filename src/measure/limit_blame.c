@@ -73,6 +73,26 @@ static void find_springs(const hooke_system *system, const double *q, const doub
   }
 }
 
+/* Of particles that are held nothing moves. */
+static void find_bending(const hooke_system *system, const double *mode, double h2, struct whole *whole,
+                         struct hooke_blame *blame) {
+  struct hooke_triples at = {&system->bending, 0, 0};
+  struct hooke_triple triple;
+  for (int64_t g = 0; g < system->bending_group_count; g++) {
+    for (int64_t k = 0; k < system->bending_group[g].count && hooke_next_triple(&at, &triple); k++) {
+      double d[3] = {0.0, 0.0, 0.0};
+      for (int e = 0; e < 3; e++) {
+        const int64_t p = triple.particle[e];
+        for (int a = 0; a < 3 && !system->held[p]; a++)
+          d[a] += hooke_triple_factor(e) * mode[3 * p + a];
+      }
+      blame->group_share[system->group_count + g] += h2 * triple.coefficient * square_of(d);
+    }
+    whole->all += blame->group_share[system->group_count + g];
+    whole->stiffness += blame->group_share[system->group_count + g];
+  }
+}
+
 static void find_particles(const hooke_system *system, const double *mode, double h, struct whole *whole,
                            struct hooke_blame *blame) {
   for (int64_t p = 0; p < system->particle_count; p++) {
@@ -89,11 +109,12 @@ static void find_particles(const hooke_system *system, const double *mode, doubl
 int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                          struct hooke_blame *blame) {
   struct whole whole = {0.0, 0.0, 0.0};
-  *blame = (struct hooke_blame){.group_count = system->group_count};
-  blame->group_share = hooke_new(system->group_count, sizeof(double));
+  *blame = (struct hooke_blame){.group_count = system->group_count + system->bending_group_count};
+  blame->group_share = hooke_new(blame->group_count, sizeof(double));
   if (blame->group_share == NULL) return HOOKE_NO_MEMORY;
   if (mode == NULL) return HOOKE_OK;
   find_springs(system, q, mode, h2, h, &whole, blame);
+  find_bending(system, mode, h2, &whole, blame);
   find_particles(system, mode, h, &whole, blame);
   for (int64_t k = 0; k < blame->spring_count; k++) {
     blame->spring[k].share /= whole.all;
@@ -105,6 +126,13 @@ int32_t hooke_blame_find(const hooke_system *system, const double *q, const doub
     blame->group_share[k] /= whole.all;
   blame->stiffness_share = whole.all > 0.0 ? whole.stiffness / whole.all : 0.0;
   return HOOKE_OK;
+}
+
+const char *hooke_blame_group_name(const hooke_system *system, int64_t group) {
+  const int64_t bending = group - system->group_count;
+  const char *name =
+      bending < 0 ? hooke_system_group_name(system, group) : hooke_system_bending_group_name(system, bending);
+  return name ? name : "";
 }
 
 void hooke_blame_release(struct hooke_blame *blame) {

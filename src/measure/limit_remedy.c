@@ -136,11 +136,6 @@ static const char *figure(double value, char text[24]) {
   return text;
 }
 
-static const char *group_name(const hooke_system *system, int64_t group) {
-  const char *name = hooke_system_group_name(system, group);
-  return name ? name : "";
-}
-
 /* ", group `hem`" if all are of one that has a name; a single one by its number else. */
 static void add_place(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
                       char *text, size_t size) {
@@ -149,11 +144,12 @@ static void add_place(const hooke_system *system, const struct hooke_blame *blam
     return;
   }
   const int64_t group = blame->spring[0].group;
-  int one = group_name(system, group)[0] != '\0';
+  int one = hooke_blame_group_name(system, group)[0] != '\0';
   for (int64_t k = 0; k < set->count; k++)
     one &= blame->spring[k].group == group;
   if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->spring[0].spring);
-  if (one) add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", group_name(system, group));
+  if (one)
+    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", hooke_blame_group_name(system, group));
 }
 
 static void tell(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
@@ -181,7 +177,7 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
                         struct hooke_remedy *remedy) {
   char *text = remedy->sentence;
   const size_t size = sizeof remedy->sentence;
-  if (blame->spring_count == 0) {
+  if (!(blame->stiffness_share > 0.0) && blame->spring_count == 0) {
     add(text, size, "no spring limits the step");
     return;
   }
@@ -196,10 +192,12 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
     if (best < 0 || blame->group_share[best] < 0.01) break;
     before = blame->group_share[best];
     add(text, size, k == 0 ? " (" : ", ");
-    if (group_name(system, best)[0] != '\0')
-      add(text, size, "group `%.60s`", group_name(system, best));
-    else
+    if (hooke_blame_group_name(system, best)[0] != '\0')
+      add(text, size, "group `%.60s`", hooke_blame_group_name(system, best));
+    else if (best < system->group_count)
       add(text, size, "group %lld", (long long)best);
+    else
+      add(text, size, "group %lld of triples", (long long)(best - system->group_count));
     add(text, size, " has %.0f %% of it", 100.0 * before);
   }
   if (isfinite(before)) add(text, size, ")");

@@ -44,11 +44,20 @@ static void see_springs(struct hooke_linearised *lin, const double *q, const dou
   }
 }
 
+/* Triples of held particles move nothing. */
+static void see_triples(struct hooke_linearised *lin) {
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&lin->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      lin->bends |= !lin->system->held[triple.particle[e]];
+  }
+}
+
 /* ---- units ---- */
 
 /* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
-static double largest_row(const struct hooke_linearised *lin, const double *weight, double drag,
-                          double *sum) {
+static double largest_row(const struct hooke_linearised *lin, const double *weight, double bending,
+                          double drag, double *sum) {
   const hooke_system *system = lin->system;
   double most = 0.0;
   memset(sum, 0, (size_t)system->particle_count * sizeof(double));
@@ -61,14 +70,20 @@ static double largest_row(const struct hooke_linearised *lin, const double *weig
       sum[j] += 2.0 * weight[run->first + k];
     }
   }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0};
+       bending > 0.0 && hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      sum[triple.particle[e]] += bending * hooke_triple_row(system, &triple, e) * triple.coefficient;
+  }
   for (int64_t p = 0; p < system->particle_count; p++)
     most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   return most;
 }
 
 static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
-  const double stiffest = largest_row(lin, lin->kappa, 0.0, sum);
-  const double quickest = largest_row(lin, lin->gamma, lin->drag, sum);
+  const double stiffest = largest_row(lin, lin->kappa, 1.0, 0.0, sum);
+  const double quickest = largest_row(lin, lin->gamma, 0.0, lin->drag, sum);
   lin->damped = quickest > 0.0;
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
@@ -86,6 +101,7 @@ static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
     lin->across_any |= lin->across[s] > 0.0;
   }
   lin->drag *= c;
+  lin->bending = k;
   return HOOKE_OK;
 }
 
@@ -125,6 +141,7 @@ int32_t hooke_linearised_create(const hooke_system *system, const double *q, con
     lin->unknowns += system->held[p] ? 0 : 3;
   }
   see_springs(lin, q, spring_scale);
+  see_triples(lin);
   const int32_t status = choose_rate(lin, sum);
   if (status != HOOKE_OK) hooke_linearised_release(lin);
   return status;
@@ -150,6 +167,7 @@ void hooke_linearised_weigh(struct hooke_linearised *lin, double a, double b) {
   for (int64_t s = 0; s < m && across; s++)
     lin->g_across[s] = a * lin->across[s];
   lin->brake = b * lin->drag;
+  lin->bent = lin->bends ? a * lin->bending : 0.0;
   lin->tangent = (struct hooke_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
                                         .e = {lin->g[0], lin->g[1], lin->g[2]},
                                         .b = across ? lin->g_across : NULL};
@@ -162,6 +180,7 @@ void hooke_linearised_add_product(struct hooke_linearised *lin, const double *x,
   lin->products++;
   for (int64_t k = 0; k < lin->system->springs.run_count; k++)
     hooke_tangent_product(&lin->system->springs.run[k], &lin->tangent, from, to);
+  if (lin->bent > 0.0) hooke_bending_add(&lin->system->bending, -lin->bent, from, to);
   if (lin->brake > 0.0) hooke_add_multiple(lin->size, lin->brake, x, out);
 }
 
@@ -175,11 +194,27 @@ void hooke_linearised_multiply(struct hooke_linearised *lin, const double *x, do
   }
 }
 
+/* Of bending alone. */
+static double bending_energy(const struct hooke_linearised *lin, const double *x) {
+  const int64_t n = lin->system->particle_count;
+  struct hooke_triple t;
+  double sum = 0.0;
+  for (struct hooke_triples at = {&lin->system->bending, 0, 0};
+       lin->bent > 0.0 && hooke_next_triple(&at, &t);) {
+    for (int a = 0; a < 3; a++) {
+      const double *component = x + a * n;
+      const double d = (component[t.particle[0]] - 2.0 * component[t.particle[1]]) + component[t.particle[2]];
+      sum += lin->bent * t.coefficient * (d * d);
+    }
+  }
+  return sum;
+}
+
 /* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
 double hooke_linearised_energy(const struct hooke_linearised *lin, const double *x) {
   const hooke_system *system = lin->system;
   const int64_t n = system->particle_count;
-  double sum = 0.0;
+  double sum = bending_energy(lin, x);
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     const struct hooke_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {

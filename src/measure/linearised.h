@@ -2,7 +2,8 @@
  *
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
- * each in the pattern (B, -B; -B, B) over the ends of a spring. A compressed spring is clamped: its stiffness across, which
+ * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple of bending in
+ * K, the same in all directions. A compressed spring is clamped: its stiffness across, which
  * is negative, counts as 0. A spring that only pulls counts as taut; one of no length as stiff in all directions.
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues come in units
@@ -20,13 +21,13 @@ struct hooke_linearised {
   int64_t unknowns;          /* three a free particle */
   double rate;               /* [1/s] */
   int64_t clamped, products; /* springs clamped; products with K and C so far */
-  int32_t across_any, damped;
+  int32_t across_any, damped, bends;
   double *mass, *inverse;                /* n; the inverse is 0 where a particle is held */
   double *u[3], *kappa, *across, *gamma; /* by spring, over rate^2 and rate */
-  double drag;
+  double drag, bending;                  /* of coefficients: 1 over rate^2 */
   /* a K + b C, from the last hooke_linearised_weigh() */
   struct hooke_tangent tangent;
-  double *g[3], *g_across, brake;
+  double *g[3], *g_across, brake, bent;
 };
 
 /* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL. HOOKE_BAD_VALUE for

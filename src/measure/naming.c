@@ -32,6 +32,43 @@ const char *hooke_naming_words(const hooke_system *system, int64_t spring, char 
   return text;
 }
 
+/* "the bending of particles 1, 2 and 3 (group hem)" */
+static void triple_words(const hooke_system *system, int64_t number, const struct hooke_triple *triple,
+                         char text[HOOKE_NAMING_SIZE]) {
+  const char *name = "";
+  int64_t group = 0;
+  while (number >= system->bending_group[group].count)
+    number -= system->bending_group[group++].count;
+  if (system->bending_group[group].name) name = system->bending_group[group].name;
+  snprintf(text, HOOKE_NAMING_SIZE, "the bending of particles %lld, %lld and %lld%s%.80s%s",
+           (long long)triple->particle[0], (long long)triple->particle[1], (long long)triple->particle[2],
+           name[0] ? " (group " : "", name, name[0] ? ")" : "");
+}
+
+int64_t hooke_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
+                                    char text[HOOKE_NAMING_SIZE]) {
+  int64_t spring = hooke_naming_heaviest(system, particle, h);
+  double most = 0.0;
+  text[0] = '\0';
+  if (spring >= 0) {
+    const struct hooke_spring found = hooke_naming_spring(system, spring);
+    most = h * h * found.kappa + 2.0 * h * found.gamma;
+    hooke_naming_words(system, spring, text);
+  }
+  struct hooke_triple triple;
+  struct hooke_triples at = {&system->bending, 0, 0};
+  for (int64_t k = 0; hooke_next_triple(&at, &triple); k++) {
+    for (int e = 0; e < 3; e++) {
+      const double factor = hooke_triple_factor(e), weight = h * h * triple.coefficient * (factor * factor);
+      if (triple.particle[e] != particle || !(weight > most)) continue;
+      most = weight;
+      spring = -1;
+      triple_words(system, k, &triple, text);
+    }
+  }
+  return spring;
+}
+
 int64_t hooke_naming_heaviest(const hooke_system *system, int64_t particle, double h) {
   double most = -1.0;
   int64_t found = -1;

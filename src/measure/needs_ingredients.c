@@ -47,6 +47,20 @@ static int32_t list_groups(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
+static int32_t list_bending(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t g = 0; g < system->bending_group_count; g++) {
+    const struct hooke_bending_group *group = &system->bending_group[g];
+    struct hooke_needs_row *row;
+    if (group->count == 0) continue;
+    const int32_t status = group->name[0] ? add_row(needs, "bending", &row, "%s", group->name)
+                                          : add_row(needs, "bending", &row, "bending[%lld]", (long long)g);
+    if (status != HOOKE_OK) return status;
+    row->variant.bending[g] = 1;
+  }
+  return HOOKE_OK;
+}
+
 static int32_t is_damped(const hooke_system *system) {
   int32_t damped = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++)
@@ -95,6 +109,12 @@ static void mark_touched(const hooke_system *system, uint8_t *touched) {
       const struct hooke_spring spring = hooke_run_spring(run, k);
       touched[spring.head] = touched[spring.tail] = 1;
     }
+  }
+  struct hooke_triples at = {.bending = &system->bending};
+  struct hooke_triple triple;
+  while (hooke_next_triple(&at, &triple)) {
+    for (int e = 0; e < 3; e++)
+      touched[triple.particle[e]] = 1;
   }
   for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
     memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
@@ -155,6 +175,7 @@ int32_t hooke_needs_list(hooke_needs *needs) {
   for (int64_t k = 0; k < needs->watch_count; k++)
     watched[needs->watch[k]] = 1;
   int32_t status = list_groups(needs);
+  if (status == HOOKE_OK) status = list_bending(needs);
   if (status == HOOKE_OK) status = list_whole_forces(needs);
   struct hooke_needs_row *row;
   if (status == HOOKE_OK && needs->system->springs.count > 0) {

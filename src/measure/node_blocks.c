@@ -34,6 +34,16 @@ static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spri
   }
 }
 
+static void add_triple(struct hooke_node_blocks *blocks, const struct hooke_triple *triple) {
+  for (int e = 0; e < 3; e++) {
+    const int64_t p = triple->particle[e];
+    if (blocks->system->held[p]) continue;
+    blocks->across = 1;
+    for (int a = 0; a < 3; a++)
+      blocks->stiffness[6 * p + a] += hooke_triple_row(blocks->system, triple, e) * triple->coefficient;
+  }
+}
+
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks) {
   *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
@@ -63,6 +73,9 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
       add_spring(blocks, &spring, q);
     }
   }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+    add_triple(blocks, &triple);
   for (int64_t p = 0; p < system->particle_count; p++) {
     for (int a = 0; a < 3 && !system->held[p]; a++)
       blocks->damping[6 * p + a] += system->drag;

@@ -1,6 +1,7 @@
 /* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
  *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
  *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
+ * and of every triple of bending its rows: c times 4, 8, 4 at its particles, less where some of them are held;
  * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I. */
 #ifndef HOOKE_MEASURE_NODE_BLOCKS_H
 #define HOOKE_MEASURE_NODE_BLOCKS_H
@@ -13,7 +14,9 @@ struct hooke_node_blocks {
   struct hooke_eigen *eigen;
   double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio;          /* smallest gamma/kappa of a stiff spring, infinity without one */
-  int32_t across; /* some stretched spring is stiff across its direction, where it has no damping */
+  int32_t
+      across; /* some stretched spring is stiff across its direction, where it has no damping, or there is bending, which
+                    has none */
 };
 
 /* At positions q (3n). HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */

@@ -66,7 +66,8 @@ static void add_both(struct hooke_spectrum *s, double c, double k, const double 
 
 /* ---- proportional damping ---- */
 
-/* C = beta K + delta M: every spring is damped in proportion to its stiffness and has none across, and drag meets one mass. */
+/* C = beta K + delta M: every spring is damped in proportion to its stiffness and has none across, nothing bends, and drag
+ * meets one mass. */
 static int32_t find_proportion(struct hooke_spectrum *s) {
   const struct hooke_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
@@ -83,7 +84,7 @@ static int32_t find_proportion(struct hooke_spectrum *s) {
     mass = lin->mass[p];
   }
   s->delta = lin->drag > 0.0 ? lin->drag / mass : 0.0;
-  return s->beta == 0.0 || !lin->across_any;
+  return s->beta == 0.0 || (!lin->across_any && !lin->bends);
 }
 
 static void compare_damping(struct hooke_spectrum *s) {

@@ -19,8 +19,8 @@ static double least_drag_rate(const struct hooke_node_blocks *blocks) {
 }
 
 /* Stable where h <= c/k for every mode with k its stiffness and c its damping, and h <= 2/c. Along springs
- * c/k is at least the smallest gamma/kappa; across a taut spring, and where a spring is undamped, only drag
- * damps. */
+ * c/k is at least the smallest gamma/kappa; across a taut spring, in bending, and where a spring is undamped,
+ * only drag damps. */
 static double forward_euler(const struct hooke_node_blocks *blocks) {
   const double frequency = hooke_node_blocks_frequency(blocks), rate = hooke_node_blocks_damping_rate(blocks);
   if (frequency == 0.0) return rate > 0.0 ? 2.0 / rate : INFINITY;

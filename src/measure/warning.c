@@ -42,8 +42,7 @@ static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke
   const enum kind kind = limit == 0.0 ? NEVER_STABLE : h > limit ? ABOVE_LIMIT : NEAR_LIMIT;
   if (watch->told[kind]) return 0;
   watch->told[kind] = 1;
-  const int64_t spring = hooke_naming_heaviest(system, particle, h);
-  if (spring >= 0) hooke_naming_words(system, spring, where);
+  const int64_t spring = hooke_naming_heaviest_words(system, particle, h, where);
   if (kind == NEVER_STABLE) {
     snprintf(sentence, sizeof sentence,
              "at t = %.6g s %s is stable at no step, and takes %.6g s: some motion has no damping and grows "

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/limit.h"
 #include "measure/naming.h"
 
 #include <math.h>
@@ -95,6 +96,10 @@ static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
   for (int64_t k = 0; status == HOOKE_OK && k < hooke_limit_blame_count(limit); k++)
     blame_spring(inquiry, (int64_t)hooke_limit_blame_number(limit, k, "spring"),
                  hooke_limit_blame_number(limit, k, "share"));
+  double bending = 0.0;
+  for (int64_t g = inquiry->system->group_count; status == HOOKE_OK && g < limit->blame.group_count; g++)
+    bending += limit->blame.group_share[g];
+  inquiry->bent = bending > 0.5;
   if (status == HOOKE_OK && hooke_limit_remedy_text(limit, "kind"))
     snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", hooke_limit_remedy_text(limit, "sentence"));
   hooke_limit_destroy(limit);
@@ -132,6 +137,8 @@ static int32_t judge_excess(struct hooke_inquiry *inquiry) {
   const int32_t status = find_blame(inquiry);
   if (is_drag(inquiry))
     snprintf(where, sizeof where, "the drag of particle %lld", (long long)excess->particle);
+  else if (inquiry->bent)
+    hooke_naming_heaviest_words(inquiry->system, excess->particle, inquiry->run->schedule.step, where);
   else
     blamed_words(inquiry, where);
   show(inquiry, end);
@@ -150,8 +157,25 @@ static int32_t judge_excess(struct hooke_inquiry *inquiry) {
   return status;
 }
 
+/* The particle that bending accelerates most, if it does so by more than `most`; -1 if not. */
+static int64_t steepest_bending(const hooke_system *system, double most) {
+  struct hooke_triple triple;
+  int64_t found = -1;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++) {
+      const double factor = hooke_triple_factor(e);
+      const double steepness =
+          triple.coefficient * (factor * factor) * system->inverse_mass[triple.particle[e]];
+      if (!(steepness > most)) continue;
+      most = steepness;
+      found = triple.particle[e];
+    }
+  }
+  return found;
+}
+
 /* What asks for the largest acceleration: the springs of a particle, in proportion to its mass. */
-static int64_t steepest_spring(const hooke_system *system) {
+static int64_t steepest_spring(const hooke_system *system, double *steepest) {
   double most = -1.0;
   int64_t found = -1;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
@@ -164,21 +188,29 @@ static int64_t steepest_spring(const hooke_system *system) {
       found = system->springs.run[r].first + k;
     }
   }
+  *steepest = most;
   return found;
 }
 
 static void judge_overflow(struct hooke_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
-  const int64_t spring = steepest_spring(system);
+  double steepest;
+  const int64_t spring = steepest_spring(system, &steepest), bent = steepest_bending(system, steepest);
   char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
-  blame_spring(inquiry, spring, NAN);
+  if (bent < 0) blame_spring(inquiry, spring, NAN);
   if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) snprintf(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
   const struct hooke_spring s = spring >= 0 ? hooke_naming_spring(system, spring) : (struct hooke_spring){0};
   const int64_t light =
       spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
-  if (spring >= 0) {
+  if (bent >= 0) {
+    hooke_naming_heaviest_words(system, bent, 1.0, where);
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
+        "%s, on %.6g kg%s",
+        inquiry->why->time, where, system->mass[bent], step);
+  } else if (spring >= 0) {
     hooke_naming_words(system, spring, where);
     say(inquiry, "overflow",
         "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "

@@ -47,6 +47,8 @@ static int32_t sort_springs(hooke_system *system) {
 static void drop_building_arrays(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hooke_group_release_arrays(&system->group[k]);
+  for (int64_t k = 0; k < system->bending_group_count; k++)
+    hooke_bending_group_strip(&system->bending_group[k]);
 }
 
 static int32_t fill_particles(hooke_system *system) {
@@ -83,6 +85,7 @@ static int32_t choose_forces(hooke_system *system) {
 static void undo(hooke_system *system) {
   hooke_lanes_release(&system->lanes);
   hooke_springs_release(&system->springs);
+  hooke_bending_release(&system->bending);
   hooke_free(system->inverse_mass);
   hooke_free(system->held_particle);
   hooke_free(system->force_row);
@@ -101,6 +104,9 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = sort_springs(system);
   if (status == HOOKE_OK) {
     status = hooke_lanes_create(&system->springs, system->particle_count, &system->lanes);
+  }
+  if (status == HOOKE_OK) {
+    status = hooke_bending_create(system->bending_group, system->bending_group_count, &system->bending);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status != HOOKE_OK) {

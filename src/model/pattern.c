@@ -12,6 +12,21 @@ static int compare_columns(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
+/* Both directions of every pair of a triple, as below. */
+static void visit_triples(const struct hooke_bending *bending, int64_t *count, int64_t *column,
+                          int64_t *next) {
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 6; e++) {
+      const int64_t row = triple.particle[e % 3], other = triple.particle[(e + 1 + e / 3) % 3];
+      if (column)
+        column[next[row]++] = other;
+      else
+        count[row]++;
+    }
+  }
+}
+
 /* Calls for both directions of every spring; `next` is where the row's next column goes (NULL: count only).
  */
 static void visit_pairs(const struct hooke_springs *springs, int64_t *count, int64_t *column, int64_t *next) {
@@ -46,7 +61,7 @@ static void sort_rows(struct hooke_pattern *pattern) {
 }
 
 int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pattern *pattern) {
-  const int64_t n = system->particle_count, most = n + 2 * system->springs.count;
+  const int64_t n = system->particle_count, most = n + 2 * system->springs.count + 6 * system->bending.count;
   *pattern = (struct hooke_pattern){.rows = n};
   pattern->row_start = hooke_new(n + 1, sizeof(int64_t));
   pattern->column = hooke_new(most, sizeof(int64_t));
@@ -57,6 +72,7 @@ int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pat
     return HOOKE_NO_MEMORY;
   }
   visit_pairs(&system->springs, next, NULL, NULL);
+  visit_triples(&system->bending, next, NULL, NULL);
   for (int64_t p = 0, start = 0; p < n; p++) {
     pattern->row_start[p] = start;
     pattern->column[start] = p;
@@ -65,6 +81,7 @@ int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pat
     pattern->row_start[p + 1] = start;
   }
   visit_pairs(&system->springs, NULL, pattern->column, next);
+  visit_triples(&system->bending, NULL, pattern->column, next);
   hooke_free(next);
   sort_rows(pattern);
   return HOOKE_OK;

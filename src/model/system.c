@@ -21,7 +21,10 @@ void hooke_system_destroy(hooke_system *system) {
     hooke_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hooke_drive_release(&system->drive[k]);
+  for (int64_t k = 0; k < system->bending_group_count; k++)
+    hooke_bending_group_release(&system->bending_group[k]);
   hooke_lanes_release(&system->lanes);
+  hooke_bending_release(&system->bending);
   hooke_springs_release(&system->springs);
   hooke_free(system->position);
   hooke_free(system->velocity);
@@ -31,6 +34,9 @@ void hooke_system_destroy(hooke_system *system) {
   hooke_free(system->held_particle);
   hooke_free(system->group);
   hooke_free(system->part);
+  hooke_free(system->bending_group);
+  hooke_system_drop_derived(system, 0);
+  hooke_free(system->derived);
   hooke_free(system->drive);
   hooke_free(system->force_row);
   hooke_free(system);
@@ -190,12 +196,16 @@ int64_t hooke_system_next_part(hooke_system *system) {
 }
 
 struct hooke_system_mark hooke_system_mark(const hooke_system *system) {
-  return (struct hooke_system_mark){system->particle_count, system->group_count, system->part_count};
+  return (struct hooke_system_mark){system->particle_count, system->group_count, system->bending_group_count,
+                                    system->derived_count, system->part_count};
 }
 
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark) {
   while (system->group_count > mark.group_count)
     hooke_group_release(&system->group[--system->group_count]);
+  while (system->bending_group_count > mark.bending_group_count)
+    hooke_bending_group_release(&system->bending_group[--system->bending_group_count]);
+  hooke_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;
 }

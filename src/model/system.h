@@ -3,6 +3,8 @@
 #define HOOKE_MODEL_SYSTEM_H
 
 #include "hooke/system.h"
+#include "model/bending.h"
+#include "model/derived.h"
 #include "model/drive.h"
 #include "model/lane.h"
 #include "model/part_record.h"
@@ -32,6 +34,14 @@ struct hooke_system {
   struct hooke_springs springs;   /* from commit on */
   struct hooke_lanes lanes;       /* from commit on, of all springs or of none */
 
+  /* groups of triples, those of parts last */
+  int64_t bending_group_count, bending_group_capacity;
+  struct hooke_bending_group *bending_group;
+  struct hooke_bending bending; /* from commit on */
+
+  int64_t derived_count, derived_capacity;
+  struct hooke_derived *derived;
+
   double gravity[3];
   int32_t has_gravity;
   double drag; /* 0: none */
@@ -56,14 +66,22 @@ int32_t hooke_system_check_particles(const hooke_system *system, const char *pla
                                      const int64_t *particles, int32_t refused);
 
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
- * the same as hooke_system_add_springs(). hooke_system_next_part() counts parts: it returns 0, 1, ... */
+ * the same as hooke_system_add_springs(), and so with triples. hooke_system_next_part() counts parts: it returns 0, 1, ... */
 int32_t hooke_system_add_part_springs(hooke_system *system, const char *name, int64_t count,
                                       const int64_t *ends, const hooke_options *options);
+int32_t hooke_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
+                                      const int64_t *triples, int64_t coefficient_count,
+                                      const double *coefficient);
+/* `family` (NULL: none), `name` and `unit` have to live as long as the library. HOOKE_NO_MEMORY, HOOKE_BAD_CALL. */
+int32_t hooke_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
+                                 const char *unit, double value);
+/* Drops all but the first `kept` of them. */
+void hooke_system_drop_derived(hooke_system *system, int64_t kept);
 int64_t hooke_system_next_part(hooke_system *system);
 
 /* A builder that fails half-way takes back what it added since the mark. */
 struct hooke_system_mark {
-  int64_t particle_count, group_count, part_count;
+  int64_t particle_count, group_count, bending_group_count, derived_count, part_count;
 };
 struct hooke_system_mark hooke_system_mark(const hooke_system *system);
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark);

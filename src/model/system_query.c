@@ -99,10 +99,13 @@ const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs);
+  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs) +
+                  hooke_bending_memory(&system->bending);
   bytes += system->particle_capacity * (int64_t)(7 * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) + system->held_count * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
+           system->bending_group_count * (int64_t)sizeof *system->bending_group +
+           system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {
     bytes += system->drive[k].count * 28 + system->drive[k].samples * 56;

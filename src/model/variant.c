@@ -8,6 +8,7 @@
 void hooke_variant_release(struct hooke_variant *variant) {
   hooke_free(variant->group);
   hooke_free(variant->spring);
+  hooke_free(variant->bending);
   hooke_free(variant->particle);
   hooke_free(variant->part);
   hooke_free(variant->scale);
@@ -18,10 +19,12 @@ int32_t hooke_variant_create(const hooke_system *system, struct hooke_variant *v
   memset(variant, 0, sizeof *variant);
   variant->group = hooke_new(system->group_count, 1);
   variant->spring = hooke_new(system->springs.count, 1);
+  variant->bending = hooke_new(system->bending_group_count, 1);
   variant->particle = hooke_new(system->particle_count, 1);
   variant->part = hooke_new(system->part_count, 1);
   variant->scale = hooke_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->scale) {
+  if (!variant->group || !variant->spring || !variant->bending || !variant->particle || !variant->part ||
+      !variant->scale) {
     hooke_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
@@ -44,6 +47,7 @@ void hooke_variant_join(const hooke_system *system, struct hooke_variant *varian
   variant->compression |= other->compression;
   join(system->group_count, variant->group, other->group);
   join(system->springs.count, variant->spring, other->spring);
+  join(system->bending_group_count, variant->bending, other->bending);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
   for (int64_t k = 0; k < system->part_count; k++)
@@ -71,6 +75,10 @@ int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_vari
                     other->compression <= variant->compression;
   for (int64_t k = 0; k < system->part_count && covered; k++)
     covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
+  for (int64_t g = 0; g < system->bending_group_count && covered; g++) {
+    const struct hooke_bending_group *group = &system->bending_group[g];
+    covered = other->bending[g] <= variant->bending[g] || (group->from_part && variant->part[group->part]);
+  }
   for (int64_t p = 0; p < system->particle_count && covered; p++)
     covered = other->particle[p] <= variant->particle[p];
   return covered && covers_springs(system, variant, other);
@@ -111,6 +119,7 @@ int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant 
   if (status == HOOKE_OK) status = hooke_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hooke_variant_hold(&maker);
   if (status == HOOKE_OK) status = hooke_variant_add_springs(&maker);
+  if (status == HOOKE_OK) status = hooke_variant_add_bending(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
   if (status == HOOKE_OK) {

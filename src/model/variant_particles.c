@@ -8,9 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *family_of(const struct hooke_group *group) {
-  const char *dot = strrchr(group->name, '.');
-  return dot ? dot + 1 : group->name;
+/* "bend" of "cloth.bend" */
+static const char *family_of(const char *group) {
+  const char *dot = strrchr(group, '.');
+  return dot ? dot + 1 : group;
 }
 
 /* Families of which groups or single springs are left out; what is left of them is added later, as groups. */
@@ -22,10 +23,22 @@ static int32_t leave_families_out(const struct hooke_variant_maker *maker, int64
     const struct hooke_group *group = &from->group[g];
     if (!group->from_part || group->part != part) continue;
     const int32_t out = maker->variant->group[g] || hooke_variant_breaks_up(maker, group, first);
-    const int32_t status = out ? hooke_options_unset(options, family_of(group)) : HOOKE_OK;
+    const int32_t status = out ? hooke_options_unset(options, family_of(group->name)) : HOOKE_OK;
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
+}
+
+static int32_t leave_bending_out(const struct hooke_variant_maker *maker, int64_t part,
+                                 hooke_options *options) {
+  const hooke_system *from = maker->from;
+  int32_t status = HOOKE_OK;
+  for (int64_t g = 0; g < from->bending_group_count && status == HOOKE_OK; g++) {
+    const struct hooke_bending_group *group = &from->bending_group[g];
+    if (group->from_part && group->part == part && maker->variant->bending[g])
+      status = hooke_options_unset(options, family_of(group->name));
+  }
+  return status;
 }
 
 static int ends_in(const char *name, const char *ending) {
@@ -69,6 +82,7 @@ static int32_t add_part(struct hooke_variant_maker *maker, int64_t k) {
   int32_t status = hooke_options_copy(record->options, &options);
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
+  if (status == HOOKE_OK) status = leave_bending_out(maker, k, options);
   if (status == HOOKE_OK) status = change_families(maker->variant, options);
   if (status == HOOKE_OK) {
     status = record->add(maker->made, record->kind, record->name, options, &part->first, &part->count);

@@ -9,7 +9,7 @@ from conftest import METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
-KEYS = ["particles", "springs", "groups", "forces", "memory_bytes", "step_limit", "warnings"]
+KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "derived", "forces", "memory_bytes", "step_limit", "warnings"]
 
 
 def test_json_has_exactly_the_keys(hooke, write):
@@ -23,6 +23,50 @@ def test_json_has_exactly_the_keys(hooke, write):
     assert list(value["step_limit"]) == METHODS
     # positions and velocities of the state and of its last good copy, at the least; no scene this small needs a megabyte
     assert 2 * 6 * 6 * 8 < value["memory_bytes"] < 1e6
+
+
+BEAM = {
+    "hooke": 1,
+    "parts": [
+        {
+            "kind": "rope", "name": "beam", "from": [0, 0, 0], "to": [2, 0, 0], "segments": 4, "density": 0.3,
+            "bending": 0.5, "pinned": [0, 1], "stretch": {"stiffness": 80, "damping_ratio": 0.1, "rest_scale": 0.8},
+        }
+    ],
+}  # fmt: skip
+
+
+def test_tells_what_parts_derived(hooke, write):
+    scene = write(BEAM, step=1e-4)
+    answer = hooke("check", scene, "--json")
+    assert (answer.code, answer.json["warnings"]) == (0, [])
+    value = answer.json
+    assert (value["triples"], value["bending_groups"]) == (3, [{"name": "beam.bending", "triples": 3}])
+    assert value["forces"] == ["springs", "bending"]
+    kappa, m = 80 / 0.4, 0.15
+    wanted = {
+        (None, "mass of an inner particle", "kg"): m,
+        (None, "mass of an end", "kg"): m / 2,
+        ("stretch", "kappa", "N/m"): kappa,
+        ("stretch", "gamma", "N s/m"): 2 * 0.1 * math.sqrt(kappa * m / 2),
+        ("bending", "c", "N/m"): 0.5 / 0.5**3,
+    }
+    found = {(row["family"], row["name"], row["unit"]): row["value"] for row in value["derived"]}
+    assert list(found) == list(wanted)
+    assert {row["part"] for row in value["derived"]} == {"beam"}
+    for key in wanted:
+        assert found[key] == pytest.approx(wanted[key], rel=1e-14)
+    words = hooke("check", scene).out
+    assert "triples      3\n           3 beam.bending\n" in words
+    assert "  beam: mass of an inner particle 0.15 kg\n" in words
+    assert "  beam.bending: c 4 N/m\n" in words
+
+
+def test_what_bends_is_not_loose(hooke, write):
+    scene = copy.deepcopy(BEAM)
+    del scene["parts"][0]["stretch"]
+    answer = hooke("check", write(scene, step=1e-4), "--json")
+    assert (answer.code, answer.json["springs"], answer.json["warnings"]) == (0, 0, [])
 
 
 def test_memory_grows_with_the_scene(hooke, write):

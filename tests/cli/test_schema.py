@@ -23,7 +23,7 @@ LOADABLE = LIBRARY and b"__asan_init" not in pathlib.Path(LIBRARY).read_bytes()
 
 # Bad scenes whose trouble a schema cannot see: what belongs together, what exists, whole numbers written with a point.
 BEYOND_A_SCHEMA = {
-    "between-range", "between-real", "between-same", "driven-pinned", "driven-range", "driven-twice", "file-missing",
+    "bending-of-no-length", "between-range", "between-real", "between-same", "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "file-missing",
     "file-not-hdf5", "mass-count", "part-index", "part-names", "part-pinned-range", "part-unknown", "pinned-moving",
     "pinned-range", "pinned-real", "rest-length-coincident", "rope-of-no-length", "segments-real", "stiffness-count",
     "table-order", "table-rows", "velocity-rows",
@@ -54,7 +54,8 @@ def test_the_schema_is_one():
 def test_the_examples_are_there():
     names = {path.stem for path in EXAMPLES}
     assert names >= {
-        "oscillator", "six-particles", "rope", "rope-resolution", "drag-or-damping", "cloth-16", "cloth-64", "stiff-spring"
+        "oscillator", "six-particles", "rope", "rope-resolution", "drag-or-damping", "cloth-16", "cloth-64", "stiff-spring",
+        "cantilever",
     }  # fmt: skip
 
 
@@ -165,6 +166,11 @@ def test_cloth_16_is_wrong_but_finite_with_forward_euler(hooke):
     symplectic = final(hooke, "cloth-16")["final"]["position"]
     apart = max(abs(a - b) for p, q in zip(forward, symplectic) for a, b in zip(p, q))
     assert 0.005 < apart < 0.5
+
+
+def test_cantilever_sinks_as_a_beam_does(hooke):
+    tip = final(hooke, "cantilever")["final"]["position"][-1]
+    assert -tip[1] == pytest.approx(0.1 * 9.81 / (8 * 13.6), rel=0.02)
 
 
 def test_rope_resolution_tells_the_laws_apart(hooke):

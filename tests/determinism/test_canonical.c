@@ -51,6 +51,7 @@ static void test_small_scenes(void **unused) {
       compare_scene((struct random_scene_request){.seed = seed,
                                                   .particles = 7 + (int64_t)(seed * 37 % 900),
                                                   .springs = (int64_t)(seed * 53 % 1500),
+                                                  .triples = (int64_t)(round * (seed * 71 % 1900)),
                                                   .features = features});
     }
   }
@@ -62,7 +63,7 @@ static void test_large_scenes(void **unused) {
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
   for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
     compare_scene((struct random_scene_request){
-        .seed = 7001 + k, .particles = 30011, .springs = 100003, .features = features[k]});
+        .seed = 7001 + k, .particles = 30011, .springs = 100003, .triples = 50021, .features = features[k]});
   }
 }
 
@@ -76,6 +77,7 @@ static void test_parts(void **unused) {
       compare_scene((struct random_scene_request){.seed = (uint64_t)(9000 + k * sizes + m),
                                                   .particles = 7 + m,
                                                   .springs = k == m ? 0 : 20,
+                                                  .triples = m % 2 ? 5 : 0,
                                                   .features = features,
                                                   .cloth = {size[k], size[m]},
                                                   .rope = 1 + (k * sizes + m) % 70});
@@ -170,6 +172,39 @@ static void test_planted_faults(void **unused) {
   free(b);
 }
 
+/* Triples in another order have to show. */
+static void test_planted_bending(void **unused) {
+  (void)unused;
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = 31, .particles = 200, .triples = 900}, &scene);
+  struct canonical *c = &scene.canonical;
+  const int64_t n = c->particle_count, m = c->triple_count;
+  assert_true(m > 500);
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  random_scene_shake(&scene, 32, q, v);
+  canonical_acceleration(c, 0.0, q, v, a);
+  check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
+  check_same_bits(3 * n, b, a);
+  for (int64_t low = 0, high = m - 1; low < high; low++, high--) {
+    for (int e = 0; e < 3; e++) {
+      const int64_t keep = c->triples[3 * low + e];
+      c->triples[3 * low + e] = c->triples[3 * high + e];
+      c->triples[3 * high + e] = keep;
+    }
+    const double keep = c->coefficient[low];
+    c->coefficient[low] = c->coefficient[high];
+    c->coefficient[high] = keep;
+  }
+  canonical_acceleration(c, 0.0, q, v, b);
+  assert_true(first_difference(3 * n, a, b) >= 0);
+  assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
+  random_scene_destroy(&scene);
+  free(q);
+  free(v);
+  free(a);
+  free(b);
+}
+
 /* Steps that are solved for: a velocity off by 1e-7 of its change, a position off by a bit, have to show. */
 static void test_planted_defects(void **unused) {
   (void)unused;
@@ -227,6 +262,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_hash),
       cmocka_unit_test(test_planted_faults),
+      cmocka_unit_test(test_planted_bending),
       cmocka_unit_test(test_planted_defects),
       cmocka_unit_test(test_small_scenes),
       cmocka_unit_test(test_large_scenes),

@@ -274,6 +274,7 @@ static void bounds_are_never_above_the_limit(void **unused) {
     struct random_scene_request request = {.seed = seed, .particles = 4 + (int64_t)(seed % 5)};
     request.springs = request.particles + (int64_t)(seed % 7);
     request.features = SCENE_DAMPING;
+    request.triples = seed % 3 == 0 ? 1 + (int64_t)(seed % 6) : 0;
     for (int k = 0; k < 5; k++)
       request.features |= (seed >> k) & 1 ? features[k] : 0;
     random_scene_create(request, &scene);

@@ -72,6 +72,58 @@ def test_the_energies_are_those_of_the_formula(system, moved):
     np.testing.assert_allclose(system.angular_momentum(q, v), m @ np.cross(q, v), rtol=1e-12)
 
 
+def test_bending_is_that_of_the_formula(moved):
+    q, v = moved
+    system = hooke.System()
+    system.add_particles(q, mass=1)
+    triples, c = [[0, 1, 2], [3, 5, 1], [2, 4, 0]], np.array([2.0, 0.0, 3.0])
+    system.add_bending("bends", triples, c)
+    assert (system.bending_count, system.bending_groups) == (3, [("bends", 3)])
+    assert system.forces == ["bending"]
+    assert (system.bending_count, system.bending_groups) == (2, [("bends", 2)])
+    assert system.bending_ends.tolist() == [triples[0], triples[2]]
+    np.testing.assert_array_equal(system.bending_coefficient, [2, 3])
+    expected, energy = np.zeros((6, 3)), 0.0
+    for (i, j, k), stiffness in zip(triples, c):
+        d = q[i] - 2 * q[j] + q[k]
+        energy += 0.5 * stiffness * d @ d
+        for p, factor in ((i, 1), (j, -2), (k, 1)):
+            expected[p] -= factor * stiffness * d
+    np.testing.assert_allclose(system.force(q, v), expected, rtol=1e-13)
+    assert system.bending_energy(q) == pytest.approx(energy, rel=1e-14)
+    assert system.potential_energy(q) == system.energy(q, 0 * v) == system.bending_energy(q)
+
+
+def test_bad_bending_is_refused():
+    system = hooke.System()
+    system.add_particles(np.eye(3), mass=1)
+    with pytest.raises(hooke.BadValue, match=r"triples\[0\]"):
+        system.add_bending(None, [[0, 1, 0]], 1)
+    with pytest.raises(hooke.BadValue, match="coefficient"):
+        system.add_bending(None, [[0, 1, 2]], -1)
+    with pytest.raises(hooke.BadValue):
+        system.add_bending(None, [0, 1], 1)
+
+
+def test_parts_tell_what_they_derived():
+    system = hooke.System()
+    system.add_part(
+        "rope",
+        "r",
+        from_=[0, 0, 0],
+        to=[1, 0, 0],
+        segments=2,
+        density=0.2,
+        bending=1,
+        stretch={"stiffness": 5, "damping_ratio": 0.5},
+    )
+    rows = system.derived
+    assert rows[0] == ("r", None, "mass of an inner particle", 0.1, "kg")
+    assert rows[-1] == ("r", "bending", "c", 8.0, "N/m")
+    assert {row.family for row in rows} == {None, "stretch", "bending"}
+    np.testing.assert_allclose(system.masses, [0.05, 0.1, 0.05], rtol=1e-15)
+
+
 def test_dissipated_power_is_what_the_energy_loses(system, moved):
     q, v = moved
     v[5] = 0  # pinned

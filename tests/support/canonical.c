@@ -19,6 +19,11 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   canonical->rest_length = new_doubles(m);
   canonical->pull_only = new_block(m, 1);
   canonical->inverse_mass = new_doubles(n);
+  canonical->triple_count = hooke_system_bending_count(system);
+  canonical->triples = new_block(3 * canonical->triple_count, (int64_t)sizeof(int64_t));
+  canonical->coefficient = new_doubles(canonical->triple_count);
+  check_ok(hooke_system_bending_ends(system, canonical->triples));
+  check_ok(hooke_system_bending_coefficient(system, canonical->coefficient));
   check_ok(hooke_system_spring_ends(system, canonical->ends));
   check_ok(hooke_system_spring_material(system, canonical->kappa, canonical->gamma, canonical->rest_length));
   memcpy(canonical->inverse_mass, hooke_system_inverse_mass(system), (size_t)n * sizeof(double));
@@ -39,6 +44,8 @@ void canonical_destroy(struct canonical *canonical) {
   free(canonical->gamma);
   free(canonical->rest_length);
   free(canonical->pull_only);
+  free(canonical->triples);
+  free(canonical->coefficient);
   free(canonical->inverse_mass);
   memset(canonical, 0, sizeof *canonical);
 }
@@ -69,6 +76,17 @@ static void add_spring(const struct canonical *canonical, int64_t k, const doubl
   force[3 * j + 2] -= fz;
 }
 
+static void add_triple(const struct canonical *canonical, int64_t k, const double *q, double *force) {
+  const int64_t *p = canonical->triples + 3 * k;
+  for (int a = 0; a < 3; a++) {
+    const double d = (q[3 * p[0] + a] - 2.0 * q[3 * p[1] + a]) + q[3 * p[2] + a];
+    const double f = canonical->coefficient[k] * d;
+    force[3 * p[0] + a] -= f;
+    force[3 * p[1] + a] += 2.0 * f;
+    force[3 * p[2] + a] -= f;
+  }
+}
+
 /* Damping at v, with springs that only pull and the callback at `seen`. */
 static void accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                        const double *seen, double *acceleration) {
@@ -78,6 +96,8 @@ static void accelerate(const struct canonical *canonical, double t, const double
   memset(force, 0, (size_t)(3 * n) * sizeof(double));
   for (int64_t k = 0; k < canonical->spring_count; k++)
     add_spring(canonical, k, q, v, seen, force);
+  for (int64_t k = 0; k < canonical->triple_count; k++)
+    add_triple(canonical, k, q, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
@@ -233,6 +253,8 @@ static double rounding(const struct canonical *canonical, double h, const double
     stiffness = fmax(stiffness, canonical->kappa[k]);
     damping = fmax(damping, canonical->gamma[k]);
   }
+  for (int64_t k = 0; k < canonical->triple_count; k++)
+    stiffness = fmax(stiffness, 4.0 * canonical->coefficient[k]);
   return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
 }
 

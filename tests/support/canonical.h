@@ -1,7 +1,7 @@
 /* The definition of the sums that every path of the library reproduces to the bit.
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first end,
- * subtracted from the second), drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
+ * subtracted from the second), triples of bending in ascending number, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
  * are held (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
@@ -13,10 +13,13 @@ struct canonical {
   int64_t *ends;                       /* 2 spring_count */
   double *kappa, *gamma, *rest_length; /* spring_count */
   unsigned char *pull_only;            /* spring_count */
-  double *inverse_mass;                /* particle_count */
-  const double *gravity;               /* NULL: none */
-  double drag;                         /* 0: none */
-  hooke_force *force;                  /* NULL: none */
+  int64_t triple_count;
+  int64_t *triples;      /* 3 triple_count */
+  double *coefficient;   /* triple_count */
+  double *inverse_mass;  /* particle_count */
+  const double *gravity; /* NULL: none */
+  double drag;           /* 0: none */
+  hooke_force *force;    /* NULL: none */
   void *ctx;
   /* puts driven particles where they are at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);

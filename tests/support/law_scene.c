@@ -20,6 +20,8 @@ const struct law laws[LAW_COUNT] = {
     {.name = "gravity and drag", .law = "strain", .damped = 1, .gravity = 1, .drag = 1},
     {.name = "callback", .law = "strain", .damped = 1, .callback = 1},
     {.name = "callback with product", .law = "length", .damped = 1, .gravity = 1, .drag = 1, .callback = 2},
+    {.name = "bending", .law = "strain", .bending = 1},
+    {.name = "bending of all kinds", .law = "length", .damped = 1, .gravity = 1, .drag = 1, .bending = 1},
 };
 
 struct material {
@@ -73,6 +75,19 @@ static void add_springs(const struct law *law, const struct material *material, 
   hooke_options_destroy(options);
 }
 
+static void add_bending(struct random_source *source, hooke_system *system) {
+  int64_t triples[3 * LAW_TRIPLES];
+  double coefficient[LAW_TRIPLES];
+  for (int64_t k = 0; k < LAW_TRIPLES; k++) {
+    int64_t *triple = triples + 3 * k;
+    triple[0] = random_whole(source, 0, LAW_PARTICLES - 1);
+    triple[1] = (triple[0] + random_whole(source, 1, 5)) % LAW_PARTICLES;
+    triple[2] = (triple[1] + random_whole(source, 1, 5)) % LAW_PARTICLES;
+    coefficient[k] = random_between(source, 2.0, 15.0);
+  }
+  check_ok(hooke_system_add_bending(system, "bending", LAW_TRIPLES, triples, LAW_TRIPLES, coefficient));
+}
+
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
   struct random_source source = {seed};
   struct material material;
@@ -92,6 +107,7 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
                                       NULL));
   check_ok(hooke_system_pin(scene->system, 1, &last));
   add_springs(law, &material, scene);
+  if (law->bending) add_bending(&source, scene->system);
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

@@ -220,6 +220,66 @@ static void compare_wanted(const struct canonical *canonical, struct wanted *wan
   free(wanted->rest_length);
 }
 
+/* ---- bending ---- */
+
+/* Lines of constant distance both ways, the same with particles descending, and triples without order. */
+static void draw_triples(struct random_source *source, int64_t particles, int64_t count, int64_t *triples) {
+  int64_t done = 0;
+  while (done < count) {
+    const int64_t kind = random_whole(source, 0, 3), most = (particles - 1) / 2;
+    int64_t length = random_whole(source, 1, random_whole(source, 0, 3) ? 12 : 700);
+    int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 2 : most);
+    if (length > particles - 2 * offset) length = particles - 2 * offset;
+    if (length > count - done) length = count - done;
+    const int64_t start = random_whole(source, 0, particles - 2 * offset - length);
+    const int swap = random_whole(source, 0, 3) == 0;
+    for (int64_t k = 0; k < length; k++) {
+      int64_t *triple = triples + 3 * (done + k);
+      const int64_t low = kind == 1 ? start + length - 1 - k : start + k;
+      for (int e = 0; e < 3; e++)
+        triple[e] = low + (swap ? 2 - e : e) * offset;
+      if (kind == 2) {
+        triple[0] = random_whole(source, 0, particles - 1);
+        triple[1] = (triple[0] + random_whole(source, 1, most)) % particles;
+        triple[2] = (triple[1] + random_whole(source, 1, most)) % particles;
+      }
+    }
+    done += length;
+  }
+}
+
+/* One for all, one each, or a few that change now and then; some of them 0. */
+static int64_t draw_coefficients(struct random_source *source, int64_t count, double *coefficient) {
+  const int64_t kind = random_whole(source, 0, 2);
+  for (int64_t k = 0; k < count; k++) {
+    const int keep = k > 0 && kind != 1 && (kind == 0 || random_whole(source, 0, 30) != 0);
+    const double drawn = random_whole(source, 0, 9) ? random_between(source, 0.0, 20.0) : 0.0;
+    coefficient[k] = keep ? coefficient[k - 1] : drawn;
+  }
+  return kind == 0 ? 1 : count;
+}
+
+/* Groups of triples, with those of a stiffness kept: the library has to hold just these. */
+static int64_t add_triples(struct random_source *source, struct random_scene_request request,
+                           hooke_system *system, int64_t *kept, double *kept_coefficient) {
+  int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t)), kept_count = 0;
+  double *coefficient = new_doubles(request.triples);
+  for (int64_t done = 0, count; done < request.triples; done += count) {
+    count = random_whole(source, 1, request.triples - done);
+    draw_triples(source, request.particles, count, triples);
+    const int64_t coefficients = draw_coefficients(source, count, coefficient);
+    check_ok(hooke_system_add_bending(system, "bends", count, triples, coefficients, coefficient));
+    for (int64_t k = 0; k < count; k++) {
+      if (coefficient[k] == 0.0) continue;
+      memcpy(kept + 3 * kept_count, triples + 3 * k, 3 * sizeof *kept);
+      kept_coefficient[kept_count++] = coefficient[k];
+    }
+  }
+  free(triples);
+  free(coefficient);
+  return kept_count;
+}
+
 /* ---- parts ---- */
 
 static void set_family(struct random_source *source, hooke_options *options, const char *family,
@@ -259,6 +319,7 @@ static void add_part(struct random_source *source, struct random_scene_request r
   for (int k = 0; k < 3 && family[cloth][k] != NULL; k++) {
     if (k == 0 || random_whole(source, 0, 3)) set_family(source, options, family[cloth][k], request.features);
   }
+  if (request.triples > 0) check_ok(hooke_options_set_number(options, "bending", 0.3));
   char name[32];
   snprintf(name, sizeof name, "%s-%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind);
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
@@ -291,6 +352,10 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   struct wanted wanted = {0};
   add_groups(&source, request, position, scene->system, &wanted);
   free(position);
+  struct random_source bends = {request.seed + 77};
+  int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));
+  double *coefficient = new_doubles(request.triples);
+  const int64_t kept = add_triples(&bends, request, scene->system, triples, coefficient);
   for (int a = 0; a < 3; a++)
     scene->gravity[a] = random_between(&source, -10.0, 10.0);
   const double drag = random_between(&source, 0.01, 0.5);
@@ -303,6 +368,11 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   check_ok(hooke_system_commit(scene->system));
   canonical_create(scene->system, &scene->canonical);
   compare_wanted(&scene->canonical, &wanted);
+  assert_true(scene->canonical.triple_count >= kept);
+  assert_memory_equal(scene->canonical.triples, triples, (size_t)(3 * kept) * sizeof *triples);
+  check_same_bits(kept, scene->canonical.coefficient, coefficient);
+  free(triples);
+  free(coefficient);
   scene->canonical.gravity = request.features & SCENE_GRAVITY ? scene->gravity : NULL;
   scene->canonical.drag = request.features & SCENE_DRAG ? drag : 0.0;
   scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;

@@ -21,6 +21,7 @@ enum {
 struct random_scene_request {
   uint64_t seed;
   int64_t particles, springs;
+  int64_t triples; /* of bending; if there are any, parts have bending as well */
   int32_t features;
   int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
   int32_t rope;         /* segments of a rope that is added as a part; 0: none */

@@ -191,6 +191,63 @@ static void test_sets_agree(void **unused) {
   free(trial);
 }
 
+/* Bending of every shape, with what was there before and a factor, against one triple at a time. */
+static void compare_bending(struct random_source *source, int32_t shape, int64_t count) {
+  static double x[3][PARTICLES], before[3][PARTICLES], expected[3][PARTICLES], found[3][PARTICLES];
+  static int32_t particle[3][LONGEST];
+  static double coefficient[LONGEST];
+  for (int a = 0; a < 3; a++) {
+    for (int p = 0; p < PARTICLES; p++) {
+      x[a][p] = random_between(source, -1.0, 1.0);
+      before[a][p] = expected[a][p] = random_between(source, -1.0, 1.0);
+    }
+  }
+  for (int64_t k = 0; k < count; k++) {
+    for (int e = 0; e < 3; e++)
+      particle[e][k] = (int32_t)random_whole(source, e * 300, e * 300 + 299);
+    coefficient[k] = random_between(source, 0.0, 100.0);
+  }
+  struct hooke_bending_run run = {.count = count,
+                                  .shape = shape,
+                                  .particle = {particle[0], particle[1], particle[2]},
+                                  .coefficient = 7.3,
+                                  .coefficients = coefficient};
+  run.offset = (int32_t)random_whole(source, 1, random_whole(source, 0, 1) ? 3 : (PARTICLES - count) / 2);
+  run.start = (int32_t)random_whole(source, 0, PARTICLES - count - 2 * run.offset);
+  const double factor = random_whole(source, 0, 1) ? 1.0 : -0.013;
+  for (int64_t k = 0; k < count; k++) {
+    const double c = factor * (shape & HOOKE_BENDING_MIXED ? coefficient[k] : 7.3);
+    int64_t p[3];
+    for (int e = 0; e < 3; e++)
+      p[e] = shape & HOOKE_BENDING_INDEXED ? particle[e][k] : run.start + k + e * (int64_t)run.offset;
+    for (int a = 0; a < 3; a++) {
+      const double force = c * ((x[a][p[0]] - 2.0 * x[a][p[1]]) + x[a][p[2]]);
+      expected[a][p[0]] -= force;
+      expected[a][p[1]] += 2.0 * force;
+      expected[a][p[2]] -= force;
+    }
+  }
+  const struct hooke_spring_set *set;
+  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+    memcpy(found, before, sizeof found);
+    set->bending[shape](&run, factor, (const double *const[]){x[0], x[1], x[2]},
+                        (double *const[]){found[0], found[1], found[2]});
+    for (int a = 0; a < 3; a++)
+      check_same_bits(PARTICLES, found[a], expected[a]);
+  }
+}
+
+static void test_bending_agrees(void **unused) {
+  (void)unused;
+  struct random_source source = {815};
+  for (int32_t shape = 0; shape < HOOKE_BENDING_SHAPES; shape++) {
+    for (int64_t count = 1; count <= 777; count += count < 20 ? 1 : 59) {
+      for (int round = 0; round < 4; round++)
+        compare_bending(&source, shape, count);
+    }
+  }
+}
+
 static void test_sets_have_names(void **unused) {
   (void)unused;
   int32_t count = 0;
@@ -207,6 +264,7 @@ static void test_sets_have_names(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets_have_names),
                                      cmocka_unit_test(test_sets_agree), cmocka_unit_test(test_windows_agree),
-                                     cmocka_unit_test(test_sums_and_moves_agree)};
+                                     cmocka_unit_test(test_sums_and_moves_agree),
+                                     cmocka_unit_test(test_bending_agrees)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -109,6 +109,7 @@ static void random_scenes(void **unused) {
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
                                                       .particles = 20 + 13 * k,
                                                       .springs = 60 + 20 * k,
+                                                      .triples = k % 3 * 40,
                                                       .features = k * 37 & SCENE_EVERYTHING,
                                                       .cloth = {k % 9 + 2, 9},
                                                       .with_product = 1},

@@ -16,7 +16,7 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from ._queries import Blocks, Material, build_facts
+from ._queries import Blocks, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .comparison import Comparison, compare
 from .first_order import FirstOrder
@@ -37,6 +37,7 @@ __all__ = [
     "BadValue",
     "Blocks",
     "Comparison",
+    "Derived",
     "Error",
     "FirstOrder",
     "Frames",

@@ -18,6 +18,16 @@ class Material(NamedTuple):
     rest_length: np.ndarray
 
 
+class Derived(NamedTuple):
+    """A number that a part derived from its density, damping ratio or bending stiffness."""
+
+    part: str
+    family: str | None
+    name: str
+    value: float
+    unit: str
+
+
 class Blocks(NamedTuple):
     """A sparse matrix of 3x3 blocks in compressed rows: row_start (n + 1,), column (count,), blocks
     (count, 3, 3)."""
@@ -66,6 +76,41 @@ class Queries:
         ]
 
     @property
+    def bending_count(self) -> int:
+        """Triples of bending; commit drops those of coefficient 0."""
+        return lib.hooke_system_bending_count(self._handle)
+
+    @property
+    def bending_groups(self) -> list[tuple[str, int]]:
+        """Name ("" if it has none) and number of triples of every group."""
+        return [
+            (
+                text(lib.hooke_system_bending_group_name(self._handle, group)),
+                lib.hooke_system_bending_group_size(self._handle, group),
+            )
+            for group in range(lib.hooke_system_bending_group_count(self._handle))
+        ]
+
+    @property
+    def derived(self) -> list[Derived]:
+        """What parts derived from their density, damping ratios and bending stiffness."""
+
+        def word(number: int, what: bytes) -> str | None:
+            found = lib.hooke_system_derived_text(self._handle, number, what)
+            return None if found is None else text(found)
+
+        return [
+            Derived(
+                word(k, b"part") or "",
+                word(k, b"family"),
+                word(k, b"name") or "",
+                lib.hooke_system_derived_value(self._handle, k),
+                word(k, b"unit") or "",
+            )
+            for k in range(lib.hooke_system_derived_count(self._handle))
+        ]
+
+    @property
     def masses(self) -> np.ndarray:
         """Mass of every particle (n,) [kg], a read-only view."""
         return self._particle_numbers(lib.hooke_system_mass)
@@ -96,8 +141,25 @@ class Queries:
         return material
 
     @property
+    def bending_ends(self) -> np.ndarray:
+        """The particles of every triple (m, 3), in their order."""
+        handle = self._committed()
+        triples = np.empty((self.bending_count, 3), np.int64)
+        lib.hooke_system_bending_ends(handle, index_pointer(triples))
+        return triples
+
+    @property
+    def bending_coefficient(self) -> np.ndarray:
+        """The coefficient of every triple (m,) [N/m]."""
+        handle = self._committed()
+        coefficient = np.empty(self.bending_count)
+        lib.hooke_system_bending_coefficient(handle, double_pointer(coefficient))
+        return coefficient
+
+    @property
     def forces(self) -> list[str]:
-        """The forces that the system computes ("springs", "drag", "callback", "gravity")."""
+        """The forces that the system computes ("springs", "bending", "drag", "callback",
+        "gravity")."""
         handle = self._committed()
         return [
             text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_force_count(handle))
@@ -160,12 +222,16 @@ class Queries:
         """Energy of the springs [J]."""
         return self._number(lib.hooke_system_spring_energy, q=q)
 
+    def bending_energy(self, q: Any) -> float:
+        """Energy of bending [J]."""
+        return self._number(lib.hooke_system_bending_energy, q=q)
+
     def gravity_energy(self, q: Any) -> float:
         """The sum of -m g.q over the free particles [J]."""
         return self._number(lib.hooke_system_gravity_energy, q=q)
 
     def potential_energy(self, q: Any) -> float:
-        """Energy of springs and gravity [J]."""
+        """Energy of springs, bending and gravity [J]."""
         return self._number(lib.hooke_system_potential_energy, q=q)
 
     def energy(self, q: Any, v: Any) -> float:

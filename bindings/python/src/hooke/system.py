@@ -103,6 +103,25 @@ class System(Queries):
             Options.for_springs().set(**options)._handle,
         )
 
+    def add_bending(self, name: str | None, triples: Any, coefficient: Any) -> None:
+        """Adds bending on `triples` a, b, c of particles (m, 3): the energy c/2 |q_a - 2 q_b + q_c|^2 with the
+        `coefficient` c [N/m], one number for all or (m,). A beam of stiffness B [N m^2] in pieces of length l
+        has c = B/l^3."""
+        triples = indices(triples, "triples")
+        if triples.size == 0:
+            triples = triples.reshape(0, 3)
+        elif triples.ndim != 2 or triples.shape[1] != 3:
+            doubles(triples, "triples", (triples.size // 3, 3))
+        coefficient = doubles(coefficient, "coefficient").reshape(-1)
+        lib.hooke_system_add_bending(
+            self._handle,
+            None if name is None else name.encode(),
+            len(triples),
+            index_pointer(triples),
+            coefficient.size,
+            double_pointer(coefficient),
+        )
+
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, a "rope" or a "cloth", with the options that ``hooke.describe(kind)`` lists
         (``from_`` stands for ``from``); a family of springs is a dict: ``structural={"stiffness": 50}``.

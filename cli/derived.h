@@ -1,0 +1,15 @@
+/* What `hooke check` tells of bending, and of the numbers that parts derived from their materials. */
+#ifndef HOOKE_CLI_DERIVED_H
+#define HOOKE_CLI_DERIVED_H
+
+#include "print.h"
+
+#include "hooke.h"
+
+/* The keys "triples", "bending_groups" and "derived". */
+void hooke_derived_json(struct hooke_json *json, const hooke_system *system);
+
+/* The same in lines; nothing where there is nothing. */
+void hooke_derived_words(const hooke_system *system);
+
+#endif

@@ -1,0 +1,78 @@
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Forces of a block of triples go into a buffer first, and are
+ * then added in three passes, which at every particle is the order of the triples. */
+#include "kernel/bending_loops.h"
+
+#include "kernel/instruction_set.h"
+#include "kernel/spring_body.h"
+
+#include <stddef.h>
+
+enum { BLOCK = 256 };
+
+HOOKE_INLINE void fill_block(double *restrict b, const double *restrict x, ptrdiff_t offset, double shared,
+                             double factor, const double *restrict coefficients, const ptrdiff_t count,
+                             const int mixed) {
+  for (ptrdiff_t k = 0; k < count; k++) {
+    const double c = mixed ? factor * coefficients[k] : shared;
+    b[k] = c * ((x[k] - 2.0 * x[k + offset]) + x[k + 2 * offset]);
+  }
+}
+
+HOOKE_INLINE void subtract(double *restrict f, const double *restrict b, ptrdiff_t count) {
+  for (ptrdiff_t k = 0; k < count; k++)
+    f[k] -= b[k];
+}
+
+HOOKE_INLINE void add_twice(double *restrict f, const double *restrict b, ptrdiff_t count) {
+  for (ptrdiff_t k = 0; k < count; k++)
+    f[k] += 2.0 * b[k];
+}
+
+/* A particle is the third of an earlier triple, the middle of a later one, and the first of the last. */
+HOOKE_INLINE void offset_loop(const struct hooke_bending_run *run, const double factor,
+                              const double *const x[3], double *const f[3], const int mixed) {
+  double b[BLOCK];
+  const ptrdiff_t offset = run->offset;
+  for (int64_t done = 0; done < run->count; done += BLOCK) {
+    const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
+    const ptrdiff_t at = run->start + done;
+    for (int a = 0; a < 3; a++) {
+      fill_block(b, x[a] + at, offset, factor * run->coefficient, factor,
+                 mixed ? run->coefficients + done : NULL, count, mixed);
+      subtract(f[a] + at + 2 * offset, b, count);
+      add_twice(f[a] + at + offset, b, count);
+      subtract(f[a] + at, b, count);
+    }
+  }
+}
+
+HOOKE_INLINE void indexed_loop(const struct hooke_bending_run *run, const double factor,
+                               const double *const x[3], double *const f[3], const int mixed) {
+  for (int64_t k = 0; k < run->count; k++) {
+    const ptrdiff_t first = run->particle[0][k], middle = run->particle[1][k], last = run->particle[2][k];
+    const double c = factor * (mixed ? run->coefficients[k] : run->coefficient);
+    for (int a = 0; a < 3; a++) {
+      const double force = c * ((x[a][first] - 2.0 * x[a][middle]) + x[a][last]);
+      f[a][first] -= force;
+      f[a][middle] += 2.0 * force;
+      f[a][last] -= force;
+    }
+  }
+}
+
+#define LOOP(what, mixed)                                                                                    \
+  static void what##_##mixed(const struct hooke_bending_run *run, double factor, const double *const x[3],   \
+                             double *const f[3]) {                                                           \
+    what##_loop(run, factor, x, f, mixed);                                                                   \
+  }
+LOOP(offset, 0)
+LOOP(offset, 1)
+LOOP(indexed, 0)
+LOOP(indexed, 1)
+
+hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES] = {
+    [0] = offset_0,
+    [HOOKE_BENDING_MIXED] = offset_1,
+    [HOOKE_BENDING_INDEXED] = indexed_0,
+    [HOOKE_BENDING_INDEXED | HOOKE_BENDING_MIXED] = indexed_1,
+};

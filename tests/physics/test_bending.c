@@ -1,0 +1,294 @@
+/* Bending: what it does, and what it leaves alone. */
+#include "check.h"
+#include "random.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N = 30, TRIPLES = N - 2 };
+
+/* A line of particles 0.1 m apart with bending alone, or with springs as well; of unequal masses. */
+static hooke_system *new_line(double coefficient, double stiffness, double damping, int64_t pinned) {
+  hooke_system *system = NULL;
+  double q[3 * N] = {0}, mass[N];
+  int64_t triples[3 * TRIPLES], ends[2 * (N - 1)], still[] = {0, 1};
+  for (int p = 0; p < N; p++) {
+    q[3 * p] = 0.1 * p;
+    mass[p] = 0.01 + 0.001 * (p % 4);
+  }
+  for (int64_t k = 0; k < TRIPLES; k++) {
+    for (int64_t e = 0; e < 3; e++)
+      triples[3 * k + e] = k + e;
+  }
+  for (int64_t k = 0; k < N - 1; k++)
+    ends[2 * k] = k, ends[2 * k + 1] = k + 1;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
+  if (coefficient > 0.0)
+    check_ok(hooke_system_add_bending(system, "line", TRIPLES, triples, 1, &coefficient));
+  if (stiffness > 0.0) {
+    hooke_options *options = NULL;
+    check_ok(hooke_spring_options_create(&options));
+    check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+    check_ok(hooke_options_set_number(options, "damping", damping));
+    check_ok(hooke_system_add_springs(system, "springs", N - 1, ends, options));
+    hooke_options_destroy(options);
+  }
+  check_ok(hooke_system_pin(system, pinned, still));
+  return system;
+}
+
+static hooke_system *commit(hooke_system *system) {
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* A straight line with equal distances under any affine map; a bend shows. */
+static void straight_lines_have_no_force(void **unused) {
+  (void)unused;
+  struct random_source source = {5};
+  const double still[3 * N] = {0};
+  hooke_system *system = commit(new_line(3.0, 0.0, 0.0, 0));
+  for (int trial = 0; trial < 50; trial++) {
+    double from[3], along[3], q[3 * N], force[3 * N];
+    for (int a = 0; a < 3; a++) {
+      from[a] = random_between(&source, -5.0, 5.0);
+      along[a] = random_between(&source, -1.0, 1.0);
+    }
+    for (int k = 0; k < 3 * N; k++)
+      q[k] = from[k % 3] + (k / 3) * along[k % 3];
+    check_ok(hooke_system_force(system, 0.0, q, still, force));
+    check_between(largest(3 * N, force), 0.0, 3.0 * 40.0 * 8.0 * 2.3e-16);
+    check_between(hooke_system_bending_energy(system, q), 0.0, 1e-25);
+    q[31] += 0.01;
+    check_ok(hooke_system_force(system, 0.0, q, still, force));
+    check_close(force[31], -6.0 * 3.0 * 0.01, 1e-12);
+    check_close(hooke_system_bending_energy(system, q), 0.5 * 3.0 * 6.0 * 1e-4, 1e-13);
+  }
+  hooke_system_destroy(system);
+}
+
+/* Energies add up, and each counts its own. */
+static void energies_are_apart(void **unused) {
+  (void)unused;
+  double q[3 * N];
+  hooke_system *both = commit(new_line(3.0, 20.0, 0.0, 0)), *bends = commit(new_line(3.0, 0.0, 0.0, 0)),
+               *springs = commit(new_line(0.0, 20.0, 0.0, 0));
+  for (int k = 0; k < 3 * N; k++)
+    q[k] = 0.1 * sin(0.7 * k) + (k % 3 == 0 ? 0.1 * (k / 3) : 0.0);
+  const double u = hooke_system_spring_energy(springs, q), b = hooke_system_bending_energy(bends, q);
+  assert_true(u > 1e-3 && b > 1e-3);
+  check_close(hooke_system_spring_energy(both, q), u, 0.0);
+  check_close(hooke_system_bending_energy(both, q), b, 0.0);
+  check_close(hooke_system_potential_energy(both, q), u + b, 1e-15 * (u + b));
+  check_close(hooke_system_spring_energy(bends, q), 0.0, 0.0);
+  check_close(hooke_system_bending_energy(springs, q), 0.0, 0.0);
+  assert_int_equal(hooke_system_force_count(both), 2);
+  assert_string_equal(hooke_system_force_name(both, 0), "springs");
+  assert_string_equal(hooke_system_force_name(both, 1), "bending");
+  hooke_system_destroy(both);
+  hooke_system_destroy(bends);
+  hooke_system_destroy(springs);
+}
+
+/* ---- motion ---- */
+
+static void kick(double *q, double *v) {
+  struct random_source source = {8};
+  for (int k = 0; k < 3 * N; k++) {
+    q[k] = (k % 3 == 0 ? 0.1 * (k / 3) : 0.0) + random_between(&source, -0.01, 0.01);
+    v[k] = random_between(&source, -0.1, 0.1);
+  }
+}
+
+static void run_from(const hooke_system *system, struct run run, double *q, double *v) {
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *state = start_state(system);
+  memcpy(hooke_state_position(state), q, 3 * N * sizeof(double));
+  memcpy(hooke_state_velocity(state), v, 3 * N * sizeof(double));
+  check_ok(hooke_integrator_run(integrator, state));
+  memcpy(q, hooke_state_position(state), 3 * N * sizeof(double));
+  memcpy(v, hooke_state_velocity(state), 3 * N * sizeof(double));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+/* The error of the energy after a second, over the energy. */
+static double energy_error(const hooke_system *system, double step) {
+  double q[3 * N], v[3 * N];
+  kick(q, v);
+  const double before = hooke_system_energy(system, q, v);
+  run_from(system, (struct run){.method = "verlet", .step = step, .duration = 1.0, .every = 1.0}, q, v);
+  return fabs(hooke_system_energy(system, q, v) - before) / before;
+}
+
+static void verlet_keeps_the_energy(void **unused) {
+  (void)unused;
+  hooke_system *system = commit(new_line(3.0, 20.0, 0.0, 0));
+  const double coarse = energy_error(system, 1e-3), fine = energy_error(system, 1e-4);
+  check_between(coarse, 1e-6, 1e-2);
+  check_between(fine / coarse, 0.001, 0.05);
+  hooke_system_destroy(system);
+}
+
+static void momenta_stay(void **unused) {
+  (void)unused;
+  double q[3 * N], v[3 * N], before[6], after[6];
+  hooke_system *system = commit(new_line(3.0, 20.0, 0.05, 0));
+  kick(q, v);
+  hooke_system_momentum(system, v, before);
+  hooke_system_angular_momentum(system, q, v, before + 3);
+  run_from(system, (struct run){.method = "symplectic-euler", .step = 1e-4, .duration = 1.0, .every = 1.0}, q,
+           v);
+  hooke_system_momentum(system, v, after);
+  hooke_system_angular_momentum(system, q, v, after + 3);
+  assert_true(largest(6, before) > 1e-3);
+  check_between(largest_difference(6, before, after), 0.0, 1e-14);
+  hooke_system_destroy(system);
+}
+
+/* Every method comes to where Runge-Kutta with a fine step does. */
+static void methods_agree(void **unused) {
+  (void)unused;
+  hooke_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
+  double expected[3 * N], expected_v[3 * N];
+  kick(expected, expected_v);
+  for (int k = 0; k < 6; k++) {
+    expected[k] = k == 3 ? 0.1 : 0.0;
+    expected_v[k] = 0.0;
+  }
+  double q0[3 * N], v0[3 * N];
+  memcpy(q0, expected, sizeof q0);
+  memcpy(v0, expected_v, sizeof v0);
+  run_from(system, (struct run){.method = "rk4", .step = 5e-5, .duration = 0.1, .every = 0.1}, expected,
+           expected_v);
+  assert_true(largest_difference(3 * N, q0, expected) > 5e-3);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!hooke_method_is_built(method)) continue;
+    struct run run = {.method = method, .duration = 0.1, .every = 0.1};
+    const int first_order = strstr(method, "euler") != NULL;
+    if (hooke_method_is_adaptive(method))
+      run.rtol = 1e-9, run.atol = 1e-11;
+    else
+      run.step = first_order ? 1e-6 : 1e-5;
+    double q[3 * N], v[3 * N];
+    memcpy(q, q0, sizeof q);
+    memcpy(v, v0, sizeof v);
+    run_from(system, run, q, v);
+    const double error = largest_difference(3 * N, q, expected);
+    if (error > (first_order ? 2e-4 : 1e-6)) check_failed("%s is off by %g", method, error);
+  }
+  hooke_system_destroy(system);
+}
+
+/* ---- numbers ---- */
+
+static void explicit_triples_come_first(void **unused) {
+  (void)unused;
+  hooke_system *system = NULL;
+  hooke_options *rope = NULL;
+  const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 1.0, c[4] = {2.0, 0.0, 3.0, 0.0};
+  const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
+  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
+  check_ok(hooke_options_set_text(rope, "to", "4,0,0"));
+  check_ok(hooke_options_set_number(rope, "segments", 4));
+  check_ok(hooke_options_set_number(rope, "mass", 1));
+  check_ok(hooke_options_set_number(rope, "bending", 5));
+  check_ok(hooke_system_add_part(system, "rope", "r", rope, NULL, NULL));
+  check_ok(hooke_system_add_bending(system, "mine", 4, triples, 4, c));
+  check_ok(hooke_system_add_bending(system, NULL, 1, triples, 1, c + 1));
+  assert_int_equal(hooke_system_bending_count(system), 8);
+  int64_t found[15];
+  double coefficient[5];
+  check_status(hooke_system_bending_ends(system, found), HOOKE_BAD_CALL);
+  check_status(hooke_system_bending_coefficient(system, coefficient), HOOKE_BAD_CALL);
+  assert_true(isnan(hooke_system_bending_energy(system, q)));
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_bending_count(system), 5);
+  assert_int_equal(hooke_system_bending_group_count(system), 3);
+  assert_string_equal(hooke_system_bending_group_name(system, 0), "mine");
+  assert_string_equal(hooke_system_bending_group_name(system, 1), "");
+  assert_string_equal(hooke_system_bending_group_name(system, 2), "r.bending");
+  assert_null(hooke_system_bending_group_name(system, 3));
+  assert_int_equal(hooke_system_bending_group_size(system, 0), 2);
+  assert_int_equal(hooke_system_bending_group_size(system, 1), 0);
+  assert_int_equal(hooke_system_bending_group_size(system, 2), 3);
+  assert_int_equal(hooke_system_group_count(system), 0); /* of springs */
+  check_ok(hooke_system_bending_ends(system, found));
+  check_ok(hooke_system_bending_coefficient(system, coefficient));
+  const int64_t expected[15] = {2, 0, 1, 1, 2, 0, 3, 4, 5, 4, 5, 6, 5, 6, 7};
+  assert_memory_equal(found, expected, sizeof expected);
+  const double kept[5] = {2.0, 3.0, 5.0, 5.0, 5.0};
+  check_same_bits(5, coefficient, kept);
+  hooke_options_destroy(rope);
+  hooke_system_destroy(system);
+}
+
+/* Without a stiffness there is no force, no memory, no other bit. */
+static void no_stiffness_is_no_bending(void **unused) {
+  (void)unused;
+  const double zero = 0.0;
+  int64_t triples[3 * TRIPLES];
+  for (int64_t k = 0; k < 3 * TRIPLES; k++)
+    triples[k] = k / 3 + k % 3;
+  hooke_system *with = new_line(0.0, 20.0, 0.1, 0), *without = commit(new_line(0.0, 20.0, 0.1, 0));
+  check_ok(hooke_system_add_bending(with, "none", TRIPLES, triples, 1, &zero));
+  commit(with);
+  assert_int_equal(hooke_system_force_count(with), 1);
+  assert_int_equal(hooke_system_bending_count(with), 0);
+  check_between((double)(hooke_system_memory(with) - hooke_system_memory(without)), 0.0, 128.0);
+  double q[3 * N], v[3 * N], other_q[3 * N], other_v[3 * N];
+  kick(q, v);
+  memcpy(other_q, q, sizeof q);
+  memcpy(other_v, v, sizeof v);
+  const struct run run = {.method = "symplectic-euler", .step = 1e-4, .duration = 0.1, .every = 0.1};
+  run_from(with, run, q, v);
+  run_from(without, run, other_q, other_v);
+  check_same_bits(3 * N, q, other_q);
+  hooke_system *bending = commit(new_line(1.0, 20.0, 0.1, 0));
+  assert_true(hooke_system_memory(bending) > hooke_system_memory(with));
+  hooke_system_destroy(with);
+  hooke_system_destroy(without);
+  hooke_system_destroy(bending);
+}
+
+static void bad_triples_are_refused(void **unused) {
+  (void)unused;
+  hooke_system *system = new_line(1.0, 0.0, 0.0, 0);
+  const double one = 1.0, two[2] = {1.0, -2.0};
+  const int64_t fine[6] = {0, 1, 2, 1, 2, 3}, far[3] = {0, 30, 1}, twice[6] = {0, 1, 2, 3, 4, 3};
+  check_status(hooke_system_add_bending(system, "b", 1, far, 1, &one), HOOKE_BAD_VALUE);
+  check_message("triples[0][1]: there is no particle 30; allowed: 0 to 29");
+  check_status(hooke_system_add_bending(system, "b", 2, twice, 1, &one), HOOKE_BAD_VALUE);
+  check_message("triples[1]: particles 3, 4 and 3");
+  check_status(hooke_system_add_bending(system, "b", 2, fine, 2, two), HOOKE_BAD_VALUE);
+  check_message("coefficient[1]: -2 is not allowed");
+  check_status(hooke_system_add_bending(system, "b", 2, fine, 3, two), HOOKE_BAD_VALUE);
+  check_message("3 values for 2 triples");
+  check_status(hooke_system_add_bending(system, "b", 2, fine, 1, (double[]){NAN}), HOOKE_BAD_VALUE);
+  check_status(hooke_system_add_bending(system, "b", -1, fine, 1, &one), HOOKE_BAD_VALUE);
+  assert_int_equal(hooke_system_bending_group_count(system), 1);
+  commit(system);
+  check_status(hooke_system_add_bending(system, "b", 2, fine, 1, &one), HOOKE_BAD_CALL);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(straight_lines_have_no_force),
+      cmocka_unit_test(energies_are_apart),
+      cmocka_unit_test(verlet_keeps_the_energy),
+      cmocka_unit_test(momenta_stay),
+      cmocka_unit_test(methods_agree),
+      cmocka_unit_test(explicit_triples_come_first),
+      cmocka_unit_test(no_stiffness_is_no_bending),
+      cmocka_unit_test(bad_triples_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,226 @@
+/* Limits of the step where something bends: bounds, predictions, measurements, and what they hang on. */
+#include "check.h"
+#include "random.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A rope of `segments` pieces of 0.1 m and 0.01 kg a particle, whose springs are soft (or are not there). */
+static hooke_system *new_rope(int segments, double bending, double stiffness, double damping, double drag) {
+  hooke_system *system = NULL;
+  hooke_options *rope = NULL;
+  const double to[3] = {0.1 * segments, 0.0, 0.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
+  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  check_ok(hooke_options_set_number(rope, "segments", segments));
+  check_ok(hooke_options_set_number(rope, "mass", 0.01 * (segments + 1)));
+  check_ok(hooke_options_set_number(rope, "bending", bending));
+  if (stiffness > 0.0) {
+    check_ok(hooke_options_set_number(rope, "stretch.stiffness", stiffness));
+    check_ok(hooke_options_set_number(rope, "stretch.damping", damping));
+    check_ok(hooke_options_set_number(rope, "stretch.rest_scale", 0.9));
+  }
+  check_ok(hooke_options_set_text(rope, "pinned", "0,1"));
+  check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
+  check_ok(hooke_system_set_drag(system, drag));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(rope);
+  return system;
+}
+
+static double bound_of(const hooke_system *system, const char *method) {
+  hooke_state *state = start_state(system);
+  double bound = NAN;
+  const int32_t status = hooke_step_bound(system, method, hooke_state_position(state), &bound);
+  hooke_state_destroy(state);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  return bound;
+}
+
+/* The row of a particle far from the ends sums up to 16 c, and a long beam comes as near to that as one likes. */
+static void a_beam_is_bounded_by_its_middle(void **unused) {
+  (void)unused;
+  const double c = 0.5 / (0.1 * 0.1 * 0.1), slowest = 2.0 / sqrt(16.0 * c / 0.01);
+  hooke_system *beam = new_rope(100, 0.5, 0.0, 0.0, 0.0), *short_one = new_rope(2, 0.5, 0.0, 0.0, 0.0);
+  check_close(bound_of(beam, "verlet"), slowest, 1e-12 * slowest);
+  check_close(bound_of(beam, "symplectic-euler"), slowest, 1e-9 * slowest);
+  check_close(bound_of(beam, "rk4"), 2.6156 / 2.0 * slowest, 1e-12 * slowest);
+  check_between(bound_of(beam, "forward-euler"), 0.0, 0.0);
+  /* one free particle, the third of a triple whose others are held: k = c */
+  check_close(bound_of(short_one, "verlet"), 2.0 / sqrt(c / 0.01), 1e-12);
+  hooke_system_destroy(beam);
+  hooke_system_destroy(short_one);
+}
+
+/* Bending is not damped by springs that are: forward Euler has but the drag. */
+static void forward_euler_needs_drag(void **unused) {
+  (void)unused;
+  hooke_system *without = new_rope(20, 0.5, 5.0, 0.1, 0.0), *with = new_rope(20, 0.5, 5.0, 0.1, 0.3);
+  check_between(bound_of(without, "forward-euler"), 0.0, 0.0);
+  check_between(bound_of(with, "forward-euler"), 1e-9, 1.0);
+  hooke_system_destroy(without);
+  hooke_system_destroy(with);
+}
+
+/* ---- predicted and measured ---- */
+
+static hooke_limit *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
+  hooke_options *options;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", methods));
+  check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
+  check_ok(hooke_options_set_number(options, "predict", predict));
+  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_limit_find(limit, state));
+  hooke_state_destroy(state);
+  return limit;
+}
+
+/* bound <= limit, and the scene runs up to the limit. */
+static void compare(hooke_system *system, const char *methods) {
+  hooke_limit *limit = find_limit(system, methods, 0);
+  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
+    const double predicted = hooke_limit_number(limit, row, "predicted");
+    const double measured = hooke_limit_number(limit, row, "measured");
+    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
+      check_failed("%s: measured %.8g, predicted %.8g (%s)", hooke_limit_text(limit, row, "method"), measured,
+                   predicted, hooke_limit_text(limit, row, "note"));
+    }
+    check_between(hooke_limit_number(limit, row, "bound"), 0.3 * measured, measured * (1.0 + 1e-3));
+  }
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+static void limits_are_met(void **unused) {
+  (void)unused;
+  compare(new_rope(3, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  compare(new_rope(25, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  compare(new_rope(25, 0.5, 40.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  compare(new_rope(25, 0.5, 40.0, 0.02, 0.1), "symplectic-euler,verlet,rk4");
+  compare(new_rope(25, 0.01, 100.0, 0.2, 0.0), "symplectic-euler,verlet,rk4");
+  compare(new_rope(300, 0.5, 10.0, 0.0, 0.0), "symplectic-euler,verlet");
+}
+
+/* Triples at random, with springs and particles of all masses, some of them held. */
+static void random_triples_run_up_to_the_prediction(void **unused) {
+  (void)unused;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    enum { N = 9, TRIPLES = 10, SPRINGS = 8 };
+    struct random_source source = {seed};
+    double q[3 * N], mass[N], c[TRIPLES];
+    int64_t triples[3 * TRIPLES], ends[2 * SPRINGS], pinned = 2;
+    for (int k = 0; k < 3 * N; k++)
+      q[k] = random_between(&source, -1.0, 1.0);
+    for (int p = 0; p < N; p++)
+      mass[p] = random_between(&source, 0.3, 3.0);
+    for (int k = 0; k < TRIPLES; k++) {
+      triples[3 * k] = random_whole(&source, 0, N - 1);
+      for (int e = 1; e < 3; e++)
+        triples[3 * k + e] = (triples[3 * k + e - 1] + random_whole(&source, 1, 4)) % N;
+      c[k] = random_between(&source, 1.0, 20.0);
+    }
+    for (int k = 0; k < SPRINGS; k++)
+      ends[2 * k] = k, ends[2 * k + 1] = k + 1;
+    hooke_system *system = NULL;
+    hooke_options *springs = NULL;
+    check_ok(hooke_system_create(&system));
+    check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
+    check_ok(hooke_spring_options_create(&springs));
+    check_ok(hooke_options_set_number(springs, "stiffness", 20.0));
+    check_ok(hooke_options_set_number(springs, "rest_scale", seed % 3 ? 0.9 : 1.1));
+    check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
+    check_ok(hooke_system_add_bending(system, "bends", TRIPLES, triples, TRIPLES, c));
+    if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
+    if (seed % 2) check_ok(hooke_system_set_drag(system, 0.3));
+    check_ok(hooke_system_commit(system));
+    hooke_options_destroy(springs);
+    compare(system, "symplectic-euler,verlet,rk4");
+  }
+}
+
+/* ---- what it hangs on ---- */
+
+static void a_limit_by_bending_names_it(void **unused) {
+  (void)unused;
+  hooke_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
+  hooke_limit *limit = find_limit(system, "verlet", 1);
+  const char *sentence = hooke_limit_remedy_text(limit, "sentence");
+  assert_null(hooke_limit_remedy_text(limit, "kind"));
+  if (sentence == NULL || strstr(sentence, "group `beam.bending` has ") == NULL) check_failed("%s", sentence);
+  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++)
+    check_between(hooke_limit_blame_number(limit, k, "share"), 0.0, 0.01);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+/* 1.01 times the limit blows up, 0.99 does not; the diagnosis and the warning name the bending. */
+static int32_t hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                    int64_t particle, void *ctx) {
+  (void)kind, (void)t, (void)limit, (void)particle;
+  if (strstr(sentence, "the bending of particles ") == NULL || spring != -1) check_failed("%s", sentence);
+  ++*(int *)ctx;
+  return 0;
+}
+
+static void a_run_above_the_limit_is_explained(void **unused) {
+  (void)unused;
+  hooke_system *system = new_rope(25, 0.5, 1.0, 0.0, 0.0);
+  hooke_limit *limit = find_limit(system, "verlet", 1);
+  const double most = hooke_limit_number(limit, 0, "predicted");
+  hooke_limit_destroy(limit);
+  for (int above = 0; above <= 1; above++) {
+    const double step = (above ? 1.01 : 0.99) * most;
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = "verlet", .step = step, .duration = 5000 * step, .every = 100 * step});
+    hooke_state *state = start_state(system);
+    hooke_state_position(state)[3 * 13 + 1] = 1e-3;
+    int heard = 0;
+    check_ok(hooke_integrator_on_warning(integrator, hear, &heard));
+    check_status(hooke_integrator_run(integrator, state), above ? HOOKE_DIVERGED : HOOKE_OK);
+    assert_true(heard >= above);
+    if (above) {
+      hooke_why *why = NULL;
+      check_ok(hooke_why_create(integrator, &why));
+      assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
+      const char *sentence = hooke_why_text(why, "sentence");
+      if (strstr(sentence, "most of all in the bending of particles ") == NULL ||
+          strstr(sentence, "(group beam.bending)") == NULL)
+        check_failed("%s", sentence);
+      check_close(hooke_why_number(why, "limit"), most, 0.02 * most);
+      hooke_why_destroy(why);
+    }
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_beam_is_bounded_by_its_middle),
+      cmocka_unit_test(forward_euler_needs_drag),
+      cmocka_unit_test(limits_are_met),
+      cmocka_unit_test(random_triples_run_up_to_the_prediction),
+      cmocka_unit_test(a_limit_by_bending_names_it),
+      cmocka_unit_test(a_run_above_the_limit_is_explained),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,223 @@
+/* A beam and a sheet that bend under their own weight mean the same at every resolution.
+ *
+ * Two held particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins half a piece
+ * before the wall. What its tip sinks by, for small deflections and masses by density, is
+ *   m g l^3/(2 B) sum of s^3, s = 1 .. N - 1,   m = rho l,
+ * which comes to w L^4/(8 B), w = rho g, as 1/N^2 does. */
+#include "check.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double LENGTH = 1.0, DENSITY = 0.1, GRAVITY = 9.81, SAG = 1e-3;
+
+/* Of a strip of 1 m width, or of a rope: what sinks by 1e-3 of its length. */
+static double stiffness(void) {
+  return DENSITY * GRAVITY * pow(LENGTH, 4.0) / (8.0 * SAG * LENGTH);
+}
+
+static void pin_first(hooke_system *system, int64_t count) {
+  for (int64_t p = 0; p < count; p++)
+    check_ok(hooke_system_pin(system, 1, &p));
+}
+
+static hooke_system *commit(hooke_system *system) {
+  const double down[3] = {0.0, 0.0, -GRAVITY};
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
+  hooke_system *system = NULL;
+  hooke_options *rope = NULL;
+  const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
+  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  check_ok(hooke_options_set_number(rope, "segments", segments));
+  check_ok(hooke_options_set_number(rope, of_mass, mass));
+  check_ok(hooke_options_set_number(rope, "bending", stiffness()));
+  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 1e5));
+  check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
+  hooke_options_destroy(rope);
+  pin_first(system, 2);
+  return commit(system);
+}
+
+/* `along` pieces from the wall, `across` particles over 0.5 m. */
+static hooke_system *new_sheet(int along, int across) {
+  hooke_system *system = NULL;
+  hooke_options *cloth = NULL;
+  const double piece = LENGTH / (along - 0.5);
+  const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
+  const double origin[3] = {-0.5 * piece, 0.0, 0.0};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
+  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
+  check_ok(hooke_options_set_number(cloth, "density", DENSITY));
+  check_ok(hooke_options_set_number(cloth, "bending", stiffness()));
+  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 1e5));
+  check_ok(hooke_system_add_part(system, "cloth", "sheet", cloth, NULL, NULL));
+  hooke_options_destroy(cloth);
+  pin_first(system, 2 * across);
+  return commit(system);
+}
+
+/* ---- where forces balance: Newton on the library's own forces and blocks ---- */
+
+/* -df/dq of the particles from `held` on, as a lower band of `width` numbers a row, the diagonal last. */
+static void fill_band(const hooke_system *system, const double *q, const double *v, int64_t held,
+                      int64_t width, double *band) {
+  const int64_t n = hooke_system_particle_count(system), count = hooke_system_block_count(system);
+  int64_t *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
+          *column = new_block(count, (int64_t)sizeof(int64_t));
+  double *blocks = new_doubles(9 * count);
+  check_ok(hooke_system_derivative_pattern(system, row_start, column));
+  check_ok(hooke_system_derivative_blocks(system, q, v, blocks, NULL));
+  memset(band, 0, (size_t)(3 * (n - held) * width) * sizeof *band);
+  for (int64_t p = held; p < n; p++) {
+    for (int64_t b = row_start[p]; b < row_start[p + 1]; b++) {
+      for (int k = 0; k < 9 && column[b] >= held; k++) {
+        const int64_t i = 3 * (p - held) + k / 3, j = 3 * (column[b] - held) + k % 3;
+        if (j > i) continue;
+        assert_true(i - j < width);
+        band[i * width + width - 1 - (i - j)] = -blocks[9 * b + k];
+      }
+    }
+  }
+  free(row_start);
+  free(column);
+  free(blocks);
+}
+
+/* x = A^-1 x by Cholesky, in the band's place. */
+static void solve(int64_t size, int64_t width, double *band, double *x) {
+  for (int64_t i = 0; i < size; i++) {
+    double *row = band + i * width + width - 1 - i; /* row[j] is A(i, j) */
+    const int64_t first = i < width ? 0 : i - width + 1;
+    for (int64_t j = first; j <= i; j++) {
+      const double *other = band + j * width + width - 1 - j;
+      const int64_t begin = j < width ? 0 : j - width + 1;
+      double sum = row[j];
+      for (int64_t k = begin > first ? begin : first; k < j; k++)
+        sum -= row[k] * other[k];
+      if (j == i) assert_true(sum > 0.0);
+      row[j] = j == i ? sqrt(sum) : sum / other[j];
+    }
+    for (int64_t k = first; k < i; k++)
+      x[i] -= row[k] * x[k];
+    x[i] /= row[i];
+  }
+  for (int64_t i = size - 1; i >= 0; i--) {
+    const double *row = band + i * width + width - 1 - i;
+    x[i] /= row[i];
+    for (int64_t k = i < width ? 0 : i - width + 1; k < i; k++)
+      x[k] -= row[k] * x[i];
+  }
+}
+
+/* What the last particle sinks by; the system is destroyed. `across` particles are in a row, two rows are held. */
+static double sag_of(hooke_system *system, int64_t across) {
+  const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
+  const int64_t size = 3 * (n - held);
+  hooke_state *state = start_state(system);
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  double *band = new_doubles(size * width), *force = new_doubles(3 * n), moved = 1.0;
+  for (int turn = 0; turn < 20 && moved > 1e-13; turn++) {
+    check_ok(hooke_system_force(system, 0.0, q, v, force));
+    fill_band(system, q, v, held, width, band);
+    solve(size, width, band, force + 3 * held);
+    moved = largest(size, force + 3 * held);
+    for (int64_t k = 3 * held; k < 3 * n; k++)
+      q[k] += force[k];
+  }
+  check_between(moved, 0.0, 1e-12);
+  const double sag = -q[3 * n - 1];
+  free(band);
+  free(force);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+  return sag;
+}
+
+/* ---- ropes ---- */
+
+static double tip_of(int segments) {
+  return sag_of(new_rope(segments, "density", DENSITY, LENGTH / (segments - 0.5)), 1);
+}
+
+static void tips_sink_as_beams_do(void **unused) {
+  (void)unused;
+  const int segments[4] = {16, 32, 64, 128};
+  double tip[4];
+  for (int k = 0; k < 4; k++) {
+    const double l = LENGTH / (segments[k] - 0.5), half = 0.5 * segments[k] * (segments[k] - 1.0);
+    tip[k] = tip_of(segments[k]);
+    print_message("%3d pieces: the tip sinks by %.6f of w L^4/(8 B)\n", segments[k], tip[k] / (SAG * LENGTH));
+    check_close(tip[k], DENSITY * l * GRAVITY * l * l * l / (2.0 * stiffness()) * half * half, 1e-4 * tip[k]);
+    check_between(tip[k] / (SAG * LENGTH), 0.98, 1.02);
+  }
+  check_between(tip[3] / tip[0], 0.98, 1.02);
+  /* the error goes with the square of a piece */
+  check_between((SAG * LENGTH - tip[0]) / (SAG * LENGTH - tip[1]), 3.5, 4.8);
+}
+
+/* Equal shares of the rope's mass give the tip twice what it stands for; a wall at the first particle is half a piece off. */
+static void other_masses_and_walls_are_noticed(void **unused) {
+  (void)unused;
+  const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;
+  const double shared = sag_of(new_rope(16, "mass", DENSITY * 16.0 * piece, piece), 1) / unit;
+  const double wall = sag_of(new_rope(16, "density", DENSITY, other), 1) / unit;
+  const double both = sag_of(new_rope(16, "mass", DENSITY * LENGTH, other), 1) / unit;
+  print_message("16 pieces: equal shares %.4f, the wall at the first particle %.4f, both %.4f\n", shared,
+                wall, both);
+  check_between(shared, 1.015, 1.025);
+  check_between(wall, 0.875, 0.885);
+  check_between(both, 0.895, 0.905);
+}
+
+/* The library's own way there: backward Euler, which damps what it does not resolve. */
+static void backward_euler_comes_to_rest_there(void **unused) {
+  (void)unused;
+  const double expected = tip_of(16);
+  hooke_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
+  double q[3 * 17];
+  run_to_end(system, (struct run){.method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0}, q,
+             NULL);
+  check_close(-q[3 * 17 - 1], expected, 1e-6 * expected);
+  hooke_system_destroy(system);
+}
+
+/* ---- sheets ---- */
+
+static void sheets_sink_as_beams_do(void **unused) {
+  (void)unused;
+  const int along[3] = {16, 64, 128}, across[3] = {2, 5, 9};
+  for (int k = 0; k < 3; k++) {
+    double first = 0.0;
+    for (int m = 0; m < 3; m++) {
+      const double sag = sag_of(new_sheet(along[m], across[k]), across[k]) / (SAG * LENGTH);
+      print_message("%3d pieces, %d across: the free edge sinks by %.6f of w L^4/(8 B)\n", along[m],
+                    across[k], sag);
+      check_between(sag, 0.98, 1.02);
+      if (m == 0) first = sag;
+      check_between(sag / first, 0.98, 1.02);
+    }
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(tips_sink_as_beams_do),
+      cmocka_unit_test(other_masses_and_walls_are_noticed),
+      cmocka_unit_test(backward_euler_comes_to_rest_there),
+      cmocka_unit_test(sheets_sink_as_beams_do),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

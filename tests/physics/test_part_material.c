@@ -1,0 +1,285 @@
+/* Density, damping ratio and bending stiffness of parts: what particles, springs and triples come of them. */
+#include "check.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static hooke_options *new_options(const char *kind, const char *of_mass, double mass) {
+  hooke_options *options = NULL;
+  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_set_number(options, of_mass, mass));
+  return options;
+}
+
+static hooke_options *new_rope(double length, double segments, const char *of_mass, double mass) {
+  hooke_options *options = new_options("rope", of_mass, mass);
+  const double to[3] = {0.6 * length, 0.0, 0.8 * length};
+  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "to", 3, to));
+  check_ok(hooke_options_set_number(options, "segments", segments));
+  return options;
+}
+
+/* Edges of 2 m and 1 m, 60 degrees apart. */
+static hooke_options *new_cloth(double nu, double nv, const char *of_mass, double mass) {
+  hooke_options *options = new_options("cloth", of_mass, mass);
+  const double edges[6] = {2.0, 0.0, 0.0, 0.5, 0.0, sqrt(0.75)}, size[2] = {nu, nv};
+  check_ok(hooke_options_set_text(options, "origin", "1,2,3"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  return options;
+}
+
+/* The options are destroyed. */
+static hooke_system *build(const char *kind, hooke_options *options) {
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_part(system, kind, "part", options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+static double derived(const hooke_system *system, const char *family, const char *name) {
+  double value = NAN;
+  for (int64_t k = 0; k < hooke_system_derived_count(system); k++) {
+    const char *of = hooke_system_derived_text(system, k, "family");
+    assert_string_equal(hooke_system_derived_text(system, k, "part"), "part");
+    if ((family == NULL) != (of == NULL) || (of && strcmp(of, family) != 0)) continue;
+    if (strcmp(hooke_system_derived_text(system, k, "name"), name) == 0)
+      value = hooke_system_derived_value(system, k);
+  }
+  return value;
+}
+
+/* ---- density ---- */
+
+static double total(const hooke_system *system) {
+  double sum = 0.0;
+  for (int64_t p = 0; p < hooke_system_particle_count(system); p++)
+    sum += hooke_system_mass(system)[p];
+  return sum;
+}
+
+static void a_rope_weighs_the_same_at_every_resolution(void **unused) {
+  (void)unused;
+  for (int n = 1; n <= 64; n *= 2) {
+    hooke_system *rope = build("rope", new_rope(3.0, n, "density", 0.2));
+    const double *mass = hooke_system_mass(rope);
+    check_close(total(rope), 0.6, 1e-15);
+    check_close(mass[0], 0.3 / n, 1e-16);
+    check_close(mass[n], 0.3 / n, 1e-16);
+    for (int p = 1; p < n; p++)
+      check_close(mass[p], 0.6 / n, 1e-16);
+    check_close(derived(rope, NULL, "mass of an end"), mass[0], 0.0);
+    if (n > 1) check_close(derived(rope, NULL, "mass of an inner particle"), mass[1], 0.0);
+    assert_int_equal(hooke_system_derived_count(rope), n > 1 ? 2 : 1);
+    hooke_system_destroy(rope);
+  }
+}
+
+static void a_cloth_weighs_its_area(void **unused) {
+  (void)unused;
+  const int size[][2] = {{2, 2}, {2, 5}, {6, 2}, {7, 4}, {33, 17}};
+  for (size_t k = 0; k < sizeof size / sizeof size[0]; k++) {
+    const int nu = size[k][0], nv = size[k][1];
+    hooke_system *cloth = build("cloth", new_cloth(nu, nv, "density", 0.3));
+    const double cell = 2.0 * sqrt(0.75) / ((nu - 1) * (nv - 1)), *mass = hooke_system_mass(cloth);
+    check_close(total(cloth), 0.3 * 2.0 * sqrt(0.75), 1e-14);
+    for (int p = 0; p < nu * nv; p++) {
+      const int r = p / nu, c = p % nu;
+      const double side = r == 0 || r == nv - 1 ? 0.5 : 1.0, end = c == 0 || c == nu - 1 ? 0.5 : 1.0;
+      check_close(mass[p], 0.3 * cell * side * end, 1e-15);
+    }
+    check_close(derived(cloth, NULL, "mass of a corner"), mass[0], 0.0);
+    assert_int_equal(hooke_system_derived_count(cloth), 1 + (nu > 2 || nv > 2) + (nu > 2 && nv > 2));
+    hooke_system_destroy(cloth);
+  }
+}
+
+static void a_mass_is_shared_equally(void **unused) {
+  (void)unused;
+  hooke_system *rope = build("rope", new_rope(3.0, 4, "mass", 0.5));
+  for (int p = 0; p < 5; p++)
+    check_close(hooke_system_mass(rope)[p], 0.1, 0.0);
+  assert_int_equal(hooke_system_derived_count(rope), 0);
+  assert_null(hooke_system_derived_text(rope, 0, "name"));
+  assert_true(isnan(hooke_system_derived_value(rope, 0)));
+  hooke_system_destroy(rope);
+}
+
+/* ---- damping ratio ---- */
+
+/* Two particles of one spring: each swing is smaller than that before by exp(-2 pi zeta/sqrt(1 - zeta^2)). */
+static void a_pair_swings_as_its_ratio_says(void **unused) {
+  (void)unused;
+  const double zeta = 0.2, m = 0.25, kappa = 50.0 / 0.8;
+  hooke_options *options = new_rope(1.0, 1, "mass", 2.0 * m);
+  check_ok(hooke_options_set_number(options, "stretch.stiffness", 50.0));
+  check_ok(hooke_options_set_number(options, "stretch.damping_ratio", zeta));
+  check_ok(hooke_options_set_number(options, "stretch.rest_scale", 0.8));
+  hooke_system *pair = build("rope", options);
+  const double omega = sqrt(2.0 * kappa / m), period = 2.0 * acos(-1.0) / (omega * sqrt(1.0 - zeta * zeta));
+  double q[6];
+  run_to_end(pair, (struct run){.method = "rk4", .step = period / 1000, .duration = period, .every = period},
+             q, NULL);
+  const double length = hypot(q[0] - q[3], q[2] - q[5]);
+  check_close((length - 0.8) / 0.2, exp(-2.0 * acos(-1.0) * zeta / sqrt(1.0 - zeta * zeta)), 1e-8);
+  hooke_system_destroy(pair);
+}
+
+static void every_direction_has_its_own(void **unused) {
+  (void)unused;
+  hooke_options *options = new_cloth(21, 31, "density", 0.3);
+  check_ok(hooke_options_set_number(options, "structural.stiffness", 40.0));
+  check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.1));
+  check_ok(hooke_options_set_number(options, "shear.stiffness", 7.0));
+  check_ok(hooke_options_set_number(options, "shear.damping_ratio", 0.3));
+  check_ok(hooke_options_set_number(options, "shear.rest_scale", 1.1));
+  check_ok(hooke_options_set_number(options, "bend.stiffness", 3.0));
+  check_ok(hooke_options_set_number(options, "bend.damping", 0.02));
+  hooke_system *cloth = build("cloth", options);
+  const double u = 0.1, v = 1.0 / 30, m = 0.3 * u * v * sqrt(0.75);
+  const double along = sqrt(u * u + v * v + u * v), across = sqrt(u * u + v * v - u * v);
+  const struct {
+    const char *family, *kappa, *gamma;
+    int64_t count;
+    double stiffness, length, zeta;
+  } strip[] = {{"structural", "kappa along u", "gamma along u", 20 * 31, 40.0, u, 0.1},
+               {"structural", "kappa along v", "gamma along v", 21 * 30, 40.0, v, 0.1},
+               {"shear", "kappa along u + v", "gamma along u + v", 20 * 30, 7.0, 1.1 * along, 0.3},
+               {"shear", "kappa along u - v", "gamma along u - v", 20 * 30, 7.0, 1.1 * across, 0.3}};
+  const int64_t springs = hooke_system_spring_count(cloth);
+  double *kappa = new_doubles(springs), *gamma = new_doubles(springs);
+  check_ok(hooke_system_spring_material(cloth, kappa, gamma, NULL));
+  int64_t k = 0;
+  for (size_t s = 0; s < sizeof strip / sizeof strip[0]; s++) {
+    const double first_kappa = kappa[k], first_gamma = gamma[k],
+                 expected = strip[s].stiffness / strip[s].length;
+    check_close(first_kappa, expected, 1e-12 * expected);
+    check_close(first_gamma, 2.0 * strip[s].zeta * sqrt(expected * m / 2.0), 1e-12 * first_gamma);
+    check_close(derived(cloth, strip[s].family, strip[s].kappa), first_kappa, 0.0);
+    check_close(derived(cloth, strip[s].family, strip[s].gamma), first_gamma, 0.0);
+    for (const int64_t end = k + strip[s].count; k < end; k++) {
+      check_same_bits(1, &kappa[k], &first_kappa);
+      check_same_bits(1, &gamma[k], &first_gamma);
+    }
+  }
+  for (; k < springs; k++)
+    assert_true(gamma[k] > 0.0);
+  assert_true(isnan(derived(cloth, "bend", "gamma along u"))); /* was given as it is */
+  free(kappa);
+  free(gamma);
+  hooke_system_destroy(cloth);
+}
+
+/* What is equal to the bit takes no memory of its own: a cloth by ratio is as small as one by damping. */
+static void ratios_keep_the_runs(void **unused) {
+  (void)unused;
+  hooke_options *ratio = new_cloth(40, 50, "mass", 0.3), *plain = new_cloth(40, 50, "mass", 0.3);
+  check_ok(hooke_options_set_number(ratio, "structural.stiffness", 40.0));
+  check_ok(hooke_options_set_number(ratio, "structural.damping_ratio", 0.1));
+  check_ok(hooke_options_set_number(plain, "structural.stiffness", 40.0));
+  check_ok(hooke_options_set_number(plain, "structural.damping", 0.1));
+  hooke_system *a = build("cloth", ratio), *b = build("cloth", plain);
+  check_between((double)(hooke_system_memory(a) - hooke_system_memory(b)), 0.0, 2000.0);
+  hooke_system_destroy(a);
+  hooke_system_destroy(b);
+}
+
+/* ---- bending ---- */
+
+/* Lines along u row by row, then lines along v, first particle row by row; half at the edges. */
+static void a_cloth_bends_along_its_lines(void **unused) {
+  (void)unused;
+  const int nu = 5, nv = 4;
+  hooke_options *options = new_cloth(nu, nv, "mass", 0.3);
+  check_ok(hooke_options_set_number(options, "bending", 0.7));
+  hooke_system *cloth = build("cloth", options);
+  const double u = 0.5, v = 1.0 / 3, area = u * v * sqrt(0.75);
+  const double along_u = 0.7 * (area / u) / (u * u * u), along_v = 0.7 * (area / v) / (v * v * v);
+  assert_int_equal(hooke_system_bending_count(cloth), nv * (nu - 2) + (nv - 2) * nu);
+  int64_t triples[3 * 22], k = 0;
+  double c[22];
+  check_ok(hooke_system_bending_ends(cloth, triples));
+  check_ok(hooke_system_bending_coefficient(cloth, c));
+  for (int r = 0; r < nv; r++) {
+    for (int at = r * nu; at < r * nu + nu - 2; at++, k++) {
+      for (int e = 0; e < 3; e++)
+        assert_int_equal(triples[3 * k + e], at + e);
+      check_close(c[k], r == 0 || r == nv - 1 ? 0.5 * along_u : along_u, 1e-14);
+    }
+  }
+  for (int at = 0; at < (nv - 2) * nu; at++, k++) {
+    for (int e = 0; e < 3; e++)
+      assert_int_equal(triples[3 * k + e], at + e * nu);
+    check_close(c[k], at % nu == 0 || at % nu == nu - 1 ? 0.5 * along_v : along_v, 1e-13);
+  }
+  assert_int_equal(k, 22);
+  check_close(derived(cloth, "bending", "c along u"), along_u, 1e-14);
+  check_close(derived(cloth, "bending", "c along u at an edge"), 0.5 * along_u, 1e-14);
+  check_close(derived(cloth, "bending", "c along v"), along_v, 1e-13);
+  check_close(derived(cloth, "bending", "c along v at an edge"), 0.5 * along_v, 1e-13);
+  assert_string_equal(hooke_system_bending_group_name(cloth, 0), "part.bending");
+  hooke_system_destroy(cloth);
+}
+
+/* A cloth of one cell across has edges alone; one of two particles along a direction does not bend along it. */
+static void narrow_cloths(void **unused) {
+  (void)unused;
+  hooke_options *strip = new_cloth(2, 6, "mass", 0.3), *cell = new_cloth(2, 2, "mass", 0.3);
+  check_ok(hooke_options_set_number(strip, "bending", 0.7));
+  check_ok(hooke_options_set_number(cell, "bending", 0.7));
+  hooke_system *a = build("cloth", strip), *b = build("cloth", cell);
+  assert_int_equal(hooke_system_bending_count(a), 8);
+  assert_true(isnan(derived(a, "bending", "c along v")));
+  assert_true(derived(a, "bending", "c along v at an edge") > 0.0);
+  assert_int_equal(hooke_system_bending_group_count(b), 0);
+  assert_int_equal(hooke_system_derived_count(b), 0);
+  hooke_system_destroy(a);
+  hooke_system_destroy(b);
+}
+
+/* A part that fails half-way leaves nothing behind. */
+static void failures_are_rolled_back(void **unused) {
+  (void)unused;
+  hooke_system *system = NULL;
+  hooke_options *fine = new_rope(1.0, 4, "density", 0.2), *bad = new_rope(1.0, 4, "density", 0.2);
+  check_ok(hooke_options_set_number(fine, "bending", 1.0));
+  check_ok(hooke_options_set_number(bad, "bending", 1.0));
+  check_ok(hooke_options_set_text(bad, "pinned", "9"));
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_part(system, "rope", NULL, fine, NULL, NULL));
+  check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
+  check_message("pinned[0]");
+  assert_int_equal(hooke_system_bending_group_count(system), 1);
+  assert_int_equal(hooke_system_derived_count(system), 3);
+  check_ok(hooke_options_unset(bad, "pinned"));
+  check_ok(hooke_options_set_number(bad, "mass", 1.0));
+  check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
+  check_message("mass and density are both given");
+  check_ok(hooke_options_unset(bad, "mass"));
+  check_ok(hooke_options_unset(bad, "density"));
+  check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
+  check_message("neither mass nor density");
+  hooke_options_destroy(fine);
+  hooke_options_destroy(bad);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_rope_weighs_the_same_at_every_resolution),
+      cmocka_unit_test(a_cloth_weighs_its_area),
+      cmocka_unit_test(a_mass_is_shared_equally),
+      cmocka_unit_test(a_pair_swings_as_its_ratio_says),
+      cmocka_unit_test(every_direction_has_its_own),
+      cmocka_unit_test(ratios_keep_the_runs),
+      cmocka_unit_test(a_cloth_bends_along_its_lines),
+      cmocka_unit_test(narrow_cloths),
+      cmocka_unit_test(failures_are_rolled_back),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
