@@ -12,8 +12,10 @@ static const double DIFFERENCE_FACTOR =
     2.0; /* error of a step over the change when it is halved, at order 1 or more */
 static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
 static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
-static const double STALLED = 0.75, LEAST_GAIN = 0.1; /* of the error by a finer step; of the duration */
-static const double MARGIN = 4.0; /* of the step's error, where only a part of the run can be judged */
+static const double STALLED = 0.75, LEAST_GAIN = 0.1;  /* of the error by a finer step; of the duration */
+static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
+static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
+static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
 enum { REPEATS = 20 };
 static const double SHORT = 0.02; /* [s]: runs are repeated that long for their time */
 
@@ -74,11 +76,18 @@ static int32_t is_coarser_than_full(const struct search *search) {
   return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
 }
 
+/* 1 while steps may be so coarse that the whole motion is wrong, and halving them still shows nothing. */
+static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
+  if ((double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count) return 0;
+  return search->adaptive ? search->value < 8.0 : search->value < COARSE * search->first_stable;
+}
+
 /* 1 if smaller steps no longer help: differences grow too fast for any step to be small enough. */
 static int32_t has_stalled(struct search *search, double error, int64_t frames) {
   const double gain = (double)(frames - search->frames) / (double)search->recorder.needs->frame_count;
   const int32_t idle = error > STALLED * search->error && gain < LEAST_GAIN;
-  search->stalls = idle && !is_coarser_than_full(search) ? search->stalls + 1 : 0;
+  search->stalls =
+      idle && !is_coarser_than_full(search) && !may_be_too_coarse(search, frames) ? search->stalls + 1 : 0;
   search->error = error;
   search->frames = frames;
   return search->stalls >= 2;
@@ -94,12 +103,14 @@ static void swap_runs(struct search *search) {
   search->cost[1] = cost;
 }
 
-/* 1 if a variant with a step as small as that of the full system is off by more than the want, whatever the step does. */
+/* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as small as that
+ * of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const hooke_needs *needs = search->recorder.needs;
-  if (search->recorder.trial->map == NULL || needs->path.position == NULL || is_coarser_than_full(search))
-    return 0;
-  return hooke_needs_distance(needs, &needs->path, &search->path[1]) - error > needs->want;
+  if (search->recorder.trial->map == NULL || needs->path.position == NULL) return 0;
+  const double distance = hooke_needs_distance(needs, &needs->path, &search->path[1]);
+  if (!(distance - error > needs->want)) return 0;
+  return error <= CERTAIN * distance || !is_coarser_than_full(search);
 }
 
 /* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place 1. */

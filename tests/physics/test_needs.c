@@ -1,0 +1,346 @@
+/* What a scene needs: changes and costs are those of runs made apart, refinement predicts what a much finer rope does, motion
+ * that no step can follow is judged as far as it can be, and whoever stops it keeps what is known. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- making ---- */
+
+static hooke_needs *start(const hooke_system *system, struct run run, double want, const char *watch) {
+  hooke_options *of_run = run_options(run), *options;
+  hooke_needs *needs = NULL;
+  check_ok(hooke_needs_options_create(&options));
+  check_ok(hooke_options_set_number(options, "want", want));
+  if (watch) check_ok(hooke_options_set_text(options, "watch", watch));
+  check_ok(hooke_needs_create(system, of_run, options, &needs));
+  hooke_options_destroy(options);
+  hooke_options_destroy(of_run);
+  return needs;
+}
+
+/* A rope that hangs from its start, let go unstretched; with faint springs two apart. */
+static hooke_system *hanging_rope(int segments, double bend) {
+  hooke_system *system;
+  hooke_options *rope;
+  const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
+  const int64_t first = 0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
+  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  check_ok(hooke_options_set_number(rope, "segments", segments));
+  check_ok(hooke_options_set_number(rope, "density", 0.1));
+  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 20));
+  check_ok(hooke_options_set_number(rope, "stretch.damping", 0.05));
+  if (bend > 0.0) check_ok(hooke_options_set_number(rope, "bend.stiffness", bend));
+  check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
+  check_ok(hooke_system_pin(system, 1, &first));
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(rope);
+  return system;
+}
+
+static int64_t row_of(const hooke_needs *needs, const char *without) {
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    if (strcmp(hooke_needs_text(needs, row, "without"), without) == 0) return row;
+  }
+  check_failed("there is no row \"%s\"", without);
+  return -1;
+}
+
+/* ---- changes ---- */
+
+struct frames {
+  int64_t count, size, every; /* numbers of a frame; of this many particles one */
+  double q[64 * 3 * 64];
+};
+
+static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct frames *frames = ctx;
+  const double *q = hooke_state_position(state);
+  (void)step;
+  for (int64_t p = 1; p * frames->every < hooke_state_size(state) / 3; p++) {
+    for (int a = 0; a < 3; a++)
+      frames->q[frames->count * frames->size + 3 * (p - 1) + a] = q[3 * p * frames->every + a];
+  }
+  frames->count++;
+  return 0;
+}
+
+/* All particles but the first at every frame; of a finer rope those that the coarse one has, too. */
+static struct frames *run_frames(const hooke_system *system, const hooke_options *options, int64_t every) {
+  struct frames *frames = new_block(1, sizeof *frames);
+  hooke_integrator *integrator;
+  hooke_state *state = start_state(system);
+  frames->every = every;
+  frames->size = 3 * ((hooke_system_particle_count(system) - 1) / every);
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  check_ok(hooke_integrator_on_frame(integrator, keep_frame, frames));
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  return frames;
+}
+
+static struct frames *run_fine(const hooke_system *system, double step, int64_t every) {
+  hooke_options *options =
+      run_options((struct run){.method = "rk4", .step = step, .duration = 0.5, .every = 0.02});
+  struct frames *frames = run_frames(system, options, every);
+  hooke_options_destroy(options);
+  return frames;
+}
+
+/* Maximum over frames of the root mean square distance. */
+static double distance(const struct frames *a, const struct frames *b) {
+  double most = 0.0;
+  assert_int_equal(a->count, b->count);
+  assert_int_equal(a->size, b->size);
+  for (int64_t f = 0; f < a->count; f++) {
+    double sum = 0.0;
+    for (int64_t k = f * a->size; k < (f + 1) * a->size; k++)
+      sum += (a->q[k] - b->q[k]) * (a->q[k] - b->q[k]);
+    most = fmax(most, sqrt(3.0 * sum / (double)a->size));
+  }
+  return most;
+}
+
+static const struct run half_a_second = {.method = "rk4", .duration = 0.5, .every = 0.02};
+
+static void changes_are_those_of_runs_made_apart(void **state) {
+  (void)state;
+  const double want = 1e-3;
+  hooke_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
+  hooke_needs *needs = start(system, half_a_second, want, NULL);
+  check_ok(hooke_needs_find(needs));
+  struct frames *full = run_fine(system, 1e-4, 1), *no_bend = run_fine(without, 1e-4, 1);
+  const int64_t bend = row_of(needs, "rope.bend");
+  const double change = distance(full, no_bend);
+  check_between(change, 1e-5, want);
+  check_close(hooke_needs_number(needs, bend, "error"), change, 0.2 * want);
+  assert_true(hooke_needs_number(needs, bend, "needed") == 0.0);
+  assert_true(hooke_needs_number(needs, bend, "springs") == 12.0);
+  assert_true(hooke_needs_figure(needs, "springs") == 23.0);
+  assert_true(hooke_needs_number(needs, row_of(needs, "rope.stretch"), "needed") == 1.0);
+  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
+
+  /* the lean system, run as recommended; without half the resolution, which this want does not allow */
+  assert_true(hooke_needs_number(needs, bend, "left_out") == 1.0);
+  const hooke_system *lean = hooke_needs_lean(needs);
+  assert_non_null(lean);
+  if (hooke_system_particle_count(lean) == 13) {
+    struct frames *run = run_frames(lean, hooke_needs_lean_run(needs), 1);
+    check_between(distance(full, run), 0.0, want);
+    check_close(hooke_needs_figure(needs, "lean_error"), distance(full, run), 0.2 * want);
+    for (int64_t p = 0; p < 13; p++)
+      assert_int_equal(hooke_needs_lean_particle(needs, p), p);
+    free(run);
+  } else {
+    assert_int_equal(hooke_system_particle_count(lean), 7);
+    assert_int_equal(hooke_needs_lean_particle(needs, 1), -1);
+  }
+  check_between(hooke_needs_figure(needs, "lean_error"), 0.0, want);
+  check_status(hooke_needs_find(needs), HOOKE_BAD_CALL);
+  free(full);
+  free(no_bend);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(system);
+  hooke_system_destroy(without);
+}
+
+/* What is left at 8 pieces, predicted from 8, 16 and 32, against 128. */
+static void refinement_predicts_a_much_finer_rope(void **state) {
+  (void)state;
+  hooke_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
+  hooke_needs *needs = start(coarse, half_a_second, 1e-4, NULL);
+  check_ok(hooke_needs_refine(needs));
+  assert_int_equal(hooke_needs_part_count(needs), 1);
+  assert_string_equal(hooke_needs_part_text(needs, 0, "part"), "rope");
+  struct frames *at_coarse = run_fine(coarse, 1e-4, 1), *at_fine = run_fine(fine, 2.5e-5, 16);
+  const double left = distance(at_coarse, at_fine);
+  check_between(hooke_needs_part_number(needs, 0, "error"), 0.9 * left, 1.15 * left);
+  check_between(hooke_needs_part_number(needs, 0, "order"), 0.8, 2.3);
+  assert_true(hooke_needs_part_number(needs, 0, "cells") == 8.0);
+  /* the want asks for a resolution at which that is what is left */
+  const double order = hooke_needs_part_number(needs, 0, "order"),
+               wanted = hooke_needs_part_number(needs, 0, "wanted");
+  check_between(hooke_needs_part_number(needs, 0, "error") * pow(8.0 / wanted, order), 0.5e-4, 1e-4);
+  assert_true(isnan(hooke_needs_part_number(needs, 0, "wanted_second")));
+  check_status(hooke_needs_refine(needs), HOOKE_BAD_CALL);
+  free(at_coarse);
+  free(at_fine);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(coarse);
+  hooke_system_destroy(fine);
+}
+
+/* ---- callbacks, methods, chaos ---- */
+
+static int32_t push(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v;
+  force[3] += *(const double *)ctx;
+  return 0;
+}
+
+static hooke_system *pushed_pair(double *strength) {
+  const double position[6] = {0, 0, 0, 1.1, 0, 0};
+  const int64_t ends[2] = {0, 1};
+  hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 100, .rest_length = 1});
+  check_ok(hooke_system_set_force(system, push, NULL, strength));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void a_callback_is_an_ingredient(void **state) {
+  (void)state;
+  double strengths[2] = {1e-6, 1.0};
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = pushed_pair(&strengths[k]);
+    hooke_needs *needs =
+        start(system, (struct run){.method = "verlet", .duration = 1, .every = 0.05}, 1e-3, NULL);
+    check_ok(hooke_needs_find(needs));
+    assert_true(hooke_needs_number(needs, row_of(needs, "callback"), "needed") == (double)k);
+    hooke_needs_destroy(needs);
+    hooke_system_destroy(system);
+  }
+}
+
+static void every_method_finds_the_same(void **state) {
+  (void)state;
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    const char *method = hooke_method_name(k);
+    if (!hooke_method_is_built(method)) continue;
+    hooke_system *system = hanging_rope(4, 0.01);
+    hooke_needs *needs =
+        start(system, (struct run){.method = method, .duration = 0.2, .every = 0.02}, 2e-3, NULL);
+    check_ok(hooke_needs_find(needs));
+    assert_string_equal(hooke_needs_word(needs, "method"), method);
+    assert_true(hooke_needs_number(needs, row_of(needs, "rope.bend"), "needed") == 0.0);
+    assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
+    check_between(hooke_needs_figure(needs, "step_error"), 0.0, 2e-4);
+    check_between(hooke_needs_figure(needs, "lean_error"), 0.0, 2e-3);
+    assert_true(isnan(hooke_needs_figure(needs, "step")) == hooke_method_is_adaptive(method));
+    hooke_needs_destroy(needs);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Two masses on stiff rods, let go from the upright: a double pendulum. */
+static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
+  (void)state;
+  const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
+  const int64_t ends[4] = {0, 1, 1, 2};
+  hooke_system *system = small_system(3, position, NULL, 1.0, 1);
+  small_springs(system, 2, ends, (struct springs){.stiffness = 2e3, .damping = 5, .rest_length = -1});
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_set_drag(system, 1e-9));
+  check_ok(hooke_system_commit(system));
+  hooke_needs *needs =
+      start(system, (struct run){.method = "symplectic-euler", .duration = 20, .every = 0.05}, 0.01, NULL);
+  check_ok(hooke_needs_find(needs));
+  check_between(hooke_needs_figure(needs, "judged_until"), 1.5, 15.0);
+  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
+  assert_true(hooke_needs_number(needs, row_of(needs, "drag"), "needed") == 0.0);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(system);
+}
+
+/* ---- stopping, refusing ---- */
+
+struct listener {
+  double last;
+  int64_t calls, most;
+};
+
+static int32_t listen(double done, const char *what, void *ctx) {
+  struct listener *listener = ctx;
+  if (done < listener->last || done > 1.0 || what == NULL) check_failed("%g after %g", done, listener->last);
+  listener->last = done;
+  return ++listener->calls > listener->most;
+}
+
+static void whoever_stops_it_keeps_what_is_known(void **state) {
+  (void)state;
+  hooke_system *system = hanging_rope(12, 0.05);
+  struct listener all = {.most = INT64_MAX};
+  hooke_needs *needs = start(system, half_a_second, 1e-3, NULL);
+  hooke_needs_on_progress(needs, listen, &all);
+  check_ok(hooke_needs_find(needs));
+  const int64_t rows = hooke_needs_row_count(needs);
+  hooke_needs_destroy(needs);
+  for (int64_t part = 0; part < 8; part++) {
+    struct listener some = {.most = all.calls * part / 8};
+    needs = start(system, half_a_second, 1e-3, NULL);
+    hooke_needs_on_progress(needs, listen, &some);
+    check_status(hooke_needs_find(needs), HOOKE_STOPPED);
+    check_between((double)hooke_needs_row_count(needs), 0.0, (double)rows);
+    assert_null(hooke_needs_text(needs, hooke_needs_row_count(needs), "without"));
+    for (int64_t row = 0; row < hooke_needs_row_count(needs); row++)
+      check_between(hooke_needs_number(needs, row, "error"), 0.0, 10.0);
+    assert_true(part > 0 || isnan(hooke_needs_figure(needs, "wall_seconds")));
+    hooke_needs_destroy(needs);
+  }
+  hooke_system_destroy(system);
+}
+
+static void check_watch(const hooke_system *system, const char *watch, const char *message) {
+  hooke_options *run = run_options(half_a_second), *options;
+  hooke_needs *needs = NULL;
+  check_ok(hooke_needs_options_create(&options));
+  check_ok(hooke_options_set_number(options, "want", 1e-3));
+  check_ok(hooke_options_set_text(options, "watch", watch));
+  check_status(hooke_needs_create(system, run, options, &needs), message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  if (message) check_message(message);
+  hooke_needs_destroy(needs);
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+}
+
+static void what_cannot_be_is_refused(void **state) {
+  (void)state;
+  hooke_system *system = hanging_rope(12, 0.05);
+  static const char *const good[] = {"rope", "rope.bend", "0", "12", "1-5", "0,3-4,12"};
+  static const char *const bad[] = {"robe", "13", "5-1", "1,",   ",1",
+                                    "1-",   "-1", "1 2", "0-13", "99999999999999999999"};
+  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++)
+    check_watch(system, good[k], NULL);
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
+    check_watch(system, bad[k], "rope, rope.stretch, rope.bend, or particle numbers");
+  hooke_options *run = run_options((struct run){.method = "rk4"}), *options;
+  hooke_needs *needs = NULL;
+  check_ok(hooke_needs_options_create(&options));
+  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  check_message("want");
+  check_ok(hooke_options_set_number(options, "want", 1e-3));
+  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  check_message("duration");
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+
+  hooke_system *alone = small_oscillator(1.0);
+  needs = start(alone, half_a_second, 1e-3, NULL);
+  check_status(hooke_needs_refine(needs), HOOKE_BAD_VALUE);
+  check_message("no parts");
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(alone);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(changes_are_those_of_runs_made_apart),
+      cmocka_unit_test(refinement_predicts_a_much_finer_rope),
+      cmocka_unit_test(a_callback_is_an_ingredient),
+      cmocka_unit_test(every_method_finds_the_same),
+      cmocka_unit_test(chaos_is_judged_as_far_as_a_step_can_follow),
+      cmocka_unit_test(whoever_stops_it_keeps_what_is_known),
+      cmocka_unit_test(what_cannot_be_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
