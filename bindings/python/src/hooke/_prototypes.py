@@ -88,6 +88,8 @@ PROTOTYPES = {
     "hooke_system_particle_count": (INT64, SYSTEM),
     "hooke_system_free_count": (INT64, SYSTEM),
     "hooke_system_spring_count": (INT64, SYSTEM),
+    "hooke_system_dropped_spring_count": (INT64, SYSTEM),
+    "hooke_system_idle_count": (INT64, SYSTEM),
     "hooke_system_group_count": (INT64, SYSTEM),
     "hooke_system_group_name": (TEXT, SYSTEM, INT64),
     "hooke_system_group_size": (INT64, SYSTEM, INT64),
