@@ -81,6 +81,11 @@ static int32_t count_idle(hooke_system *system) {
       touched[spring.head] = touched[spring.tail] = 1;
     }
   }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      touched[triple.particle[e]] = 1;
+  }
   for (int64_t p = 0; system->force == NULL && p < system->particle_count; p++)
     system->idle_count += system->held[p] == HOOKE_HELD_PINNED && !touched[p];
   hooke_free(touched);

@@ -24,6 +24,7 @@ PUBLIC = {
     "hooke/measure.h": "measure",
     "hooke/study.h": "measure",
     "hooke/limit.h": "measure",
+    "hooke/cost.h": "measure",
     "hooke/why.h": "measure",
     "hooke/io.h": "io",
 }

@@ -19,6 +19,7 @@ enum ingredient {
   GROUPS,       /* two groups, whose springs would form runs and lanes of their own */
   FAMILY,       /* a family of a part */
   SOME_SPRINGS, /* springs among others of a group */
+  BENDING,
   DAMPING,
   DRAG,
   GRAVITY,
@@ -128,6 +129,13 @@ static void add_group(hooke_system *system, int64_t offset, double stiffness) {
   hooke_options_destroy(options);
 }
 
+static void add_bending(hooke_system *system, double coefficient) {
+  int64_t triples[3 * GROUP];
+  for (int64_t k = 0; k < GROUP; k++)
+    triples[3 * k] = k, triples[3 * k + 1] = k + 1, triples[3 * k + 2] = k + 2;
+  check_ok(hooke_system_add_bending(system, "bending", GROUP, triples, 1, &coefficient));
+}
+
 static hooke_system *build(struct scene scene) {
   static const double down[] = {0, 0, -9.81}, nothing[] = {0.0, -0.0, 0.0};
   static const int64_t pinned[] = {0, 16};
@@ -139,6 +147,8 @@ static hooke_system *build(struct scene scene) {
     add_part(&scene, system);
   for (int64_t offset = 3; offset <= 5 && (is_zero(&scene, GROUPS) || is_full(&scene, GROUPS)); offset += 2)
     add_group(system, offset, is_zero(&scene, GROUPS) ? 0.0 : 0.5);
+  if (is_zero(&scene, BENDING)) add_bending(system, 0.0);
+  if (is_full(&scene, BENDING)) add_bending(system, 0.1);
   check_ok(hooke_system_pin(system, 2, pinned));
   if (is_zero(&scene, GRAVITY)) check_ok(hooke_system_set_gravity(system, nothing));
   if (is_full(&scene, GRAVITY)) check_ok(hooke_system_set_gravity(system, down));
@@ -196,6 +206,8 @@ static void check_same_lanes(const hooke_system *found, const hooke_system *expe
 static void check_same_choice(const hooke_system *found, const hooke_system *expected) {
   check_same_forces(found, expected);
   check_same_runs(&found->springs, &expected->springs);
+  assert_int_equal(found->bending.count, expected->bending.count);
+  assert_int_equal(found->bending.run_count, expected->bending.run_count);
   check_same_lanes(found, expected);
   assert_int_equal(hooke_system_spring_count(found), hooke_system_spring_count(expected));
   assert_int_equal(hooke_system_idle_count(found), hooke_system_idle_count(expected));
@@ -354,18 +366,22 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-/* A pinned particle at the end of a spring is not idle, nor one that a callback may look at, nor one that is free. */
+/* A pinned particle at the end of a spring is not idle, nor one of a triple that has a strength, nor one that a callback may
+ * look at, nor one that is free. */
 static void idle_is_what_nothing_touches(void **unused) {
   (void)unused;
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
-  static const int64_t ends[] = {0, 1}, pinned[] = {0, 2};
-  for (int callback = 0; callback <= 1; callback++) {
+  static const int64_t ends[] = {0, 1}, pinned[] = {0, 2}, triple[] = {1, 2, 3};
+  for (int k = 0; k < 4; k++) {
+    const int callback = k == 1;
+    const double bending = k == 2 ? 1.0 : 0.0;
     hooke_system *system = small_system(4, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     check_ok(hooke_system_pin(system, 2, pinned));
+    if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
     if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    assert_int_equal(hooke_system_idle_count(system), callback ? 0 : 1);
+    assert_int_equal(hooke_system_idle_count(system), callback || bending > 0.0 ? 0 : 1);
     hooke_system_destroy(system);
   }
 }

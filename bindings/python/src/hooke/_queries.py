@@ -72,7 +72,7 @@ class Queries:
 
     @property
     def idle_count(self) -> int:
-        """Pinned particles that no spring and no force callback touches; commits."""
+        """Pinned particles that no spring, no bending and no force callback touches; commits."""
         return lib.hooke_system_idle_count(self._committed())
 
     @property
