@@ -1,4 +1,5 @@
 /* hooke check: validates a scene and tells its size, memory and step limits, without running it. */
+#include "cost_sheet.h"
 #include "derived.h"
 #include "print.h"
 #include "report.h"
@@ -16,6 +17,7 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct hooke_arguments *arguments;
   struct hooke_setup setup;
+  hooke_cost *cost;
   int64_t memory; /* of a run [bytes] */
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
@@ -159,6 +161,8 @@ static void print_json(const struct check *check) {
   hooke_json_open(&json, "warnings", '[');
   for (int64_t i = 0; i < check->warning_count; i++)
     hooke_json_text(&json, NULL, check->warning[i]);
+  hooke_json_close(&json);
+  hooke_cost_sheet_print_json(&json, check->cost, system);
   hooke_json_end(&json);
 }
 
@@ -225,6 +229,7 @@ static void print_words(const struct check *check) {
   printf("memory       %" PRId64 " bytes\n", check->memory);
   print_cost(check);
   print_limits(check);
+  hooke_cost_sheet_print(check->cost, system);
   fflush(stdout);
   for (int64_t i = 0; i < check->warning_count; i++) {
     hooke_report_words(check->arguments, "warning: %s", check->warning[i]);
@@ -238,27 +243,34 @@ static int check_and_tell(struct check *check) {
   warn_of_coincident_springs(check);
   int32_t status = warn_of_loose_particles(check);
   if (status != HOOKE_OK) return hooke_report(check->arguments, hooke_exit_code(status), "out of memory");
+  code = hooke_cost_sheet_find(check->arguments, &check->setup, &check->cost);
+  if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
   if (check->arguments->json) {
     print_json(check);
   } else {
     print_words(check);
   }
-  return HOOKE_EXIT_DONE;
+  return code;
 }
 
 static int do_check(const struct hooke_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = hooke_setup_load(arguments, &check.setup);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check);
+  hooke_cost_destroy(check.cost);
   hooke_setup_destroy(&check.setup);
   return code;
 }
 
 const struct hooke_verb hooke_verb_check = {
     .name = "check",
-    .summary = "validates a scene and tells its size and step limits, without running it",
-    .text = "Validates the scene and tells its size, the memory that a run takes, and for each method the "
-            "largest step "
-            "that is certain to be stable at the start. Warns of what is allowed but seldom meant.",
+    .summary = "validates a scene and tells its size, its step limits and what it costs, without running it",
+    .text =
+        "Validates the scene and tells its size, the memory that a run takes, for each method the "
+        "largest step "
+        "that is certain to be stable at the start, and what each ingredient costs: time of a step on this "
+        "machine, memory, and the largest stable step without it. Warns of what is allowed but seldom "
+        "meant.",
+    .options = hooke_cost_options_create,
     .function = do_check,
 };

@@ -9,6 +9,7 @@
  *   measure.h     step bounds and comparisons
  *   study.h       the trade of error against cost, orders, recommendation
  *   limit.h       the largest stable step of each method, and what it hangs on
+ *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories */
 #ifndef HOOKE_H
@@ -23,6 +24,7 @@
 #include "hooke/measure.h"
 #include "hooke/study.h"
 #include "hooke/limit.h"
+#include "hooke/cost.h"
 #include "hooke/why.h"
 #include "hooke/needs.h"
 #include "hooke/io.h"

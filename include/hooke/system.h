@@ -20,7 +20,10 @@
  * have no such force, wherever they are.
  *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
- * springs of parts; and so are triples. All sums are taken in that order, springs first, so results do not depend on threads or
+ * springs of parts; and so are triples. Commit drops springs that have neither stiffness nor damping, as if they had never been
+ * added: numbers, ends and sizes of groups are then those of the springs that act; a group that is left without any keeps its
+ * name and place, and has size 0. Likewise gravity, drag and damping of 0 are not there. All sums are taken in that order,
+ * springs first, so results do not depend on threads or
  * instruction sets. */
 #ifndef HOOKE_SYSTEM_H
 #define HOOKE_SYSTEM_H
@@ -116,7 +119,12 @@ HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
 /* Particles that are neither pinned nor driven. */
 HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
+/* Springs: all that were added, from commit on those that act. */
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
+/* Springs that commit has dropped, since they have neither stiffness nor damping; 0 before. */
+HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
+/* Pinned particles that no spring, no bending and no callback force touches; 0 before commit. */
+HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
 /* Name of group `group`, "" if it has none, NULL if there is no such group. */
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, int64_t group);

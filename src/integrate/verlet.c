@@ -24,18 +24,11 @@ struct verlet {
   double *right, *change;       /* damped: 3n each */
 };
 
-static int has_damping(const struct hooke_springs *springs) {
-  for (int64_t k = 0; k < springs->run_count; k++) {
-    if (springs->run[k].shape & HOOKE_RUN_DAMPED) return 1;
-  }
-  return 0;
-}
-
 static int32_t create(hooke_integrator *it) {
   struct verlet *own = hooke_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->damped = has_damping(&it->system->springs);
+  own->damped = hooke_springs_are_damped(&it->system->springs);
   own->callback = it->system->force != NULL;
   if (!own->damped && !own->callback) return HOOKE_OK;
   const int64_t numbers = (own->damped ? 4 : 2) * it->size;

@@ -175,11 +175,13 @@ static void add_springs(struct hooke_text *text, const hooke_system *system,
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
     const struct hooke_group *group = &system->group[g];
     int32_t pull_only = 0;
-    if (group->from_part || group->count == 0) continue;
+    if (group->from_part) continue;
     hooke_text_open(text, NULL, '{');
     if (group->name[0]) hooke_text_word(text, "name", group->name);
     add_pairs(text, springs, numbering, first, group->count, &pull_only);
-    if (group->options) {
+    if (group->count == 0) { /* what it had was dropped */
+      hooke_text_number(text, "stiffness", 0.0);
+    } else if (group->options) {
       hooke_scene_add_options(text, group->options, NULL);
     } else {
       hooke_text_word(text, "law", "length");
@@ -195,7 +197,7 @@ static void add_springs(struct hooke_text *text, const hooke_system *system,
 static int32_t has_groups(const hooke_system *system) {
   int32_t groups = 0;
   for (int64_t g = 0; g < system->group_count; g++)
-    groups |= !system->group[g].from_part && system->group[g].count > 0;
+    groups |= !system->group[g].from_part;
   return groups;
 }
 

@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "measure/limit_measure.h"
 #include "measure/method_list.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -156,16 +157,6 @@ static int32_t begin_part(hooke_limit *limit, double share, double width, const 
 
 /* ---- one state ---- */
 
-static int32_t check_state(const hooke_limit *limit, const hooke_state *state) {
-  const int64_t size = 3 * limit->system->particle_count;
-  if (hooke_state_velocity((hooke_state *)(uintptr_t)state) == NULL || hooke_state_size(state) != size) {
-    return hooke_fail(HOOKE_BAD_VALUE, "state",
-                      "is of another system: it has %lld numbers, the system has %lld",
-                      (long long)hooke_state_size(state), (long long)size);
-  }
-  return HOOKE_OK;
-}
-
 const struct hooke_limit_row *hooke_limit_blamed(const hooke_limit *limit) {
   const char *method = limit->run ? hooke_options_text(limit->run, "method") : "symplectic-euler";
   const struct hooke_limit_row *first = NULL;
@@ -242,7 +233,7 @@ static int32_t measure(hooke_limit *limit, const hooke_state *state) {
 }
 
 int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state) {
-  int32_t status = check_state(limit, state);
+  int32_t status = hooke_state_check(state, limit->system);
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);
@@ -283,7 +274,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
   hooke_integrator *integrator = NULL;
-  int32_t status = check_state(limit, state);
+  int32_t status = hooke_state_check(state, limit->system);
   if (status != HOOKE_OK) return status;
   if (limit->run == NULL) {
     return hooke_fail(HOOKE_BAD_VALUE, "run",

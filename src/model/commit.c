@@ -1,5 +1,5 @@
-/* Commit: checks the system as a whole, sorts its springs into runs, chooses the forces that are there, frees
- * what only building needed. */
+/* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, chooses the forces that
+ * are there, frees what only building needed. */
 #include "model/force.h"
 
 #include "core/memory.h"
@@ -25,6 +25,8 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 
 /* Groups first, parts after, each in the order of adding; names stay, springs go into runs. */
 static int32_t sort_springs(hooke_system *system) {
+  for (int64_t k = 0; k < system->group_count; k++)
+    hooke_group_drop(&system->group[k]);
   struct hooke_group *sorted = hooke_new(system->group_count, sizeof *sorted);
   if (sorted == NULL) return HOOKE_NO_MEMORY;
   int64_t next = 0;
@@ -68,6 +70,28 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
+/* A callback force may look at any particle. */
+static int32_t count_idle(hooke_system *system) {
+  const struct hooke_springs *springs = &system->springs;
+  uint8_t *touched = hooke_new(system->particle_count, sizeof *touched);
+  if (touched == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(&springs->run[r], k);
+      touched[spring.head] = touched[spring.tail] = 1;
+    }
+  }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      touched[triple.particle[e]] = 1;
+  }
+  for (int64_t p = 0; system->force == NULL && p < system->particle_count; p++)
+    system->idle_count += system->held[p] == HOOKE_HELD_PINNED && !touched[p];
+  hooke_free(touched);
+  return HOOKE_OK;
+}
+
 static int32_t choose_forces(hooke_system *system) {
   int32_t rows = 0;
   while (hooke_force_table(rows))
@@ -83,6 +107,8 @@ static int32_t choose_forces(hooke_system *system) {
 
 /* Back to an open system after a failure half-way. */
 static void undo(hooke_system *system) {
+  for (int64_t k = 0; k < system->group_count; k++)
+    hooke_group_take_back(&system->group[k]);
   hooke_lanes_release(&system->lanes);
   hooke_springs_release(&system->springs);
   hooke_bending_release(&system->bending);
@@ -93,6 +119,7 @@ static void undo(hooke_system *system) {
   system->held_particle = NULL;
   system->force_row = NULL;
   system->held_count = 0;
+  system->idle_count = 0;
   system->force_row_count = 0;
 }
 
@@ -109,6 +136,7 @@ int32_t hooke_system_commit(hooke_system *system) {
     status = hooke_bending_create(system->bending_group, system->bending_group_count, &system->bending);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
+  if (status == HOOKE_OK) status = count_idle(system);
   if (status != HOOKE_OK) {
     undo(system);
     return status;

@@ -76,6 +76,38 @@ void hooke_group_release(struct hooke_group *group) {
   memset(group, 0, sizeof *group);
 }
 
+static void swap_numbers(double *number, int64_t a, int64_t b) {
+  const double kept = number[a];
+  number[a] = number[b];
+  number[b] = kept;
+}
+
+static void swap_ends(int32_t *end, int64_t a, int64_t b) {
+  const int32_t kept = end[a];
+  end[a] = end[b];
+  end[b] = kept;
+}
+
+void hooke_group_drop(struct hooke_group *group) {
+  int64_t acting = 0;
+  for (int64_t k = 0; k < group->count; k++) {
+    if (group->kappa[k] == 0.0 && group->gamma[k] == 0.0) continue;
+    swap_ends(group->head, k, acting);
+    swap_ends(group->tail, k, acting);
+    swap_numbers(group->kappa, k, acting);
+    swap_numbers(group->gamma, k, acting);
+    swap_numbers(group->rest_length, k, acting);
+    acting++;
+  }
+  group->dropped = group->count - acting;
+  group->count = acting;
+}
+
+void hooke_group_take_back(struct hooke_group *group) {
+  group->count += group->dropped;
+  group->dropped = 0;
+}
+
 void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
                           struct hooke_stretch *stretch) {
   const double *qi = q + 3 * spring->head, *qj = q + 3 * spring->tail;

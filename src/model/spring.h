@@ -8,6 +8,7 @@
 struct hooke_group {
   char *name;
   int64_t count;
+  int64_t dropped;        /* from commit on: springs without stiffness and damping, which count no more */
   int32_t from_part;      /* springs of parts are numbered after those of groups */
   int64_t part;           /* of those: which part */
   hooke_options *options; /* as given, where they hold for all springs alike; else NULL */
@@ -71,7 +72,14 @@ void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *
 int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_count,
                              struct hooke_springs *springs);
 void hooke_springs_release(struct hooke_springs *springs);
+/* 1 if some spring is damped. */
+int32_t hooke_springs_are_damped(const struct hooke_springs *springs);
 int64_t hooke_springs_memory(const struct hooke_springs *springs);
+
+/* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes them out of
+ * the count; and back into it. */
+void hooke_group_drop(struct hooke_group *group);
+void hooke_group_take_back(struct hooke_group *group);
 
 void hooke_group_release(struct hooke_group *group);
 /* Releases what is one number a spring; the runs have it. */

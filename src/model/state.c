@@ -20,6 +20,14 @@ int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **out)
   return HOOKE_OK;
 }
 
+int32_t hooke_state_check(const hooke_state *state, const hooke_system *system) {
+  const int64_t size = 3 * system->particle_count;
+  if (state->has_v && state->size == size) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "state",
+                    "is of another system: it has %lld numbers, the system has %lld", (long long)state->size,
+                    (long long)size);
+}
+
 /* Puts driven particles where their motion has them at t = 0. */
 static int32_t place_driven(const hooke_system *system, hooke_state *state) {
   for (int64_t g = 0; g < system->drive_count; g++) {

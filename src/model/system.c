@@ -166,8 +166,10 @@ int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
     hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
     return hooke_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
   }
-  memcpy(system->gravity, gravity, sizeof system->gravity);
+  /* no gravity is +0, whatever the sign of the zeros */
   system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
+  for (int k = 0; k < 3; k++)
+    system->gravity[k] = system->has_gravity ? gravity[k] : 0.0;
   return HOOKE_OK;
 }
 
@@ -177,7 +179,7 @@ int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
   if (!(coefficient >= 0.0) || !isfinite(coefficient)) {
     return hooke_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
   }
-  system->drag = coefficient;
+  system->drag = coefficient > 0.0 ? coefficient : 0.0;
   return HOOKE_OK;
 }
 

@@ -25,6 +25,7 @@ struct hooke_system {
 
   int64_t held_count; /* from commit on: pinned and driven particles, ascending */
   int32_t *held_particle;
+  int64_t idle_count; /* from commit on: pinned particles that nothing touches */
 
   /* spring groups; from commit on in spring order */
   int64_t group_count, group_capacity;

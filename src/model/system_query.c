@@ -27,6 +27,17 @@ int64_t hooke_system_spring_count(const hooke_system *system) {
   return count;
 }
 
+int64_t hooke_system_dropped_spring_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->group_count; k++)
+    count += system->group[k].dropped;
+  return count;
+}
+
+int64_t hooke_system_idle_count(const hooke_system *system) {
+  return system->idle_count;
+}
+
 int64_t hooke_system_group_count(const hooke_system *system) {
   return system->group_count;
 }

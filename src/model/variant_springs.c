@@ -100,6 +100,16 @@ static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_g
   return status;
 }
 
+/* A group that had nothing but springs of no strength keeps its place. */
+static int32_t add_empty_group(struct hooke_variant_maker *maker, const struct hooke_group *group) {
+  hooke_options *options = NULL;
+  int32_t status = hooke_spring_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", 0.0);
+  if (status == HOOKE_OK) status = hooke_system_add_springs(maker->made, group->name, 0, NULL, options);
+  hooke_options_destroy(options);
+  return status;
+}
+
 int32_t hooke_variant_breaks_up(const struct hooke_variant_maker *maker, const struct hooke_group *group,
                                 int64_t first) {
   if (maker->map->part[group->part].axes > 0) return 0;
@@ -116,7 +126,7 @@ int32_t hooke_variant_add_springs(struct hooke_variant_maker *maker) {
     const struct hooke_group *group = &from->group[g];
     if (maker->variant->group[g] || (group->from_part && !hooke_variant_breaks_up(maker, group, first)))
       continue;
-    const int32_t status = add_group(maker, group, first);
+    const int32_t status = group->count == 0 ? add_empty_group(maker, group) : add_group(maker, group, first);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;

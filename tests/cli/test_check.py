@@ -2,6 +2,7 @@
 
 import copy
 import math
+import re
 
 import pytest
 
@@ -10,6 +11,10 @@ from conftest import METHODS, SIX_PARTICLES, STIFF_PAIR
 pytestmark = pytest.mark.everything
 
 KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "derived", "forces", "memory_bytes", "step_limit", "warnings"]
+KEYS += ["cost"]
+COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
+COST_KEYS += ["idle_particles", "rows"]
+ROW_KEYS = ["ingredient", "kind", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]
 
 
 def test_json_has_exactly_the_keys(hooke, write):
@@ -140,6 +145,49 @@ def test_words_have_the_same_numbers(hooke, write):
 def test_a_scene_without_all_of_a_run_is_still_valid(hooke, write, missing):
     scene = write(SIX_PARTICLES, **{missing: None})
     assert hooke("check", scene, "--json").code == 0
+
+
+def test_costs_of_ingredients(hooke, write):
+    cost = hooke("check", write(SIX_PARTICLES), "--json", "--budget", "20ms").json["cost"]
+    assert list(cost) == COST_KEYS and all(list(row) == ROW_KEYS for row in cost["rows"])
+    assert cost["method"] == "symplectic-euler" and cost["step"] == SIX_PARTICLES["run"]["step"]
+    assert [row["ingredient"] for row in cost["rows"]] == ["edges", "damping", "gravity"]
+    assert [row["kind"] for row in cost["rows"]] == ["springs", "damping", "gravity"]
+    assert [row["springs"] for row in cost["rows"]] == [7, None, None]
+    assert cost["nanoseconds"] > 0 and all(row["nanoseconds"] >= 0 for row in cost["rows"])
+    springs, damping, gravity = cost["rows"]
+    assert springs["step_limit_without"] is None  # nothing else limits it
+    assert 0 < cost["step_limit"] < damping["step_limit_without"]
+    assert gravity["step_limit_without"] == cost["step_limit"]
+
+
+def test_costs_without_the_timing(hooke, write):
+    """The same numbers every time; an adaptive method has steps of symplectic Euler."""
+    file = write(SIX_PARTICLES, method="cvode-bdf")
+    first, second = (hooke("check", file, "--json", "--predict").out for _ in range(2))
+    assert first == second
+    answer = hooke("check", file, "--json", "--predict")
+    assert answer.json["cost"]["method"] == "symplectic-euler" and answer.json["cost"]["nanoseconds"] is None
+    words = hooke("check", file, "--predict").out
+    gravity = re.search(r"^  gravity +- +- +0 +(\S+)$", words, re.M)
+    assert float(gravity.group(1)) == pytest.approx(answer.json["cost"]["step_limit"], rel=1e-5)
+
+
+def test_what_does_nothing_is_dropped_and_counted(hooke, write):
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["particles"]["position"] += [[9, 9, 9]]
+    scene["particles"]["mass"] = 1
+    scene["particles"]["pinned"].append(6)
+    scene["springs"].append({"name": "slack", "between": [[0, 2], [1, 3]], "stiffness": 0})
+    scene["drag"] = 0
+    file = write(scene)
+    value = hooke("check", file, "--json", "--predict").json
+    assert value["springs"] == 7 and value["forces"] == ["springs", "gravity"]
+    assert value["groups"] == [{"name": "edges", "springs": 7}, {"name": "slack", "springs": 0}]
+    assert (value["cost"]["dropped_springs"], value["cost"]["idle_particles"]) == (2, 1)
+    assert "slack" not in [row["ingredient"] for row in value["cost"]["rows"]]
+    words = hooke("check", file, "--predict").out
+    assert "dropped      2 springs that have neither" in words and "idle         1 pinned particle that" in words
 
 
 def test_a_run_that_does_not_fit_is_3(hooke, write):

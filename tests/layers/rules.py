@@ -25,6 +25,7 @@ PUBLIC = {
     "hooke/study.h": "measure",
     "hooke/limit.h": "measure",
     "hooke/needs.h": "measure",
+    "hooke/cost.h": "measure",
     "hooke/why.h": "measure",
     "hooke/io.h": "io",
 }

@@ -37,6 +37,7 @@ OUTCOMES = {
     "hooke_study_pick",
     "hooke_limit_find",
     "hooke_limit_along",
+    "hooke_cost_find",
 }
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 

@@ -7,8 +7,8 @@
 
 A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
 it, `compare` sets several methods against a tight reference, `study` measures error against cost and
-recommends, `limit` finds the largest stable steps, `why` explains a run that blew up, `Integrator` gives you
-the loop. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `why` explains a run
+that blew up, `Integrator` gives you the loop. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Any
 from ._queries import Blocks, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .comparison import Comparison, compare
+from .cost import Cost, cost
 from .first_order import FirstOrder
 from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
@@ -37,6 +38,7 @@ __all__ = [
     "BadValue",
     "Blocks",
     "Comparison",
+    "Cost",
     "Derived",
     "Error",
     "FirstOrder",
@@ -61,6 +63,7 @@ __all__ = [
     "Why",
     "build_facts",
     "compare",
+    "cost",
     "describe",
     "limit",
     "methods",

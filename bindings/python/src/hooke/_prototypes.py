@@ -33,6 +33,7 @@ STUDY = _handle("hooke_study")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 LIMIT = _handle("hooke_limit")
+COST = _handle("hooke_cost")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
 DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
@@ -88,6 +89,8 @@ PROTOTYPES = {
     "hooke_system_particle_count": (INT64, SYSTEM),
     "hooke_system_free_count": (INT64, SYSTEM),
     "hooke_system_spring_count": (INT64, SYSTEM),
+    "hooke_system_dropped_spring_count": (INT64, SYSTEM),
+    "hooke_system_idle_count": (INT64, SYSTEM),
     "hooke_system_group_count": (INT64, SYSTEM),
     "hooke_system_group_name": (TEXT, SYSTEM, INT64),
     "hooke_system_group_size": (INT64, SYSTEM, INT64),
@@ -215,6 +218,17 @@ PROTOTYPES = {
     "hooke_limit_mode_number": (DOUBLE, LIMIT, INT64, TEXT),
     "hooke_limit_shape": (DOUBLES, LIMIT),
     "hooke_limit_of_mode": (DOUBLE, TEXT, DOUBLE, DOUBLE),
+    # cost.h
+    "hooke_cost_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_cost_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(COST)),
+    "hooke_cost_destroy": (None, COST),
+    "hooke_cost_on_progress": (None, COST, PROGRESS, ADDRESS),
+    "hooke_cost_find": (OUTCOME, COST, STATE),
+    "hooke_cost_method": (TEXT, COST),
+    "hooke_cost_figure": (DOUBLE, COST, TEXT),
+    "hooke_cost_row_count": (INT64, COST),
+    "hooke_cost_text": (TEXT, COST, INT64, TEXT),
+    "hooke_cost_number": (DOUBLE, COST, INT64, TEXT),
     # why.h
     "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
     "hooke_why_create": (STATUS, INTEGRATOR, POINTER(WHY)),

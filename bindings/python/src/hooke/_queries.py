@@ -62,7 +62,18 @@ class Queries:
 
     @property
     def spring_count(self) -> int:
+        """Springs: all that were added, once committed those that have stiffness or damping."""
         return lib.hooke_system_spring_count(self._handle)
+
+    @property
+    def dropped_spring_count(self) -> int:
+        """Springs left out since they have neither stiffness nor damping; commits."""
+        return lib.hooke_system_dropped_spring_count(self._committed())
+
+    @property
+    def idle_count(self) -> int:
+        """Pinned particles that no spring, no bending and no force callback touches; commits."""
+        return lib.hooke_system_idle_count(self._committed())
 
     @property
     def groups(self) -> list[tuple[str, int]]:

@@ -59,6 +59,11 @@ class Options(MutableMapping):
         return cls(_create(lib.hooke_limit_options_create))
 
     @classmethod
+    def for_cost(cls) -> Options:
+        """Options of a cost: predict, budget [s]."""
+        return cls(_create(lib.hooke_cost_options_create))
+
+    @classmethod
     def for_springs(cls) -> Options:
         """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
         return cls(_create(lib.hooke_spring_options_create))
@@ -161,14 +166,16 @@ def part_kinds() -> list[str]:
 
 
 def describe(what: str) -> str:
-    """The options of a "run", of a "study", of a "limit", of "springs", or of a kind of part, as text: names, units,
-    defaults, bounds."""
+    """The options of a "run", of a "study", of a "limit", of a "cost", of "springs", or of a kind of part, as text:
+    names, units, defaults, bounds."""
     if what == "run":
         return Options.for_run().describe()
     if what == "study":
         return Options.for_study().describe()
     if what == "limit":
         return Options.for_limit().describe()
+    if what == "cost":
+        return Options.for_cost().describe()
     if what == "springs":
         return Options.for_springs().describe()
     return Options.for_part(what).describe()

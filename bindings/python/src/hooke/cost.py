@@ -1,0 +1,100 @@
+"""Costs: what each ingredient of one scene costs on this machine, in time, memory and step."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+
+from ._callback import listening
+from ._library import lib
+from ._memory import Handle, text
+from ._prototypes import COST
+from ._status import OUTCOMES
+from ._tables import read_rows
+from .options import Options
+from .results import Runnable, WorkProgress, prepare
+from .state import State
+
+_ROW = np.dtype(
+    [("name", "U96"), ("kind", "U16")]
+    + [(name, float) for name in ("group", "springs", "nanoseconds", "resolution", "memory_bytes")]
+    + [("step_limit_without", float)]
+)
+
+
+class Cost:
+    """What a scene costs, whole and by its ingredients.
+
+    `rows` is a structured array with one row an ingredient that is there: name (of the group, else the kind), kind
+    ("springs", "damping", "drag", "callback", "gravity"), group and springs (its number and size, NaN if it is none);
+    nanoseconds that it adds to a step, with their resolution, 0 where nothing can be seen; memory_bytes;
+    step_limit_without [s], the largest stable step of the scene without it, infinite where nothing limits it.
+
+    `method` is what was timed: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its step;
+    `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and integrator,
+    `step_limit` [s] of the whole scene (NaN without GSL). `outcome` is "finished" or "stopped".
+    """
+
+    outcome: str
+    method: str
+    step: float
+    nanoseconds: float
+    resolution: float
+    memory_bytes: float
+    step_limit: float
+    rows: np.ndarray
+
+    def __init__(self, handle: Handle, status: int):
+        self.outcome = OUTCOMES.get(status, "stopped")
+        self.method = text(lib.hooke_cost_method(handle))
+        self.step, self.nanoseconds, self.resolution, self.memory_bytes, self.step_limit = (
+            lib.hooke_cost_figure(handle, what)
+            for what in (b"step", b"nanoseconds", b"resolution", b"memory_bytes", b"step_limit")
+        )
+        count = lib.hooke_cost_row_count(handle)
+        self.rows = read_rows(handle, count, _ROW, lib.hooke_cost_text, lib.hooke_cost_number)
+
+    def __getitem__(self, name: str) -> np.void:
+        """The first row of that name."""
+        names = self.rows["name"].tolist()
+        if name not in names:
+            raise KeyError(f"{name!r}; there are {', '.join(names)}")
+        return self.rows[names.index(name)]
+
+    def __str__(self) -> str:
+        lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]
+        whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
+        fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
+        for name, time, memory, limit in [whole, *self.rows[fields].tolist()]:
+            lines.append(f"{name:28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return f"Cost({self.outcome}, {self.method}, {len(self.rows)} ingredients)"
+
+
+def cost(
+    problem: Runnable,
+    state: State | None = None,
+    *,
+    predict: bool = False,
+    budget: float | None = None,
+    progress: WorkProgress | None = None,
+    **options: object,
+) -> Cost:
+    """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene
+    without the ingredient, at `state` (at the start, if None).
+
+    ``predict=True`` leaves out the timing; `budget` [s] is the time that it may take. ``progress(fraction, what)`` is
+    told of progress and stops the work by returning a number other than 0. The keywords `options` are those of a run.
+    """
+    _, system, run = prepare("cost", problem, None, options)
+    chosen = Options.for_cost().set(predict=predict, budget=budget)
+    at = system.state() if state is None else state
+    pointer = COST()
+    lib.hooke_cost_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
+    handle = Handle(pointer, lib.hooke_cost_destroy, system._handle)
+    with listening(lib.hooke_cost_on_progress, handle, progress):
+        status = lib.hooke_cost_find(handle, at._handle)
+    return Cost(handle, status)

@@ -1,0 +1,145 @@
+#include "cost_sheet.h"
+
+#include "report.h"
+#include "watch.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+enum { LEAST_WIDTH = 16 };
+
+int hooke_cost_sheet_find(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+                          hooke_cost **cost) {
+  struct hooke_watch watch;
+  int32_t status = hooke_cost_create(setup->system, setup->options, arguments->more, cost);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  hooke_watch_start(&watch, arguments);
+  hooke_cost_on_progress(*cost, hooke_watch_progress, &watch);
+  status = hooke_cost_find(*cost, setup->state);
+  hooke_watch_end(&watch);
+  if (status == HOOKE_STOPPED) {
+    hooke_report_words(arguments, "interrupted; kept: what was found so far");
+    return HOOKE_EXIT_INTERRUPTED;
+  }
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+}
+
+/* ---- words ---- */
+
+static const char *name_of(const hooke_cost *cost, int64_t row) {
+  const char *name = hooke_cost_text(cost, row, "name");
+  return name[0] ? name : "(no name)";
+}
+
+static void print_cell(int width, double value, const char *format) {
+  char cell[HOOKE_NUMBER_SIZE] = "-";
+  if (isinf(value)) snprintf(cell, sizeof cell, "any");
+  if (isfinite(value)) snprintf(cell, sizeof cell, format, value);
+  printf(" %*s", width, cell);
+}
+
+static const char *time_format(double nanoseconds) {
+  return nanoseconds < 100.0 ? "%.2g" : "%.0f";
+}
+
+/* A time below what can be told apart says so. */
+static void print_time(double nanoseconds, double resolution) {
+  char format[8] = "<";
+  if (nanoseconds < resolution) {
+    strcat(format, time_format(resolution));
+    print_cell(12, resolution, format);
+  } else {
+    print_cell(12, nanoseconds, time_format(nanoseconds));
+  }
+}
+
+static void print_limit(double limit) {
+  if (limit == 0.0)
+    printf(" %14s", "no step");
+  else
+    print_cell(14, limit, "%.6g");
+  printf("\n");
+}
+
+static void print_name(int width, const char *name) {
+  printf("  ");
+  hooke_print_text(stdout, name);
+  printf("%*s", width - (int)strlen(name), "");
+}
+
+static void print_row(const hooke_cost *cost, int64_t row, int width) {
+  print_name(width, name_of(cost, row));
+  print_cell(10, hooke_cost_number(cost, row, "springs"), "%.0f");
+  print_time(hooke_cost_number(cost, row, "nanoseconds"), hooke_cost_figure(cost, "resolution"));
+  print_cell(12, hooke_cost_number(cost, row, "memory_bytes"), "%.0f");
+  print_limit(hooke_cost_number(cost, row, "step_limit_without"));
+}
+
+static void print_whole(const hooke_cost *cost, const hooke_system *system, int width) {
+  print_name(width, "the whole scene");
+  print_cell(10, (double)hooke_system_spring_count(system), "%.0f");
+  print_time(hooke_cost_figure(cost, "nanoseconds"), 0.0);
+  print_cell(12, hooke_cost_figure(cost, "memory_bytes"), "%.0f");
+  print_limit(hooke_cost_figure(cost, "step_limit"));
+}
+
+static void print_left_out(const hooke_system *system) {
+  const int64_t dropped = hooke_system_dropped_spring_count(system), idle = hooke_system_idle_count(system);
+  if (dropped > 0) {
+    printf("dropped      %" PRId64 " %s neither stiffness nor damping\n", dropped,
+           dropped == 1 ? "spring that has" : "springs that have");
+  }
+  if (idle > 0) {
+    printf("idle         %" PRId64 " pinned %s that nothing touches\n", idle,
+           idle == 1 ? "particle" : "particles");
+  }
+}
+
+void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
+  char step[HOOKE_NUMBER_SIZE];
+  int width = LEAST_WIDTH;
+  print_left_out(system);
+  if (isnan(hooke_cost_figure(cost, "step"))) return; /* interrupted before there was one */
+  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+    const int length = (int)strlen(name_of(cost, row));
+    if (length > width) width = length;
+  }
+  printf("cost of a step of %s, %s s, on this machine:\n", hooke_cost_method(cost),
+         hooke_format_number(hooke_cost_figure(cost, "step"), step));
+  printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
+  print_whole(cost, system, width);
+  if (hooke_cost_row_count(cost) > 0) printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
+  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++)
+    print_row(cost, row, width);
+}
+
+/* ---- JSON ---- */
+
+static void print_numbers(struct hooke_json *json, const hooke_cost *cost, int64_t row) {
+  static const char *const numbers[] = {"nanoseconds", "resolution", "memory_bytes", "step_limit_without"};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    hooke_json_number(json, numbers[k], hooke_cost_number(cost, row, numbers[k]));
+}
+
+void hooke_cost_sheet_print_json(struct hooke_json *json, const hooke_cost *cost,
+                                 const hooke_system *system) {
+  static const char *const figures[] = {"step", "nanoseconds", "resolution", "memory_bytes", "step_limit"};
+  hooke_json_open(json, "cost", '{');
+  hooke_json_text(json, "method", hooke_cost_method(cost));
+  for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++)
+    hooke_json_number(json, figures[k], hooke_cost_figure(cost, figures[k]));
+  hooke_json_count(json, "dropped_springs", hooke_system_dropped_spring_count(system));
+  hooke_json_count(json, "idle_particles", hooke_system_idle_count(system));
+  hooke_json_open(json, "rows", '[');
+  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+    hooke_json_open(json, NULL, '{');
+    hooke_json_text(json, "ingredient", hooke_cost_text(cost, row, "name"));
+    hooke_json_text(json, "kind", hooke_cost_text(cost, row, "kind"));
+    hooke_json_number(json, "springs", hooke_cost_number(cost, row, "springs"));
+    print_numbers(json, cost, row);
+    hooke_json_close(json);
+  }
+  hooke_json_close(json);
+  hooke_json_close(json);
+}

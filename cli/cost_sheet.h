@@ -1,0 +1,18 @@
+/* What each ingredient of a scene costs, as hooke check tells it. */
+#ifndef HOOKE_CLI_COST_SHEET_H
+#define HOOKE_CLI_COST_SHEET_H
+
+#include "print.h"
+#include "setup.h"
+
+/* Finds the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures are reported and
+ * come back as exit code, HOOKE_EXIT_INTERRUPTED with the rows found so far. */
+int hooke_cost_sheet_find(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+                          hooke_cost **cost);
+
+/* The table on standard output, and what commit has left out. */
+void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system);
+/* "cost": {...} */
+void hooke_cost_sheet_print_json(struct hooke_json *json, const hooke_cost *cost, const hooke_system *system);
+
+#endif

@@ -1,0 +1,270 @@
+/* What each ingredient costs: the scene with it against the scene without it. */
+#include "measure/cost.h"
+
+#include "core/figure.h"
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "measure/limit_predict.h"
+#include "model/state.h"
+#include "model/variant.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double ACCURACY = 1e-3;    /* of limits, relative */
+static const double MOST_SECONDS = 0.2; /* for one ingredient */
+static const double SOME_STEP = 1e-3;   /* [s] where nothing says which */
+
+static const struct hooke_option_row cost_rows[] = {
+    {.name = "predict", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "leave out the timing"},
+    {.name = "budget",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .fallback = "1",
+     .doc = "time that the timing may take, at most 0.2 s an ingredient"},
+};
+
+static const struct hooke_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
+
+int32_t hooke_cost_options_create(hooke_options **options) {
+  return hooke_options_create(&cost_table, options);
+}
+
+/* ---- making ---- */
+
+/* The run's options with a method that can be timed; how long it runs does not matter. */
+static int32_t choose_method(hooke_cost *cost) {
+  const char *method = hooke_options_text(cost->run, "method");
+  int32_t status = HOOKE_OK;
+  cost->run_step = hooke_options_number(cost->run, "step");
+  if (hooke_method_is_adaptive(method) != 0 || !hooke_method_is_built(method))
+    status = hooke_options_set_text(cost->run, "method", "symplectic-euler");
+  if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "duration");
+  if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "every");
+  cost->method = hooke_options_text(cost->run, "method");
+  return status;
+}
+
+static void add_row(hooke_cost *cost, int32_t is_there, const char *kind, int64_t group) {
+  if (is_there) cost->row[cost->row_count++] = (struct hooke_cost_row){kind, group, NAN, NAN, NAN, NAN};
+}
+
+static int32_t list_rows(hooke_cost *cost) {
+  enum { OTHERS = 4 };
+  const hooke_system *system = cost->system;
+  cost->row = hooke_new(system->group_count + system->bending_group_count + OTHERS, sizeof *cost->row);
+  if (cost->row == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t g = 0; g < system->group_count; g++)
+    add_row(cost, system->group[g].count > 0, "springs", g);
+  for (int64_t g = 0; g < system->bending_group_count; g++)
+    add_row(cost, system->bending_group[g].count > 0, "bending", g);
+  add_row(cost, hooke_springs_are_damped(&system->springs), "damping", -1);
+  add_row(cost, system->drag > 0.0, "drag", -1);
+  add_row(cost, system->force != NULL, "callback", -1);
+  add_row(cost, system->has_gravity, "gravity", -1);
+  return HOOKE_OK;
+}
+
+int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
+                          hooke_cost **out) {
+  int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  hooke_cost *cost = hooke_new(1, sizeof *cost);
+  if (cost == NULL) return HOOKE_NO_MEMORY;
+  cost->system = system;
+  cost->step = cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
+  status = run ? hooke_options_copy(run, &cost->run) : hooke_run_options_create(&cost->run);
+  if (status == HOOKE_OK)
+    status =
+        options ? hooke_options_copy(options, &cost->options) : hooke_cost_options_create(&cost->options);
+  if (status == HOOKE_OK) status = choose_method(cost);
+  if (status == HOOKE_OK) status = list_rows(cost);
+  if (status == HOOKE_OK)
+    *out = cost;
+  else
+    hooke_cost_destroy(cost);
+  return status;
+}
+
+void hooke_cost_destroy(hooke_cost *cost) {
+  if (cost == NULL) return;
+  hooke_options_destroy(cost->run);
+  hooke_options_destroy(cost->options);
+  hooke_free(cost->row);
+  hooke_free(cost);
+}
+
+void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx) {
+  cost->progress = progress;
+  cost->progress_ctx = ctx;
+}
+
+static int32_t tell(const hooke_cost *cost, double done, const char *what) {
+  if (cost->progress == NULL || cost->progress(done, what, cost->progress_ctx) == 0) return HOOKE_OK;
+  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+}
+
+/* ---- finding ---- */
+
+/* NaN where this build, the method or these numbers have none. */
+static int32_t find_limit(const hooke_cost *cost, const hooke_system *system, const hooke_state *state,
+                          double *limit) {
+  const double *q = hooke_state_position((hooke_state *)(uintptr_t)state);
+  *limit = NAN;
+  const int32_t status = hooke_limit_predict(system, q, cost->method, NULL, NULL, ACCURACY, limit);
+  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+}
+
+/* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers that are not
+ * finite may. */
+static int32_t choose_step(hooke_cost *cost) {
+  double step = cost->run_step;
+  if (cost->limit > 0.0) step = fmin(step, cost->limit); /* also if there is none */
+  if (!isfinite(step)) step = SOME_STEP;
+  cost->step = step;
+  return hooke_options_set_number(cost->run, "step", step);
+}
+
+static double memory_of(const hooke_system *system, const struct hooke_timed *timed) {
+  const int64_t state = (2 * hooke_state_size(timed->state) + 1) * (int64_t)sizeof(double);
+  return (double)(hooke_system_memory(system) + state +
+                  hooke_integrator_count(timed->integrator, "memory_bytes"));
+}
+
+static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke_timed *lean,
+                        const hooke_state *state, struct hooke_cost_row *row) {
+  if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
+  const double share = hooke_options_number(cost->options, "budget") / (double)cost->row_count;
+  const int32_t status = hooke_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
+  const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
+  if (!isfinite(with) || !isfinite(without)) return status;
+  row->nanoseconds = fmax(0.0, with - without);
+  row->resolution = fabs(full->best[0] - full->best[1]);
+  cost->nanoseconds = fmin(cost->nanoseconds, fmin(full->best[0], full->best[1]));
+  cost->resolution = fmax(cost->resolution, row->resolution);
+  return status;
+}
+
+static int is_bending(const struct hooke_cost_row *row) {
+  return strcmp(row->kind, "bending") == 0;
+}
+
+/* The system without the ingredient of a row; NULL: without nothing. */
+static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row *row, hooke_system **made) {
+  struct hooke_variant variant;
+  struct hooke_variant_map map;
+  int32_t status = hooke_variant_create(cost->system, &variant);
+  if (status != HOOKE_OK) return status;
+  if (row && row->group >= 0) (is_bending(row) ? variant.bending : variant.group)[row->group] = 1;
+  variant.damping = row && strcmp(row->kind, "damping") == 0;
+  variant.drag = row && strcmp(row->kind, "drag") == 0;
+  variant.force = row && strcmp(row->kind, "callback") == 0;
+  variant.gravity = row && strcmp(row->kind, "gravity") == 0;
+  status = hooke_variant_make(cost->system, &variant, made, &map);
+  if (status == HOOKE_OK) hooke_variant_map_release(&map);
+  hooke_variant_release(&variant);
+  return status;
+}
+
+static int32_t measure_row(hooke_cost *cost, struct hooke_timed *full, const hooke_system *system,
+                           const hooke_state *state, struct hooke_cost_row *row) {
+  const int32_t limits = strcmp(row->kind, "gravity") != 0 && strcmp(row->kind, "callback") != 0;
+  struct hooke_timed lean;
+  int32_t status = hooke_timed_create(system, cost->run, &lean);
+  if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));
+  row->limit = cost->limit;
+  if (status == HOOKE_OK && limits) status = find_limit(cost, system, state, &row->limit);
+  if (status == HOOKE_OK) status = time_row(cost, full, &lean, state, row);
+  hooke_timed_release(&lean);
+  return status;
+}
+
+static int32_t find_row(hooke_cost *cost, struct hooke_timed *full, const hooke_state *state,
+                        struct hooke_cost_row *row) {
+  hooke_system *lean = NULL;
+  int32_t status = make_without(cost, row, &lean);
+  if (status == HOOKE_OK) status = measure_row(cost, full, lean, state, row);
+  hooke_system_destroy(lean);
+  return status;
+}
+
+static void forget(hooke_cost *cost) {
+  cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
+  for (int64_t k = 0; k < cost->row_count; k++) {
+    struct hooke_cost_row *row = &cost->row[k];
+    *row = (struct hooke_cost_row){row->kind, row->group, NAN, NAN, NAN, NAN};
+  }
+}
+
+/* The scene is made again with nothing left out, so that both sides have their memory from the same hands. */
+int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
+  hooke_system *whole = NULL;
+  struct hooke_timed full = {0};
+  forget(cost);
+  int32_t status = hooke_state_check(state, cost->system);
+  if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
+  if (status == HOOKE_OK) status = find_limit(cost, cost->system, state, &cost->limit);
+  if (status == HOOKE_OK) status = choose_step(cost);
+  if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
+  if (status == HOOKE_OK) status = hooke_timed_create(whole, cost->run, &full);
+  if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
+  for (int64_t k = 0; k < cost->row_count && status == HOOKE_OK; k++) {
+    status = tell(cost, (double)k / (double)cost->row_count, hooke_cost_text(cost, k, "name"));
+    if (status == HOOKE_OK) status = find_row(cost, &full, state, &cost->row[k]);
+  }
+  hooke_timed_release(&full);
+  hooke_system_destroy(whole);
+  return status;
+}
+
+/* ---- reading ---- */
+
+const char *hooke_cost_method(const hooke_cost *cost) {
+  return cost->method;
+}
+
+double hooke_cost_figure(const hooke_cost *cost, const char *what) {
+  const struct hooke_figure figures[] = {{"step", cost->step},
+                                         {"nanoseconds", cost->nanoseconds},
+                                         {"resolution", cost->resolution},
+                                         {"memory_bytes", cost->memory},
+                                         {"step_limit", cost->limit}};
+  return HOOKE_FIGURE(figures, what);
+}
+
+int64_t hooke_cost_row_count(const hooke_cost *cost) {
+  return cost->row_count;
+}
+
+static const struct hooke_cost_row *row_at(const hooke_cost *cost, int64_t row) {
+  return row >= 0 && row < cost->row_count ? &cost->row[row] : NULL;
+}
+
+const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what) {
+  const struct hooke_cost_row *r = row_at(cost, row);
+  if (r == NULL) return NULL;
+  if (strcmp(what, "kind") == 0) return r->kind;
+  if (strcmp(what, "name") != 0) return NULL;
+  if (r->group < 0) return r->kind;
+  return is_bending(r) ? hooke_system_bending_group_name(cost->system, r->group)
+                       : hooke_system_group_name(cost->system, r->group);
+}
+
+double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
+  const struct hooke_cost_row *r = row_at(cost, row);
+  if (r == NULL) return NAN;
+  const int32_t grouped = r->group >= 0, sprung = grouped && !is_bending(r);
+  const struct hooke_figure figures[] = {
+      {"group", grouped ? (double)r->group : (double)NAN},
+      {"springs", sprung ? (double)hooke_system_group_size(cost->system, r->group) : (double)NAN},
+      {"nanoseconds", r->nanoseconds},
+      {"resolution", r->resolution},
+      {"memory_bytes", r->memory},
+      {"step_limit_without", r->limit},
+  };
+  return HOOKE_FIGURE(figures, what);
+}

@@ -1,0 +1,218 @@
+/* Costs of ingredients: which there are, limits and memory without them; times as far as they are the same everywhere. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)t, (void)v, (void)ctx;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] -= 0.1 * q[k];
+  return 0;
+}
+
+/* Two unit masses on springs of frequencies 10 and 4 to pins, apart from each other, and a spring that does nothing. */
+static hooke_system *open_oscillators(double damping, double drag, int gravity, int callback) {
+  static const double q[] = {0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 5, 0}, down[] = {0, 0, -9.81};
+  static const int64_t pinned[] = {0, 2}, stiff[] = {0, 1}, soft[] = {2, 3}, zero[] = {1, 3};
+  hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+  hooke_options *options;
+  check_ok(hooke_system_pin(system, 2, pinned));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 100.0));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_system_add_springs(system, "stiff", 1, stiff, options));
+  check_ok(hooke_options_set_number(options, "damping", 0.0));
+  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  check_ok(hooke_system_add_springs(system, "zero", 1, zero, options));
+  check_ok(hooke_options_set_number(options, "stiffness", 16.0));
+  check_ok(hooke_system_add_springs(system, NULL, 1, soft, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_set_drag(system, drag));
+  if (gravity) check_ok(hooke_system_set_gravity(system, down));
+  if (callback) check_ok(hooke_system_set_force(system, pull, NULL, NULL));
+  return system;
+}
+
+static hooke_system *two_oscillators(double damping, double drag, int gravity, int callback) {
+  hooke_system *system = open_oscillators(damping, drag, gravity, callback);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static hooke_cost *cost_of(const hooke_system *system, struct run run, int predict) {
+  hooke_options *given = run_options(run), *options;
+  hooke_cost *cost;
+  check_ok(hooke_cost_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", predict));
+  check_ok(hooke_options_set_number(options, "budget", 0.01));
+  check_ok(hooke_cost_create(system, given, options, &cost));
+  hooke_options_destroy(given);
+  hooke_options_destroy(options);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_cost_find(cost, state));
+  hooke_state_destroy(state);
+  return cost;
+}
+
+static void rows_are_what_is_there(void **unused) {
+  (void)unused;
+  static const char *const kinds[] = {"springs", "springs",  "bending", "damping",
+                                      "drag",    "callback", "gravity"};
+  static const char *const names[] = {"stiff", "", "curl", "damping", "drag", "callback", "gravity"};
+  static const int64_t triples[] = {0, 1, 3, 1, 2, 3};
+  static const double coefficient[] = {2.0, 0.0};
+  hooke_system *system = open_oscillators(1.0, 0.5, 1, 1);
+  check_ok(hooke_system_add_bending(system, "none", 1, triples, 1, coefficient + 1));
+  check_ok(hooke_system_add_bending(system, "curl", 2, triples, 2, coefficient));
+  check_ok(hooke_system_commit(system));
+  hooke_cost *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
+  assert_int_equal(hooke_cost_row_count(cost), 7);
+  for (int64_t k = 0; k < 7; k++) {
+    assert_string_equal(hooke_cost_text(cost, k, "kind"), kinds[k]);
+    assert_string_equal(hooke_cost_text(cost, k, "name"), names[k]);
+    assert_true(isnan(hooke_cost_number(cost, k, "nanoseconds")));
+    check_between(hooke_cost_number(cost, k, "memory_bytes"), 0.0, 1e4);
+  }
+  check_close(hooke_cost_number(cost, 1, "group"), 2.0, 0.0);
+  check_close(hooke_cost_number(cost, 1, "springs"), 1.0, 0.0);
+  check_close(hooke_cost_number(cost, 2, "group"), 1.0, 0.0);
+  assert_true(isnan(hooke_cost_number(cost, 2, "springs")));
+  assert_true(isnan(hooke_cost_number(cost, 3, "group")) && isnan(hooke_cost_number(cost, 3, "springs")));
+  assert_null(hooke_cost_text(cost, 7, "kind"));
+  assert_null(hooke_cost_text(cost, 0, "colour"));
+  if (!isnan(hooke_cost_figure(cost, "step_limit"))) {
+    check_between(hooke_cost_number(cost, 2, "step_limit_without") - hooke_cost_figure(cost, "step_limit"),
+                  1e-6, 1.0);
+  }
+  assert_true(isnan(hooke_cost_number(cost, -1, "group")) && isnan(hooke_cost_number(cost, 0, "colour")));
+  /* a callback has its particles in rows: q, v and force */
+  check_close(hooke_cost_number(cost, 5, "memory_bytes"), 9.0 * 4.0 * 8.0, 0.0);
+  hooke_cost_destroy(cost);
+  hooke_system_destroy(system);
+
+  system = two_oscillators(0.0, 0.0, 0, 0);
+  cost = cost_of(system, (struct run){.step = 1e-3}, 1);
+  assert_int_equal(hooke_cost_row_count(cost), 2);
+  hooke_cost_destroy(cost);
+  hooke_system_destroy(system);
+}
+
+/* One mode each: h omega = 2 (sqrt(1 + z^2) - z) for symplectic Euler, 2 without damping. */
+static void limits_are_those_without(void **unused) {
+  (void)unused;
+  const double z = 0.25;
+  hooke_system *system = two_oscillators(2.0 * z * 10.0, 0.0, 1, 0);
+  hooke_cost *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
+  assert_string_equal(hooke_cost_method(cost), "symplectic-euler");
+  if (isnan(hooke_cost_figure(cost, "step_limit"))) {
+    hooke_cost_destroy(cost);
+    hooke_system_destroy(system);
+    skip();
+  }
+  const double damped = 2.0 * (sqrt(1.0 + z * z) - z) / 10.0;
+  check_close(hooke_cost_figure(cost, "step_limit"), damped, 1e-3 * damped);
+  check_close(hooke_cost_number(cost, 0, "step_limit_without"), 0.5, 1e-3);
+  check_close(hooke_cost_number(cost, 1, "step_limit_without"), damped, 1e-3 * damped);
+  check_close(hooke_cost_number(cost, 2, "step_limit_without"), 0.2, 1e-3);
+  check_close(hooke_cost_number(cost, 3, "step_limit_without"), damped, 1e-3 * damped);
+  hooke_cost_destroy(cost);
+  hooke_system_destroy(system);
+
+  /* the only spring of a scene gone, nothing limits the step */
+  static const int64_t ends[] = {0, 1};
+  static const double q[] = {0, 0, 0, 1, 0, 0};
+  system = small_system(2, q, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 4.0, .rest_length = -1.0});
+  check_ok(hooke_system_commit(system));
+  cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-3}, 1);
+  check_close(hooke_cost_figure(cost, "step_limit"), 1.0, 1e-3);
+  assert_true(isinf(hooke_cost_number(cost, 0, "step_limit_without")));
+  hooke_cost_destroy(cost);
+  hooke_system_destroy(system);
+}
+
+/* Every method can be timed, with steps that are far too large, or none given. */
+static void times_are_numbers(void **unused) {
+  (void)unused;
+  hooke_system *system = two_oscillators(1.0, 0.5, 1, 1);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    for (int k = 0; k < 3; k++) {
+      const double step[] = {1e-3, 1e3, 0.0};
+      hooke_cost *cost = cost_of(system, (struct run){.method = method, .step = step[k]}, 0);
+      assert_string_equal(hooke_cost_method(cost), is_fixed_step(method) ? method : "symplectic-euler");
+      check_between(hooke_cost_figure(cost, "step"), 1e-12, 1e3);
+      check_between(hooke_cost_figure(cost, "nanoseconds"), 1.0, 1e9);
+      check_between(hooke_cost_figure(cost, "resolution"), 0.0, 1e9);
+      for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+        check_between(hooke_cost_number(cost, row, "nanoseconds"), 0.0, 1e9);
+        check_between(hooke_cost_number(cost, row, "resolution"), 0.0, 1e9);
+      }
+      hooke_cost_destroy(cost);
+    }
+  }
+  hooke_system_destroy(system);
+}
+
+struct watch {
+  int calls, stop_at;
+  double last;
+};
+
+static int32_t see(double done, const char *what, void *ctx) {
+  struct watch *watch = ctx;
+  assert_non_null(what);
+  check_between(done, watch->last, 1.0);
+  watch->last = done;
+  return ++watch->calls == watch->stop_at;
+}
+
+static void can_be_stopped(void **unused) {
+  (void)unused;
+  hooke_system *system = two_oscillators(1.0, 0.5, 1, 0);
+  hooke_state *state = start_state(system);
+  struct watch watch = {.stop_at = 4};
+  hooke_cost *cost;
+  check_ok(hooke_cost_create(system, NULL, NULL, &cost));
+  hooke_cost_on_progress(cost, see, &watch);
+  check_status(hooke_cost_find(cost, state), HOOKE_STOPPED);
+  check_between(hooke_cost_number(cost, 1, "nanoseconds"), 0.0, 1e9);
+  assert_true(isnan(hooke_cost_number(cost, 2, "nanoseconds")));
+  assert_true(isnan(hooke_cost_number(cost, 2, "memory_bytes")));
+  hooke_cost_destroy(cost);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+static void wrong_calls(void **unused) {
+  (void)unused;
+  hooke_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
+  hooke_state *state = start_state(other);
+  hooke_cost *cost = NULL;
+  check_ok(hooke_system_create(&open));
+  check_status(hooke_cost_create(open, NULL, NULL, &cost), HOOKE_BAD_CALL);
+  check_ok(hooke_cost_create(system, NULL, NULL, &cost));
+  check_status(hooke_cost_find(cost, state), HOOKE_BAD_VALUE);
+  check_message("another system");
+  assert_true(isnan(hooke_cost_figure(cost, "step_limit")));
+  hooke_cost_destroy(cost);
+  hooke_state_destroy(state);
+  hooke_system_destroy(open);
+  hooke_system_destroy(other);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_are_what_is_there),
+      cmocka_unit_test(limits_are_those_without),
+      cmocka_unit_test(times_are_numbers),
+      cmocka_unit_test(can_be_stopped),
+      cmocka_unit_test(wrong_calls),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

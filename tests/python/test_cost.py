@@ -1,0 +1,80 @@
+"""hooke.cost: rows, figures, and what is left out."""
+
+import math
+
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+
+def test_rows_of_a_scene():
+    found = hooke.cost(hooke.Scene.parse(SIX_PARTICLES), budget=0.02)
+    assert found.outcome == "finished" and found.method == "symplectic-euler" and found.step == 1e-3
+    assert found.rows["name"].tolist() == ["edges", "damping", "gravity"]
+    assert found.rows["kind"].tolist() == ["springs", "damping", "gravity"]
+    assert found["edges"]["springs"] == 7 and np.isnan(found["gravity"]["springs"])
+    assert found.nanoseconds > 0 and found.resolution >= 0 and (found.rows["nanoseconds"] >= 0).all()
+    assert math.isinf(found["edges"]["step_limit_without"]) and found["edges"]["memory_bytes"] > 0
+    limits = [hooke.limit(build_six_particles(), predict=True)["symplectic-euler"]["predicted"], found.step_limit]
+    assert limits[1] == pytest.approx(limits[0], rel=2e-3) and found["damping"]["step_limit_without"] > limits[1]
+    assert "edges" in str(found) and "3 ingredients" in repr(found)
+    with pytest.raises(KeyError, match="there are edges"):
+        found["drag"]
+
+
+def test_without_the_timing():
+    system = build_oscillator()
+    found = hooke.cost(system, predict=True, method="verlet")
+    assert found.method == "verlet" and np.isnan(found.nanoseconds) and np.isnan(found.rows["nanoseconds"]).all()
+    assert found.step_limit == pytest.approx(2 / math.sqrt(40), rel=1e-3) and found.step == found.step_limit
+    assert hooke.cost(system, predict=True, method="cvode-bdf").method == "symplectic-euler"
+
+
+def test_a_callback_is_an_ingredient():
+    system, calls = build_oscillator(), []
+    system.set_force(lambda t, q, v, force: calls.append(t))
+    found = hooke.cost(system, budget=0.02)
+    assert found.rows["kind"].tolist() == ["springs", "callback"] and calls
+    assert found["callback"]["memory_bytes"] > 0
+
+    def fail(t, q, v, force):
+        raise RuntimeError("no such force")
+
+    system = build_oscillator()
+    system.set_force(fail)
+    with pytest.raises(RuntimeError, match="no such force"):
+        hooke.cost(system, budget=0.02)
+
+
+def test_progress_can_stop():
+    seen = []
+
+    def stop(done, what):
+        seen.append((done, what))
+        return len(seen) == 3
+
+    found = hooke.cost(build_six_particles(), budget=0.02, progress=stop)
+    assert found.outcome == "stopped" and len(seen) == 3 and seen[1] == (0, "edges")
+    assert found["edges"]["nanoseconds"] >= 0 and np.isnan(found["damping"]["nanoseconds"])
+
+
+def test_what_does_nothing_is_left_out():
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1)
+    system.pin([0, 2])
+    system.add_springs("none", [[1, 2]], stiffness=0)
+    system.add_springs("some", [[0, 1]], stiffness=5)
+    assert system.spring_count == 2
+    assert (system.dropped_spring_count, system.idle_count) == (1, 1)
+    assert system.spring_count == 1 and system.groups == [("none", 0), ("some", 1)]
+    assert hooke.cost(system, predict=True).rows["name"].tolist() == ["some"]
+
+
+def test_options_and_wrong_problems():
+    assert "budget" in hooke.describe("cost") and "predict" in hooke.describe("cost")
+    with pytest.raises(hooke.BadValue, match="budget"):
+        hooke.cost(build_oscillator(), budget=0)
+    with pytest.raises(hooke.BadValue, match="another system"):
+        hooke.cost(build_oscillator(), build_six_particles().state())

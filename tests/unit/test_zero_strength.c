@@ -1,0 +1,396 @@
+/* What has no strength is not there: a scene with it and one without it choose the same loops, and run to the same bits. */
+#include "canonical.h"
+#include "check.h"
+#include "random.h"
+#include "run.h"
+#include "small.h"
+
+#include "model/force.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- scenes ---- */
+
+enum shape { CLOTH, ROPE, NETWORK, SHAPES };
+
+enum ingredient {
+  GROUPS,       /* two groups, whose springs would form runs and lanes of their own */
+  FAMILY,       /* a family of a part */
+  SOME_SPRINGS, /* springs among others of a group */
+  BENDING,
+  DAMPING,
+  DRAG,
+  GRAVITY,
+  ALL,
+  INGREDIENTS
+};
+
+/* Everything but `what` has some strength if `full`; `what` is absent, or there with a strength of zero. */
+struct scene {
+  enum shape shape;
+  enum ingredient what;
+  int32_t full, zero;
+};
+
+enum { PARTICLES = 120, SPRINGS = 300, GROUP = 60 };
+static const double REST = 0.5;
+
+static int is_zero(const struct scene *scene, enum ingredient ingredient) {
+  return scene->zero && (scene->what == ingredient || scene->what == ALL);
+}
+
+static int is_full(const struct scene *scene, enum ingredient ingredient) {
+  return scene->full && scene->what != ingredient && scene->what != ALL;
+}
+
+static void set_damping(const struct scene *scene, hooke_options *options, const char *name) {
+  if (is_zero(scene, DAMPING)) check_ok(hooke_options_set_number(options, name, 0.0));
+  if (is_full(scene, DAMPING)) check_ok(hooke_options_set_number(options, name, 0.01));
+}
+
+static void add_part(const struct scene *scene, hooke_system *system) {
+  static const double origin[] = {0, 0, 0}, edges[] = {1, 0.1, 0, 0, 0.2, 1}, size[] = {17, 13};
+  static const double to[] = {2, 0.5, 0.1};
+  const int cloth = scene->shape == CLOTH;
+  hooke_options *options;
+  check_ok(hooke_part_options_create(cloth ? "cloth" : "rope", &options));
+  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  if (cloth) {
+    check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
+    check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+    check_ok(hooke_options_set_numbers(options, "size", 2, size));
+    check_ok(hooke_options_set_number(options, "shear.stiffness", 4.0));
+  } else {
+    check_ok(hooke_options_set_numbers(options, "from", 3, origin));
+    check_ok(hooke_options_set_numbers(options, "to", 3, to));
+    check_ok(hooke_options_set_number(options, "segments", 80));
+  }
+  check_ok(hooke_options_set_number(options, cloth ? "structural.stiffness" : "stretch.stiffness", 9.0));
+  set_damping(scene, options, cloth ? "structural.damping" : "stretch.damping");
+  if (is_zero(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 0.0));
+  if (is_full(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 1.0));
+  check_ok(hooke_system_add_part(system, cloth ? "cloth" : "rope", "part", options, NULL, NULL));
+  hooke_options_destroy(options);
+}
+
+struct network {
+  double position[3 * PARTICLES];
+  int64_t count, ends[4 * SPRINGS];
+  double stiffness[2 * SPRINGS], damping[2 * SPRINGS];
+};
+
+/* Springs without order, every second one with neither stiffness nor damping, or left out. */
+static void draw_network(int zeros, double damping, struct network *network) {
+  struct random_source source = {77};
+  network->count = 0;
+  for (int k = 0; k < 3 * PARTICLES; k++)
+    network->position[k] = random_between(&source, -1.0, 1.0);
+  for (int k = 0; k < 2 * SPRINGS; k++) {
+    const int64_t i = random_whole(&source, 0, PARTICLES - 1);
+    const int64_t j = (i + random_whole(&source, 1, PARTICLES - 1)) % PARTICLES;
+    const double stiffness = random_between(&source, 1.0, 5.0);
+    if (k % 2 && !zeros) continue;
+    network->ends[2 * network->count] = i;
+    network->ends[2 * network->count + 1] = j;
+    network->stiffness[network->count] = k % 2 ? 0.0 : stiffness;
+    network->damping[network->count++] = k % 2 ? 0.0 : damping;
+  }
+}
+
+static void add_network(const struct scene *scene, hooke_system *system) {
+  const double mass = 0.1;
+  struct network network;
+  hooke_options *options;
+  draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
+  check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
+  if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
+    check_ok(hooke_options_set_numbers(options, "damping", network.count, network.damping));
+  check_ok(hooke_options_set_number(options, "rest_length", REST));
+  check_ok(hooke_system_add_springs(system, "network", network.count, network.ends, options));
+  hooke_options_destroy(options);
+}
+
+static void add_group(hooke_system *system, int64_t offset, double stiffness) {
+  int64_t ends[2 * GROUP];
+  hooke_options *options;
+  for (int64_t k = 0; k < GROUP; k++)
+    ends[2 * k] = k, ends[2 * k + 1] = k + offset;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "rest_length", 0.3));
+  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
+  check_ok(hooke_options_set_number(options, "compression", 0.0));
+  check_ok(hooke_system_add_springs(system, "group", GROUP, ends, options));
+  hooke_options_destroy(options);
+}
+
+static void add_bending(hooke_system *system, double coefficient) {
+  int64_t triples[3 * GROUP];
+  for (int64_t k = 0; k < GROUP; k++)
+    triples[3 * k] = k, triples[3 * k + 1] = k + 1, triples[3 * k + 2] = k + 2;
+  check_ok(hooke_system_add_bending(system, "bending", GROUP, triples, 1, &coefficient));
+}
+
+static hooke_system *build(struct scene scene) {
+  static const double down[] = {0, 0, -9.81}, nothing[] = {0.0, -0.0, 0.0};
+  static const int64_t pinned[] = {0, 16};
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  if (scene.shape == NETWORK)
+    add_network(&scene, system);
+  else
+    add_part(&scene, system);
+  for (int64_t offset = 3; offset <= 5 && (is_zero(&scene, GROUPS) || is_full(&scene, GROUPS)); offset += 2)
+    add_group(system, offset, is_zero(&scene, GROUPS) ? 0.0 : 0.5);
+  if (is_zero(&scene, BENDING)) add_bending(system, 0.0);
+  if (is_full(&scene, BENDING)) add_bending(system, 0.1);
+  check_ok(hooke_system_pin(system, 2, pinned));
+  if (is_zero(&scene, GRAVITY)) check_ok(hooke_system_set_gravity(system, nothing));
+  if (is_full(&scene, GRAVITY)) check_ok(hooke_system_set_gravity(system, down));
+  if (is_zero(&scene, DRAG)) check_ok(hooke_system_set_drag(system, -0.0));
+  if (is_full(&scene, DRAG)) check_ok(hooke_system_set_drag(system, 0.02));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* ---- the same instructions ---- */
+
+static void check_same_forces(const hooke_system *found, const hooke_system *expected) {
+  assert_int_equal(hooke_system_force_count(found), hooke_system_force_count(expected));
+  for (int64_t k = 0; k < hooke_system_force_count(expected); k++) {
+    assert_string_equal(hooke_system_force_name(found, k), hooke_system_force_name(expected, k));
+    assert_ptr_equal(found->force_row[k], expected->force_row[k]);
+  }
+  assert_int_equal(found->has_gravity, expected->has_gravity);
+  assert_memory_equal(found->gravity, expected->gravity, sizeof found->gravity);
+  assert_memory_equal(&found->drag, &expected->drag, sizeof found->drag);
+}
+
+static void check_same_runs(const struct hooke_springs *found, const struct hooke_springs *expected) {
+  assert_int_equal(found->count, expected->count);
+  assert_int_equal(found->run_count, expected->run_count);
+  assert_int_equal(found->indexed_count, expected->indexed_count);
+  assert_int_equal(found->mixed_count, expected->mixed_count);
+  for (int64_t r = 0; r < expected->run_count; r++) {
+    const struct hooke_run *a = &found->run[r], *b = &expected->run[r];
+    assert_true(a->loop == b->loop);
+    assert_int_equal(a->shape, b->shape);
+    assert_int_equal(a->first, b->first);
+    assert_int_equal(a->count, b->count);
+    for (int64_t k = 0; k < b->count; k++) {
+      const struct hooke_spring x = hooke_run_spring(a, k), y = hooke_run_spring(b, k);
+      const double material[] = {x.kappa, x.gamma, x.rest_length},
+                   wanted[] = {y.kappa, y.gamma, y.rest_length};
+      assert_true(x.head == y.head && x.tail == y.tail);
+      check_same_bits(3, material, wanted);
+    }
+  }
+}
+
+static void check_same_lanes(const hooke_system *found, const hooke_system *expected) {
+  assert_int_equal(found->lanes.count, expected->lanes.count);
+  for (int32_t k = 0; k < expected->lanes.count; k++) {
+    const struct hooke_lane *a = &found->lanes.lane[k], *b = &expected->lanes.lane[k];
+    assert_true(a->offset == b->offset && a->first == b->first && a->last == b->last);
+    assert_int_equal(a->run_count, b->run_count);
+    for (int64_t r = 0; r < b->run_count; r++)
+      assert_int_equal(a->run[r] - found->springs.run, b->run[r] - expected->springs.run);
+  }
+}
+
+static void check_same_choice(const hooke_system *found, const hooke_system *expected) {
+  check_same_forces(found, expected);
+  check_same_runs(&found->springs, &expected->springs);
+  assert_int_equal(found->bending.count, expected->bending.count);
+  assert_int_equal(found->bending.run_count, expected->bending.run_count);
+  check_same_lanes(found, expected);
+  assert_int_equal(hooke_system_spring_count(found), hooke_system_spring_count(expected));
+  assert_int_equal(hooke_system_idle_count(found), hooke_system_idle_count(expected));
+}
+
+/* ---- the same bits ---- */
+
+static const char *const counts[] = {"steps", "force_evaluations", "derivative_products",
+                                     "nonlinear_iterations", "linear_iterations"};
+enum { COUNTS = sizeof counts / sizeof counts[0] };
+
+static void run(const hooke_system *system, const char *method, hooke_state *state, int64_t count[COUNTS]) {
+  hooke_integrator *it =
+      start_run(system, (struct run){.method = method, .step = 1.0 / 1024, .duration = 40.0 / 1024});
+  check_ok(hooke_integrator_run(it, state));
+  for (int k = 0; k < COUNTS; k++)
+    count[k] = hooke_integrator_count(it, counts[k]);
+  hooke_integrator_destroy(it);
+}
+
+static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
+  int64_t a[COUNTS], b[COUNTS];
+  hooke_state *x = start_state(found), *y = start_state(expected);
+  run(found, method, x, a);
+  run(expected, method, y, b);
+  check_same_bits(hooke_state_size(y), hooke_state_position(x), hooke_state_position(y));
+  check_same_bits(hooke_state_size(y), hooke_state_velocity(x), hooke_state_velocity(y));
+  assert_memory_equal(a, b, sizeof a);
+  hooke_state_destroy(x);
+  hooke_state_destroy(y);
+}
+
+static int64_t zeros_of(enum shape shape, enum ingredient what) {
+  static const int64_t family[] = {15 * 13 + 17 * 11, 79,
+                                   0}; /* every second particle along the lines of a part */
+  int64_t count = 0;
+  if (what == GROUPS || what == ALL) count += 2 * GROUP;
+  if (what == FAMILY || what == ALL) count += family[shape];
+  if ((what == SOME_SPRINGS || what == ALL) && shape == NETWORK) count += SPRINGS;
+  return count;
+}
+
+static void check_scene(enum shape shape, enum ingredient what, int32_t full) {
+  hooke_system *with = build((struct scene){shape, what, full, 1});
+  hooke_system *without = build((struct scene){shape, what, full, 0});
+  assert_int_equal(hooke_system_dropped_spring_count(with), zeros_of(shape, what));
+  assert_int_equal(hooke_system_dropped_spring_count(without), 0);
+  check_same_choice(with, without);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    if (hooke_method_is_built(hooke_method_name(m))) check_same_run(with, without, hooke_method_name(m));
+  }
+  hooke_system_destroy(with);
+  hooke_system_destroy(without);
+}
+
+static void zero_strength_is_absence(void **unused) {
+  (void)unused;
+  for (enum shape shape = CLOTH; shape < SHAPES; shape++) {
+    for (enum ingredient what = GROUPS; what < INGREDIENTS; what++) {
+      for (int32_t full = 0; full <= 1; full++)
+        check_scene(shape, what, full);
+    }
+  }
+}
+
+/* The comparison can fail: with some strength, every ingredient shows in what was chosen. */
+static void strength_is_seen(void **unused) {
+  (void)unused;
+  hooke_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
+  for (enum ingredient what = GROUPS; what < ALL; what++) {
+    if (what == SOME_SPRINGS) continue;
+    hooke_system *without = build((struct scene){CLOTH, what, 1, 0});
+    int differs =
+        full->springs.count != without->springs.count || full->force_row_count != without->force_row_count;
+    for (int64_t r = 0; r < full->springs.run_count && r < without->springs.run_count; r++)
+      differs |= full->springs.run[r].loop != without->springs.run[r].loop;
+    assert_true(differs);
+    hooke_system_destroy(without);
+  }
+  hooke_system_destroy(full);
+  hooke_system *cloth = build((struct scene){CLOTH, GROUPS, 0, 1});
+  assert_in_range(cloth->lanes.count, 1, HOOKE_MOST_LANES);
+  hooke_system_destroy(cloth);
+}
+
+/* The canonical sum over all springs, those of no strength among them, has the bits of the sum that leaves them out. */
+static void canonical_sum_agrees(void **unused) {
+  (void)unused;
+  struct network network;
+  double found[3 * PARTICLES], expected[3 * PARTICLES], v[3 * PARTICLES] = {0.0};
+  draw_network(1, 0.0, &network);
+  hooke_system *system = build((struct scene){NETWORK, SOME_SPRINGS, 0, 1});
+  struct canonical c;
+  canonical_create(system, &c);
+  struct canonical whole = c;
+  whole.spring_count = network.count;
+  whole.ends = network.ends;
+  whole.kappa = network.stiffness;
+  whole.gamma = network.damping;
+  whole.rest_length = new_doubles(network.count);
+  whole.pull_only = new_block(network.count, 1);
+  for (int64_t k = 0; k < network.count; k++)
+    whole.rest_length[k] = REST;
+  assert_int_equal(c.spring_count, SPRINGS);
+  assert_int_equal(whole.spring_count, 2 * SPRINGS);
+  check_ok(hooke_system_acceleration(system, 0.0, network.position, v, found));
+  canonical_acceleration(&whole, 0.0, network.position, v, expected);
+  check_same_bits(3 * PARTICLES, found, expected);
+  free(whole.rest_length);
+  free(whole.pull_only);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+}
+
+/* ---- numbers ---- */
+
+/* Four particles in a row; springs 0-1 of no strength, 1-2 that is damped alone, and a group of none. */
+static void numbers_are_of_what_is_there(void **unused) {
+  (void)unused;
+  static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
+  static const int64_t ends[] = {0, 1, 1, 2}, last[] = {2, 3}, pinned[] = {0, 3};
+  static const double stiffness[] = {0.0, 0.0}, damping[] = {0.0, 0.5};
+  hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+  hooke_options *options;
+  int64_t found[2];
+  double gamma;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
+  check_ok(hooke_options_set_numbers(options, "damping", 2, damping));
+  check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
+  check_ok(hooke_options_unset(options, "damping"));
+  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  check_ok(hooke_system_add_springs(system, "none", 1, last, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_pin(system, 2, pinned));
+  assert_int_equal(hooke_system_spring_count(system), 3);
+  assert_int_equal(hooke_system_dropped_spring_count(system), 0);
+  assert_int_equal(hooke_system_idle_count(system), 0);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_spring_count(system), 1);
+  assert_int_equal(hooke_system_dropped_spring_count(system), 2);
+  assert_int_equal(hooke_system_group_count(system), 2);
+  assert_int_equal(hooke_system_group_size(system, 0), 1);
+  assert_int_equal(hooke_system_group_size(system, 1), 0);
+  assert_string_equal(hooke_system_group_name(system, 1), "none");
+  check_ok(hooke_system_spring_ends(system, found));
+  check_ok(hooke_system_spring_material(system, NULL, &gamma, NULL));
+  assert_true(found[0] == 1 && found[1] == 2);
+  check_close(gamma, 0.5, 0.0);
+  assert_int_equal(hooke_system_idle_count(system), 2);
+  hooke_system_destroy(system);
+}
+
+static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+/* A pinned particle at the end of a spring is not idle, nor one of a triple that has a strength, nor one that a callback may
+ * look at, nor one that is free. */
+static void idle_is_what_nothing_touches(void **unused) {
+  (void)unused;
+  static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
+  static const int64_t ends[] = {0, 1}, pinned[] = {0, 2}, triple[] = {1, 2, 3};
+  for (int k = 0; k < 4; k++) {
+    const int callback = k == 1;
+    const double bending = k == 2 ? 1.0 : 0.0;
+    hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+    small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
+    check_ok(hooke_system_pin(system, 2, pinned));
+    if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
+    if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
+    check_ok(hooke_system_commit(system));
+    assert_int_equal(hooke_system_idle_count(system), callback || bending > 0.0 ? 0 : 1);
+    hooke_system_destroy(system);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(zero_strength_is_absence),     cmocka_unit_test(strength_is_seen),
+      cmocka_unit_test(canonical_sum_agrees),         cmocka_unit_test(numbers_are_of_what_is_there),
+      cmocka_unit_test(idle_is_what_nothing_touches),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
