@@ -12,7 +12,10 @@ static const double DIFFERENCE_FACTOR =
     2.0; /* error of a step over the change when it is halved, at order 1 or more */
 static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
 static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
-static const double STALLED = 0.75, LEAST_GAIN = 0.1;  /* of the error by a finer step; of the duration */
+static const double LEAST_GAIN =
+    1.12; /* factor on the time that can be followed, by a finer step worth its time */
+static const double WELL_BEGUN =
+    0.25; /* of the duration: beyond it one step without gain is enough to know */
 static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
 static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
 static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
@@ -46,6 +49,12 @@ static double finer(const struct search *search, double value) {
   return search->adaptive ? value + 1.0 : 2.0 * value;
 }
 
+/* Variants are run as far as they are judged; how long a whole run takes is found at the end. */
+static int32_t is_shortened(const struct search *search) {
+  const hooke_needs *needs = search->recorder.needs;
+  return search->recorder.trial->map != NULL && needs->judged < needs->frame_count;
+}
+
 static int32_t run_at(struct search *search, double value, int32_t which) {
   struct hooke_needs_cost *cost = &search->cost[which];
   cost->step = search->adaptive ? NAN : search->recorder.needs->unit / value;
@@ -76,6 +85,10 @@ static int32_t is_coarser_than_full(const struct search *search) {
   return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
 }
 
+static int32_t has_finished(const struct search *search) {
+  return search->finished[0] && search->finished[1];
+}
+
 /* 1 while steps may be so coarse that the whole motion is wrong, and halving them still shows nothing. */
 static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
   if ((double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count) return 0;
@@ -84,13 +97,13 @@ static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
 
 /* 1 if smaller steps no longer help: differences grow too fast for any step to be small enough. */
 static int32_t has_stalled(struct search *search, double error, int64_t frames) {
-  const double gain = (double)(frames - search->frames) / (double)search->recorder.needs->frame_count;
-  const int32_t idle = error > STALLED * search->error && gain < LEAST_GAIN;
-  search->stalls =
-      idle && !is_coarser_than_full(search) && !may_be_too_coarse(search, frames) ? search->stalls + 1 : 0;
+  const double all = (double)search->recorder.needs->frame_count;
+  const int32_t idle = (double)frames < LEAST_GAIN * (double)search->frames &&
+                       !is_coarser_than_full(search) && !may_be_too_coarse(search, frames);
+  search->stalls = idle ? search->stalls + 1 : 0;
   search->error = error;
   search->frames = frames;
-  return search->stalls >= 2;
+  return search->stalls >= ((double)frames < WELL_BEGUN * all ? 2 : 1);
 }
 
 static void swap_runs(struct search *search) {
@@ -121,7 +134,7 @@ static int32_t find_step(struct search *search) {
   for (search->error = INFINITY; status == HOOKE_OK;) {
     status = run_at(search, finer(search, search->value), 1);
     if (status != HOOKE_OK) break;
-    if (search->finished[0] && search->finished[1]) {
+    if (has_finished(search)) {
       const double error =
           DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
       if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
@@ -151,6 +164,7 @@ static double step_limit(const hooke_system *system, const char *method) {
 }
 
 static void begin_search(struct search *search, double limit) {
+  search->frames = search->stalls = 0;
   const hooke_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
   search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
@@ -165,29 +179,22 @@ static void begin_search(struct search *search, double limit) {
   search->first_stable = search->value;
 }
 
-/* The least of some runs, for those too short for one clock reading. */
-static int32_t repeat_for_time(struct search *search, struct hooke_needs_cost *cost) {
-  double spent = cost->wall_seconds;
+/* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if it does not
+ * come to its end, beyond what was judged. */
+static int32_t find_time(struct search *search, struct hooke_needs_cost *cost, int32_t *finished) {
+  const hooke_needs *needs = search->recorder.needs;
+  double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
   search->recorder.path = NULL;
-  int32_t status = hooke_needs_set_step(cost, search->options);
-  for (int k = 1; k < REPEATS && spent < SHORT && status == HOOKE_OK; k++) {
+  if (is_shortened(search)) cost->wall_seconds = INFINITY;
+  int32_t status = hooke_options_set_number(search->options, "duration", needs->duration);
+  if (status == HOOKE_OK) status = hooke_needs_set_step(cost, search->options);
+  for (int k = 0; k < REPEATS && spent < SHORT && *finished && status == HOOKE_OK; k++) {
     struct hooke_needs_cost again = *cost;
-    int32_t finished;
-    status = hooke_needs_run_once(&search->recorder, search->options, &finished, &again);
-    if (again.wall_seconds < cost->wall_seconds) cost->wall_seconds = again.wall_seconds;
+    status = hooke_needs_run_once(&search->recorder, search->options, finished, &again);
+    if (again.wall_seconds < cost->wall_seconds) *cost = again;
     spent += again.wall_seconds;
   }
   return status;
-}
-
-/* The full system is judged, and all others against it, up to where the step can be trusted with a margin: variants grow
- * differences about as fast. */
-static void judge_full(struct search *search, double *step_error) {
-  hooke_needs *needs = search->recorder.needs;
-  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
-  if (*step_error <= bound) return;
-  needs->judged = agreed(search, bound / MARGIN);
-  *step_error = DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
 }
 
 static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to) {
@@ -195,6 +202,19 @@ static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to
   hooke_needs_path_release(to);
   *to = *from;
   from->position = NULL;
+}
+
+/* The full system is judged, and all others against it, up to where the best step can be trusted with a margin: variants
+ * grow differences about as fast. Up to there a larger step may do. */
+static int32_t judge_full(struct search *search, double limit, struct hooke_needs_path *fine) {
+  hooke_needs *needs = search->recorder.needs;
+  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
+  if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
+  needs->judged = agreed(search, bound / MARGIN);
+  hand_over(&search->path[1], fine);
+  const int32_t status = hooke_needs_path_create(needs, &search->path[1]);
+  begin_search(search, limit);
+  return status == HOOKE_OK ? find_step(search) : status;
 }
 
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
@@ -206,21 +226,22 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
                           .adaptive = hooke_method_find(name)->adaptive};
   begin_search(&search, limit);
   int32_t status = hooke_options_copy(needs->run, &search.options);
+  if (status == HOOKE_OK && is_shortened(&search))
+    status = hooke_options_set_number(search.options, "duration", (double)(needs->judged - 1) * needs->every);
   for (int k = 0; k < 2 && status == HOOKE_OK; k++)
     status = hooke_needs_path_create(needs, &search.path[k]);
   if (status == HOOKE_OK) status = find_step(&search);
-  const int32_t finished = search.finished[0] && search.finished[1];
-  double step_error = finished ? search.error : (double)NAN;
-  if (status == HOOKE_OK && finished && trial->map == NULL) judge_full(&search, &step_error);
+  if (status == HOOKE_OK && has_finished(&search)) status = judge_full(&search, limit, fine);
+  int32_t finished = has_finished(&search);
   *cost = search.cost[0];
-  cost->step_error = step_error;
+  cost->step_error = finished ? search.error : (double)NAN;
   cost->step_limit = limit;
   cost->springs = (double)hooke_system_spring_count(trial->system);
   cost->particles = (double)hooke_system_particle_count(trial->system);
+  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
   if (status == HOOKE_OK && finished) {
-    status = repeat_for_time(&search, cost);
     hand_over(&search.path[0], coarse);
-    hand_over(&search.path[1], fine);
+    if (fine && fine->position == NULL) hand_over(&search.path[1], fine);
   }
   for (int k = 0; k < 2; k++)
     hooke_needs_path_release(&search.path[k]);
