@@ -19,7 +19,7 @@ from .scene import Scene
 from .system import System, write_scene
 
 
-class Cost(NamedTuple):
+class RunCost(NamedTuple):
     """What a run takes with errors of its step a tenth of what is wanted: particles and springs, the largest stable
     step [s] (infinite where nothing limits it), the step [s] or the tolerances that it was run with, what these may
     put it off by [m], and the time of stepping alone [s]. NaN where a number does not apply."""
@@ -38,7 +38,7 @@ class Cost(NamedTuple):
 
 _ROW = np.dtype(
     [("without", "U192"), ("kind", "U16"), ("error", float), ("needed", bool), ("left_out", bool)]
-    + [(name, float) for name in Cost._fields]
+    + [(name, float) for name in RunCost._fields]
     + [("note", "U320")]
 )
 _PART = np.dtype(
@@ -54,7 +54,7 @@ class Needs:
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
     change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
-    end), needed, left_out (of the lean system, too), the fields of a `Cost`, note. `full` is the cost of the full
+    end), needed, left_out (of the lean system, too), the fields of a `RunCost`, note. `full` is the cost of the full
     system, `lean_cost` that of the lean one and `lean_error` [m] how far its recommended run is from the full system;
     None and NaN while there is none.
 
@@ -75,8 +75,8 @@ class Needs:
     runs: int
     rows: np.ndarray
     parts: np.ndarray
-    full: Cost
-    lean_cost: Cost | None
+    full: RunCost
+    lean_cost: RunCost | None
     lean_error: float
 
     def __init__(self, handle: Handle, scene: Scene | None, system: System, status: int):
@@ -205,8 +205,8 @@ def needs(
     return Needs(handle, scene, system, status)
 
 
-def _cost(handle: Handle, prefix: str) -> Cost:
-    return Cost(*(lib.hooke_needs_figure(handle, (prefix + name).encode()) for name in Cost._fields))
+def _cost(handle: Handle, prefix: str) -> RunCost:
+    return RunCost(*(lib.hooke_needs_figure(handle, (prefix + name).encode()) for name in RunCost._fields))
 
 
 _PARTS_HEAD = f"{'part':16}{'cells':>12}{'N to 2N [m]':>14}{'2N to 4N [m]':>14}{'order':>8}{'left [m]':>12}{'wanted':>12}"
