@@ -25,8 +25,8 @@ REPEATS = 3
 
 
 def print_table(found: hooke.Needs) -> None:
-    print("| without | change [m] | ns a step | wall time [s] | largest step [s] | |")
-    print("| --- | --- | --- | --- | --- | --- |")
+    print("| without | change [m] | ns a step | steps | wall time [s] | largest step [s] | |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
     print_row("nothing (the full scene)", "", found.full._asdict(), "")
     for row in found.rows:
         change = "-" if np.isnan(row["error"]) else f"{row['error']:.2g}"
@@ -37,7 +37,7 @@ def print_table(found: hooke.Needs) -> None:
 
 def print_row(name: str, change: str, cost: Any, says: str) -> None:
     wall, steps, limit = cost["wall_seconds"], cost["steps"], cost["step_limit"]
-    print(f"| {name} | {change} | {1e9 * wall / steps:.3g} | {wall:.2g} | {limit:.2g} | {says} |")
+    print(f"| {name} | {change} | {1e9 * wall / steps:.3g} | {steps:.0f} | {wall:.2g} | {limit:.2g} | {says} |")
 
 
 def run_both(found: hooke.Needs, scene: hooke.Scene) -> tuple[list[Any], list[float]]:
