@@ -22,14 +22,6 @@ struct request {
 
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof((list)[0])))
 
-/* A step [s], "none" where nothing limits it. */
-static void add_step(struct hooke_text *data, const char *key, double step) {
-  if (step == INFINITY)
-    hooke_text_word(data, key, "none");
-  else
-    hooke_text_number(data, key, step);
-}
-
 /* ---- regions ---- */
 
 static void add_point(struct hooke_text *data, double x, double y) {
@@ -70,7 +62,7 @@ static void add_row(struct hooke_text *data, const hooke_limit *limit, int64_t r
   hooke_text_word(data, "method", method);
   hooke_text_word(data, "note", hooke_limit_text(limit, row, "note"));
   for (int k = 0; k < COUNT_OF(steps); k++)
-    add_step(data, steps[k], hooke_limit_number(limit, row, steps[k]));
+    hooke_report_add_step(data, steps[k], hooke_limit_number(limit, row, steps[k]));
   for (int k = 0; k < COUNT_OF(numbers); k++)
     hooke_text_number(data, numbers[k], hooke_limit_number(limit, row, numbers[k]));
   if (isfinite(alone)) add_reach(data, method);

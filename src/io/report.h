@@ -14,6 +14,9 @@ struct hooke_report {
 /* Writes the page. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 int32_t hooke_report_write(const struct hooke_report *report, const char *path);
 
+/* Adds a step [s]; "none" where nothing limits it (infinity). */
+void hooke_report_add_step(struct hooke_text *data, const char *key, double step);
+
 /* Adds date, machine and versions. */
 void hooke_report_add_facts(struct hooke_text *data);
 

@@ -1,4 +1,4 @@
-/* What every page tells: when, where and with what it was made. */
+/* What pages tell alike: when, where and with what they were made, and steps. */
 #include "io/report.h"
 
 #include <math.h>
@@ -58,4 +58,11 @@ void hooke_report_add_facts(struct hooke_text *text) {
   add_date(text);
   add_machine(text);
   add_versions(text);
+}
+
+void hooke_report_add_step(struct hooke_text *data, const char *key, double step) {
+  if (step == INFINITY)
+    hooke_text_word(data, key, "none");
+  else
+    hooke_text_number(data, key, step);
 }

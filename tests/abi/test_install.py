@@ -69,9 +69,9 @@ def test_report(prefix, tmp_path):
     sources = {p.name for p in (ROOT / "src/io/report").iterdir()}
     assert pages == sources | {"chart.js"}
     seen = set()
-    for verb in ("limit", "study"):
+    for verb, *options in (("needs", "--want", "0.1"), ("limit", "--methods", "rk4"), ("study", "--methods", "rk4")):
         command = [prefix / "bin/hooke", verb, prefix / "share/hooke/examples/scenes/oscillator.json", "--duration", "0.5",
-                   "--methods", "rk4", "--report", tmp_path / "page.html"]
+                   *options, "--report", tmp_path / "page.html"]
         run(*command)
         text = (tmp_path / "page.html").read_text()
         seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}

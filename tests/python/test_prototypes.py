@@ -38,6 +38,8 @@ OUTCOMES = {
     "hooke_limit_find",
     "hooke_limit_along",
     "hooke_cost_find",
+    "hooke_needs_find",
+    "hooke_needs_refine",
 }
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 

@@ -6,31 +6,6 @@ const rowOf = (method) => data.rows.find((row) => row.method === method);
 const POINT = "#1c2126";
 const pale = (colour) => colour + "1a";
 
-/* ---- one scale for both axes ---- */
-
-const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
-  grid: { color: (context) => (context.tick && context.tick.value === 0 ? "#9aa4ae" : "#edf0f2") } });
-
-/* Shows the box, and to its sides what else there is room for; `filled` is told when the edges are known. */
-function equalScale(chart, box, filled) {
-  const { width, height } = chart.chartArea;
-  const unit = Math.max((box.right - box.left) / width, (box.top - box.bottom) / height);
-  const x = (box.left + box.right) / 2, y = (box.bottom + box.top) / 2;
-  Object.assign(chart.options.scales.x, { min: x - unit * width / 2, max: x + unit * width / 2 });
-  Object.assign(chart.options.scales.y, { min: y - unit * height / 2, max: y + unit * height / 2 });
-  if (filled) filled(chart, chart.options.scales.x, chart.options.scales.y);
-  chart.update("none");
-}
-
-function drawEqual(id, lines, titles, box, describe, filled) {
-  const chart = draw(id, lines, axisOf(titles[0]), axisOf(titles[1]), describe);
-  /* the first one has made room for labels, so that the second one finds the widths that remain */
-  equalScale(chart, box, filled);
-  equalScale(chart, box, filled);
-  chart.options.onResize = () => setTimeout(() => chart.ctx && equalScale(chart, box, filled));
-  return chart;
-}
-
 /* ---- stability ---- */
 
 /* Steps to look at: that of the scene, and the limits that there are. */
@@ -133,10 +108,9 @@ function drawStability(key) {
 
 /* ---- the scene ---- */
 
-const picture = data.picture, AXES = ["x", "y", "z"];
+const picture = data.picture;
 const moving = picture.move.length > 0;
 const MOST_ARROWS = 300, MOST_DISPLACED = 200, MOST_DOTS = 400;
-const VIEWS = { xy: [0, 1], xz: [0, 2], zy: [2, 1] };
 const blameOf = new Map(data.blame.map((one) => [one.spring, one]));
 const topShare = data.blame.length > 0 ? data.blame[0].share : 0;
 const coordinate = (particle, axis) => picture.position[3 * particle + axis];
@@ -144,8 +118,7 @@ const moveOf = (particle, axis) => (moving ? picture.move[3 * particle + axis] :
 const particles = picture.particle.map((_, k) => k);
 const sizes = particles.map((k) => Math.hypot(moveOf(k, 0), moveOf(k, 1), moveOf(k, 2)));
 const movers = particles.filter((k) => sizes[k] > 0.02).sort((a, b) => sizes[b] - sizes[a]);
-const listed = picture.spring.map((number, k) =>
-  ({ number, ends: [picture.ends[2 * k], picture.ends[2 * k + 1]], blame: blameOf.get(number) }));
+const listed = springsOf(picture).map((spring) => ({ ...spring, blame: blameOf.get(spring.number) }));
 const isBlamed = (spring) => spring.blame !== undefined && spring.blame.share > 0.01 * topShare;
 
 /* From sand to red. */
@@ -154,8 +127,7 @@ function shareColour(share) {
   return "#" + from.map((f, i) => Math.round(f + t * (to[i] - f)).toString(16).padStart(2, "0")).join("");
 }
 
-const extentOf = (list, axis) => list.reduce(([low, high], k) =>
-  [Math.min(low, coordinate(k, axis)), Math.max(high, coordinate(k, axis))], [Infinity, -Infinity]);
+const extentOf = (list, axis) => extentBy(list, (k) => coordinate(k, axis));
 const lengthOf = (axis) => { const [low, high] = extentOf(particles, axis); return high - low; };
 
 /* The two longest axes; where the mode hardly moves along these, the longest and the one of most motion. */
@@ -165,7 +137,7 @@ function firstView() {
   const [long, second] = by(lengthOf);
   const seen = motion(long) + motion(second), most = by(motion).find((axis) => axis !== long);
   const chosen = moving && seen < 0.1 * [0, 1, 2].reduce((sum, axis) => sum + motion(axis), 0) ? most : second;
-  return Object.keys(VIEWS).find((key) => VIEWS[key].includes(long) && VIEWS[key].includes(chosen));
+  return viewWith(long, chosen);
 }
 
 const looking = { view: null, zoom: "all" };
@@ -181,11 +153,6 @@ function frameOf([across, up]) {
   const room = (looking.zoom === "mode" ? 0.35 : 0.14) * size;
   return { arrow: Math.min(0.12 * (size + room), longestBlamed() || Infinity),
     box: { left: left - room, right: right + room, bottom: bottom - room, top: top + room } };
-}
-
-function lineOf(springs, at, rest) {
-  return { pointRadius: 0, pointHitRadius: 0, spanGaps: false, ...rest,
-    data: springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]) };
 }
 
 /* Arrows over everything else, from where a particle is to where the mode takes it. */

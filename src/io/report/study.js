@@ -15,40 +15,6 @@ const finished = (row) => row.status === "finished" && row.error !== null;
 
 /* ---- axes ---- */
 
-/* The ends of a logarithmic axis, with a little room around the values. */
-function ends(values) {
-  const seen = values.filter((value) => value > 0 && value < Infinity);
-  if (seen.length === 0) return [0.1, 10];
-  return [Math.min(...seen) / 1.6, Math.max(...seen) * 1.6];
-}
-
-/* Powers of ten are labelled; 2 and 5 as well on a short axis. */
-function ticks([low, high]) {
-  const decades = Math.log10(high / low);
-  const every = Math.ceil(decades / 12);
-  const list = [];
-  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); e++) {
-    for (let digit = 1; digit <= 9; digit++) {
-      const value = digit * 10 ** e;
-      if (value < low || value > high || (digit > 1 && decades > 7)) continue;
-      const bare = digit === 1 ? e % every === 0 : decades < 2 && (digit === 2 || digit === 5);
-      const head = digit > 1 ? `${digit}\u00b7` : "";
-      list.push({ value, major: digit === 1, label: bare ? head + power(e) : "" });
-    }
-  }
-  return list;
-}
-
-function logAxis(title, range) {
-  return {
-    type: "logarithmic", min: range[0], max: range[1],
-    title: { display: true, text: title },
-    afterBuildTicks: (axis) => { axis.ticks = ticks(range); },
-    ticks: { autoSkip: false, maxRotation: 0, callback: (value, k, all) => all[k].label },
-    grid: { color: (context) => (context.tick && context.tick.major ? "#c9d0d7" : "#edf0f2") },
-  };
-}
-
 function timeAxis() {
   return { type: "linear", min: Math.min(0, ...study.time), max: Math.max(...study.time),
     title: { display: true, text: "time [s]" }, grid: { color: "#edf0f2" } };

@@ -7,8 +7,9 @@
 
 A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
 it, `compare` sets several methods against a tight reference, `study` measures error against cost and
-recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `why` explains a run
-that blew up, `Integrator` gives you the loop. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs` finds what a
+scene can do without, `why` explains a run that blew up, `Integrator` gives you the loop. Units are SI, positions and
+velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from .cost import Cost, cost
 from .first_order import FirstOrder
 from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
+from .needs import Needs, needs
 from .options import Options, describe, part_kinds
 from .results import Frames, Result, run
 from .scene import Scene
@@ -48,6 +50,7 @@ __all__ = [
     "Limit",
     "Material",
     "Method",
+    "Needs",
     "NoMemory",
     "NotBuilt",
     "Options",
@@ -67,6 +70,7 @@ __all__ = [
     "describe",
     "limit",
     "methods",
+    "needs",
     "part_kinds",
     "plot",
     "run",

@@ -34,6 +34,7 @@ WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 LIMIT = _handle("hooke_limit")
 COST = _handle("hooke_cost")
+NEEDS = _handle("hooke_needs")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
 DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
@@ -229,6 +230,25 @@ PROTOTYPES = {
     "hooke_cost_row_count": (INT64, COST),
     "hooke_cost_text": (TEXT, COST, INT64, TEXT),
     "hooke_cost_number": (DOUBLE, COST, INT64, TEXT),
+    # needs.h
+    "hooke_needs_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_needs_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(NEEDS)),
+    "hooke_needs_destroy": (None, NEEDS),
+    "hooke_needs_on_progress": (None, NEEDS, PROGRESS, ADDRESS),
+    "hooke_needs_find": (OUTCOME, NEEDS),
+    "hooke_needs_refine": (OUTCOME, NEEDS),
+    "hooke_needs_figure": (DOUBLE, NEEDS, TEXT),
+    "hooke_needs_word": (TEXT, NEEDS, TEXT),
+    "hooke_needs_row_count": (INT64, NEEDS),
+    "hooke_needs_text": (TEXT, NEEDS, INT64, TEXT),
+    "hooke_needs_number": (DOUBLE, NEEDS, INT64, TEXT),
+    "hooke_needs_lean": (SYSTEM, NEEDS),
+    "hooke_needs_lean_run": (OPTIONS, NEEDS),
+    "hooke_needs_lean_particle": (INT64, NEEDS, INT64),
+    "hooke_needs_lean_position": (STATUS, NEEDS, DOUBLES, DOUBLES),
+    "hooke_needs_part_count": (INT64, NEEDS),
+    "hooke_needs_part_text": (TEXT, NEEDS, INT64, TEXT),
+    "hooke_needs_part_number": (DOUBLE, NEEDS, INT64, TEXT),
     # why.h
     "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
     "hooke_why_create": (STATUS, INTEGRATOR, POINTER(WHY)),
@@ -247,6 +267,7 @@ PROTOTYPES = {
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
     "hooke_scene_parse": (STATUS, TEXT, INT64, TEXT, TEXT, POINTER(SCENE)),
     "hooke_scene_commit": (STATUS, SCENE),
+    "hooke_scene_write": (STATUS, TEXT, SYSTEM, TEXT, OPTIONS),
     "hooke_scene_destroy": (None, SCENE),
     "hooke_scene_system": (SYSTEM, SCENE),
     "hooke_scene_run_options": (OPTIONS, SCENE),
@@ -267,4 +288,5 @@ PROTOTYPES = {
     "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
     "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
     "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
+    "hooke_needs_write_report": (STATUS, NEEDS, TEXT, TEXT, TEXT),
 }

@@ -64,6 +64,11 @@ class Options(MutableMapping):
         return cls(_create(lib.hooke_cost_options_create))
 
     @classmethod
+    def for_needs(cls) -> Options:
+        """Options of what a scene needs: want [m], watch."""
+        return cls(_create(lib.hooke_needs_options_create))
+
+    @classmethod
     def for_springs(cls) -> Options:
         """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
         return cls(_create(lib.hooke_spring_options_create))
@@ -166,8 +171,8 @@ def part_kinds() -> list[str]:
 
 
 def describe(what: str) -> str:
-    """The options of a "run", of a "study", of a "limit", of a "cost", of "springs", or of a kind of part, as text:
-    names, units, defaults, bounds."""
+    """The options of a "run", of a "study", of a "limit", of a "cost", of "needs", of "springs", or of a kind of part,
+    as text: names, units, defaults, bounds."""
     if what == "run":
         return Options.for_run().describe()
     if what == "study":
@@ -176,6 +181,8 @@ def describe(what: str) -> str:
         return Options.for_limit().describe()
     if what == "cost":
         return Options.for_cost().describe()
+    if what == "needs":
+        return Options.for_needs().describe()
     if what == "springs":
         return Options.for_springs().describe()
     return Options.for_part(what).describe()

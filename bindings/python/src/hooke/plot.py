@@ -16,6 +16,8 @@ from .study import Study
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from .needs import Needs
+
 Path = Union[str, "os.PathLike[str]"]
 #: An HDF5 file of a run or a comparison, a `Result`, or positions (n, 3) and springs (m, 2).
 Source = Union[Path, Result, tuple[Any, Any]]
@@ -164,6 +166,30 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
     reach.set_xlim(0, 3.2)
     plane.set_title(f"h = {step:.4g} s")
     return axes
+
+
+def needs(found: Needs, ax: Axes | None = None) -> Axes:
+    """Draws by how much the watched positions change [m] without each ingredient, the largest on top, with what is
+    wanted as a line: needed ones in one colour, others in another, those that the lean scene is without the darker."""
+    rows = found.rows[np.argsort(np.where(np.isnan(found.rows["error"]), np.inf, found.rows["error"]), kind="stable")]
+    if ax is None:
+        ax = _new_axes()
+    seen = np.append(rows["error"][rows["error"] > 1e-9 * found.want], found.want)
+    low, high = seen.min() / 3, seen.max() * 3
+    length = np.clip(np.where(np.isnan(rows["error"]), high, rows["error"]), low, high)
+    place = np.arange(len(rows))
+    for label, color, which in (
+        ("needed", "tab:red", rows["needed"]),
+        ("not needed, and left out", "tab:green", ~rows["needed"] & rows["left_out"]),
+        ("not needed, but kept", "0.7", ~rows["needed"] & ~rows["left_out"]),
+    ):
+        if which.any():
+            ax.barh(place[which], length[which], color=color, label=label)
+    ax.axvline(found.want, color="0.2", linestyle="--", linewidth=1, label="wanted")
+    ax.set(xscale="log", xlim=(low, high), xlabel="change of the watched positions [m]")
+    ax.set_yticks(place, list(rows["without"]))
+    ax.legend(fontsize="small")
+    return ax
 
 
 def _edge_of(method: str, frequency: np.ndarray, decay: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from ._library import lib
 from ._memory import Handle, text
 from ._prototypes import SCENE
 from .options import Options
-from .system import System
+from .system import System, write_scene
 
 if TYPE_CHECKING:
     from .results import Result
@@ -78,6 +78,10 @@ class Scene:
         from .results import run
 
         return run(self, **options)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the scene as it is now, its system and `run_options`, as a scene file; see `System.save`."""
+        write_scene(path, self._system, self.title, self.run_options)
 
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"

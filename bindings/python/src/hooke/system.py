@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
@@ -48,6 +49,14 @@ class System(Queries):
         system = cls.__new__(cls)
         handle = Handle(lib.hooke_scene_system(scene), None, scene)
         system._adopt(handle, lambda: lib.hooke_scene_commit(scene))
+        return system
+
+    @classmethod
+    def _committed_by(cls, handle: Handle, callbacks: list) -> System:
+        """One that the library made and keeps, with the callbacks of another."""
+        system = cls.__new__(cls)
+        system._adopt(handle, lambda: None)
+        system._callbacks = callbacks
         return system
 
     def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
@@ -207,6 +216,12 @@ class System(Queries):
 
         return run(self, **options)
 
+    def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
+        """Writes the system as a scene file, with `options` of a run: parts and groups of springs by the options that
+        they were made from, the rest number by number. `Scene.load` then gives the same system to the bit, with the
+        particles of parts after the others. Unsuited if it has callbacks."""
+        write_scene(path, self, title, Options.for_run().set(**options))
+
     def _integrator(self, options: Options) -> Handle:
         pointer = INTEGRATOR()
         lib.hooke_integrator_create(self._committed(), options._handle, ctypes.byref(pointer))
@@ -219,3 +234,7 @@ class System(Queries):
 
     def __repr__(self) -> str:
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
+
+
+def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
+    lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)

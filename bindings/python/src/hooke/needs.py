@@ -1,0 +1,224 @@
+"""What a scene needs: what may be left out for a wanted accuracy, and what resolution it asks for."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._callback import listening
+from ._library import lib
+from ._memory import Handle, double_pointer, rows, text
+from ._prototypes import NEEDS
+from ._status import OUTCOMES, BadCall
+from ._tables import read_rows
+from .options import Options
+from .results import Path, Runnable, WorkProgress, prepare
+from .scene import Scene
+from .system import System, write_scene
+
+
+class RunCost(NamedTuple):
+    """What a run takes with errors of its step a tenth of what is wanted: particles and springs, the largest stable
+    step [s] (infinite where nothing limits it), the step [s] or the tolerances that it was run with, what these may
+    put it off by [m], and the time of stepping alone [s]. NaN where a number does not apply."""
+
+    particles: float
+    springs: float
+    step_limit: float
+    step: float
+    rtol: float
+    atol: float
+    steps: float
+    force_evaluations: float
+    wall_seconds: float
+    step_error: float
+
+
+_ROW = np.dtype(
+    [("without", "U192"), ("kind", "U16"), ("error", float), ("needed", bool), ("left_out", bool)]
+    + [(name, float) for name in RunCost._fields]
+    + [("note", "U320")]
+)
+_PART = np.dtype(
+    [("part", "U192")]
+    + [(name, float) for name in ("cells", "cells_second", "cells_third", "change", "change_fine", "order")]
+    + [(name, float) for name in ("error", "factor", "wanted", "wanted_second", "wanted_third")]
+    + [("note", "U320")]
+)
+
+
+class Needs:
+    """What a scene needs for watched positions within `want` [m].
+
+    `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
+    change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
+    end), needed, left_out (of the lean system, too), the fields of a `RunCost`, note. `full` is the cost of the full
+    system, `lean_cost` that of the lean one and `lean_error` [m] how far its recommended run is from the full system;
+    None and NaN while there is none.
+
+    `parts` is a structured array with one row a part, after ``refine=True``: part, cells (along its first axis;
+    cells_second, cells_third), change and change_fine [m] (between once and twice, twice and four times that
+    resolution), order, error [m] (what is left at the resolution it has), wanted (cells that the want asks for;
+    wanted_second, wanted_third), factor, note.
+
+    Changes are those up to `judged_until` [s]: beyond, differences grow so fast that no time step keeps its error
+    small. `outcome` is "finished", or "stopped" if the progress function asked for it.
+    """
+
+    outcome: str
+    want: float
+    method: str
+    duration: float
+    judged_until: float
+    runs: int
+    rows: np.ndarray
+    parts: np.ndarray
+    full: RunCost
+    lean_cost: RunCost | None
+    lean_error: float
+
+    def __init__(self, handle: Handle, scene: Scene | None, system: System, status: int):
+        self._handle = handle
+        self._scene = scene
+        self._system = system  # its callbacks have to live as long as the lean one
+        self.outcome = OUTCOMES.get(status, "stopped")
+        self.method = text(lib.hooke_needs_word(handle, b"method"))
+        self.want, self.duration, self.judged_until, self.lean_error, count = (
+            lib.hooke_needs_figure(handle, what)
+            for what in (b"want", b"duration", b"judged_until", b"lean_error", b"runs")
+        )
+        self.runs = int(count)
+        row_count, part_count = lib.hooke_needs_row_count(handle), lib.hooke_needs_part_count(handle)
+        self.rows = read_rows(handle, row_count, _ROW, lib.hooke_needs_text, lib.hooke_needs_number)
+        self.parts = read_rows(handle, part_count, _PART, lib.hooke_needs_part_text, lib.hooke_needs_part_number)
+        self.full = _cost(handle, "")
+        self._has_lean = bool(lib.hooke_needs_lean(handle))
+        self.lean_cost = _cost(handle, "lean_") if self._has_lean else None
+
+    def __getitem__(self, without: str) -> np.void:
+        """The row of what was left out."""
+        names = [str(name) for name in self.rows["without"]]
+        if without not in names:
+            raise KeyError(f"{without!r}; there are {', '.join(names)}")
+        return self.rows[names.index(without)]
+
+    @property
+    def left_out(self) -> list[str]:
+        """What the lean system is without."""
+        return [str(name) for name in self.rows["without"][self.rows["left_out"]]]
+
+    @property
+    def lean(self) -> System | None:
+        """The lean system, committed; the full one's twin if all is needed, None if it was not found."""
+        if not self._has_lean:
+            return None
+        handle = Handle(lib.hooke_needs_lean(self._handle), None, self._handle)
+        return System._committed_by(handle, self._system._callbacks)
+
+    @property
+    def lean_options(self) -> dict[str, Any]:
+        """The run to make of it: ``hooke.run(found.lean, **found.lean_options)``; {} if there is none."""
+        run = self._lean_run()
+        return {} if run is None else {name: run[name] for name in run if run.is_set(name)}
+
+    def _lean_run(self) -> Options | None:
+        if not self._has_lean:
+            return None
+        return Options(Handle(lib.hooke_needs_lean_run(self._handle), None, self._handle), read_only=True)
+
+    def save_lean(self, path: Path) -> None:
+        """Writes the lean system and its run as a scene file."""
+        run, lean = self._lean_run(), self.lean
+        if run is None or lean is None:
+            raise BadCall("there is no lean system: it was not looked for, or the work was stopped before")
+        write_scene(path, lean, self._scene.title if self._scene is not None else "", run)
+
+    def lean_position(self, q: Any) -> np.ndarray:
+        """Positions (n, 3) [m] of the particles of the full system at positions `q` of the lean one: of the same
+        material points, NaN where they were left out."""
+        lean = self.lean
+        q = rows(q, "q", lean.particle_count if lean is not None else 0)
+        position = np.empty((self._system.particle_count, 3))
+        lib.hooke_needs_lean_position(self._handle, double_pointer(q), double_pointer(position))
+        return position
+
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draws by how much each ingredient changes the scene; see `hooke.plot.needs`."""
+        from .plot import needs as draw
+
+        return draw(self, ax, **options)
+
+    def __str__(self) -> str:
+        if self.parts.size:
+            return "\n".join([_PARTS_HEAD, *(_part_line(part) for part in self.parts)])
+        width = max([24, *(len(name) for name in self.rows["without"])])
+        columns = (("change [m]", "error"), ("wall time [s]", "wall_seconds"), ("largest step [s]", "step_limit"))
+        lines = [f"{'without':{width}}" + "".join(f"{head:>18}" for head, _ in columns)]
+        lines.append(f"{'nothing (the full scene)':{width}}{'':18}{self.full.wall_seconds:18.4g}{self.full.step_limit:18.4g}")
+        for row in self.rows:
+            numbers = "".join(f"{row[name]:18.4g}" for _, name in columns)
+            lines.append(f"{row['without']:{width}}{numbers}  {'needed' if row['needed'] else '-'}")
+        if self.lean_cost is not None:
+            left_out = ", ".join(self.left_out) or "nothing"
+            lines.append(
+                f"left out together: {left_out}; error {self.lean_error:.3g} m, wall time "
+                f"{self.lean_cost.wall_seconds:.3g} s instead of {self.full.wall_seconds:.3g} s"
+            )
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        if self.parts.size:
+            return f"Needs({self.outcome}, want={self.want!r}, {len(self.parts)} parts)"
+        return f"Needs({self.outcome}, want={self.want!r}, {len(self.rows)} rows, {len(self.left_out)} left out)"
+
+
+def needs(
+    problem: Runnable,
+    want: float,
+    watch: Any = None,
+    *,
+    refine: bool = False,
+    progress: WorkProgress | None = None,
+    **options: Any,
+) -> Needs:
+    """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds by how much the
+    watched positions change and what it saves; then leaves out together what is not needed for errors of at most
+    `want` [m], and checks the lean system against the full one.
+
+    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` asks
+    the reverse instead: each part at once, twice and four times its resolution, and what the want asks for.
+    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0, with what
+    is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
+    tolerances are found. ``hooke needs --report FILE.html`` makes a page with diagrams.
+    """
+    scene, system, run = prepare("needs", problem, None, options)
+    if watch is not None and not isinstance(watch, str):
+        watch = ",".join(str(int(particle)) for particle in np.ravel(watch))
+    chosen = Options.for_needs().set(want=want, watch=watch)
+    pointer = NEEDS()
+    lib.hooke_needs_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
+    handle = Handle(pointer, lib.hooke_needs_destroy, system._handle)
+    with listening(lib.hooke_needs_on_progress, handle, progress):
+        status = (lib.hooke_needs_refine if refine else lib.hooke_needs_find)(handle)
+    return Needs(handle, scene, system, status)
+
+
+def _cost(handle: Handle, prefix: str) -> RunCost:
+    return RunCost(*(lib.hooke_needs_figure(handle, (prefix + name).encode()) for name in RunCost._fields))
+
+
+_PARTS_HEAD = f"{'part':16}{'cells':>12}{'N to 2N [m]':>14}{'2N to 4N [m]':>14}{'order':>8}{'left [m]':>12}{'wanted':>12}"
+
+
+def _cells(part: np.void, what: str) -> str:
+    counts = [part[what + axis] for axis in ("", "_second", "_third")]
+    return " x ".join(f"{count:.0f}" for count in counts if not np.isnan(count)) or "-"
+
+
+def _part_line(part: np.void) -> str:
+    return (
+        f"{part['part']:16}{_cells(part, 'cells'):>12}{part['change']:14.4g}{part['change_fine']:14.4g}"
+        f"{part['order']:8.3g}{part['error']:12.4g}{_cells(part, 'wanted'):>12}  {part['note']}".rstrip()
+    )

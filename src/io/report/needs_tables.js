@@ -1,0 +1,152 @@
+"use strict";
+/* The words and tables of what a scene needs, and the start of everything. */
+
+const plural = (count, one) => `${whole(count)} ${one}${count === 1 ? "" : "s"}`;
+const leftOut = data.rows.filter((row) => row.left_out === 1);
+
+/* ---- the head ---- */
+
+function writeHead() {
+  writeLead("needs", `What this scene needs for watched positions within ${words(want)} m over ` +
+    `${words(data.duration, 6)} s, by ${data.method}${data.method_picked === 1 ? " (picked)" : ""}. ` +
+    `${plural(data.runs, "run")}, ${data.date}.`);
+  document.getElementById("judged").textContent = judgedAll ? "" : "Changes are those up to " +
+    `${words(data.judged_until, 6)} s: beyond, small differences grow so fast that no time step keeps its error small.`;
+}
+
+function writeLean(box) {
+  const faster = full.wall_seconds / lean.wall_seconds;
+  const names = element("ul");
+  for (const row of leftOut) names.append(element("li", row.without));
+  box.append(element("h2", "What can be left out together"), names);
+  box.append(element("p", `The lean scene was run: it is within ${words(lean.error)} m of the full one` +
+    `${judgedAll ? "" : ` up to ${words(data.judged_until, 6)} s`}, with ${whole(lean.springs)} springs instead of ` +
+    `${whole(full.springs)}. It takes ${words(lean.wall_seconds)} s of wall time instead of ${words(full.wall_seconds)} s ` +
+    (faster >= 1 ? `(${words(faster, 2)} times less).` : `(${words(1 / faster, 2)} times more).`)));
+  if (lean.command) box.append(element("pre", lean.command));
+}
+
+function writeVerdict() {
+  const box = document.getElementById("verdict");
+  if (lean && leftOut.length > 0) {
+    writeLean(box);
+    return;
+  }
+  box.classList.add("none");
+  if (lean) {
+    box.append(element("h2", "There is nothing to leave out"),
+      element("p", "All that would save something is needed for what is wanted."));
+    return;
+  }
+  if (data.parts.length > 0 && data.rows.length === 0) {
+    box.append(element("h2", "What resolution it needs"), ...data.parts.map((part) => element("p", askFor(part))));
+    return;
+  }
+  box.append(element("h2", "Not known yet"), element("p", ran
+    ? "The work was ended before a lean scene was found."
+    : "The work was ended before the full scene was run to its end."));
+  if (data.waiting.length > 0) box.append(element("p", `Not looked at: ${data.waiting.join(", ")}.`));
+}
+
+const cellsOf = (list) => (list.every((count) => count !== null) && list.length > 0
+  ? list.map(whole).join(" \u00d7 ") : "\u2013");
+
+function askFor(part) {
+  if (part.factor === null) return `${part.part}: ${part.note || "not known"}.`;
+  return `${part.part}: ${cellsOf(part.wanted)} cells; it has ${cellsOf(part.cells)}.`;
+}
+
+/* ---- tables ---- */
+
+const COLUMNS = [["error", "change", "[m]"], ["wall_seconds", "wall time", "[s]"], ["per_step", "a step", "[ns]"],
+  ["step_limit", "stable", "[s]"], ["step", "step", "[s]"], ["rtol", "rtol", ""], ["steps", "steps", ""],
+  ["force_evaluations", "force", "evaluations"], ["springs", "springs", ""], ["particles", "particles", ""]];
+const COUNTS = new Set(["steps", "force_evaluations", "springs", "particles"]);
+
+function numberCell(row, what) {
+  const value = what === "per_step" ? perStep(row) : row[what] ?? null;
+  const cell = element("td", value === "none" ? "none" : COUNTS.has(what) ? whole(value) : words(value, 4));
+  if (typeof value === "number") cell.title = String(value);
+  if (what === "error" && value !== null && value <= want) cell.className = "enough";
+  return cell;
+}
+
+function nameCell(name, colour) {
+  const cell = element("td", undefined, { className: "word" }), swatch = element("span", undefined,
+    { className: "swatch" });
+  swatch.style.background = colour;
+  cell.append(swatch, name);
+  return cell;
+}
+
+function writeRows() {
+  const lines = [["nothing (the full scene)", FULL, full, ""],
+    ...data.rows.map((row) => [row.without, KINDS[kindOf(row)][1], row,
+      [KINDS[kindOf(row)][0], row.note].filter(Boolean).join("; ")]),
+    ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, ""]] : [])];
+  const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
+  const body = element("tbody");
+  for (const [name, colour, row, says] of lines) {
+    const line = element("tr");
+    line.append(nameCell(name, colour), ...columns.map(([what]) => numberCell(row, what)),
+      element("td", says, { className: "word note" }));
+    body.append(line);
+  }
+  document.getElementById("rows").append(headOf([["", "without", "", "word"], ...columns, ["", "", "", "word"]]), body);
+}
+
+function writeParts() {
+  const body = element("tbody");
+  const exact = (value) => element("td", words(value, 4), { title: value === null ? "" : String(value) });
+  for (const part of data.parts) {
+    const line = element("tr");
+    line.append(element("td", part.part, { className: "word" }), element("td", cellsOf(part.cells)),
+      ...["change", "change_fine", "order", "error"].map((what) => exact(part[what])),
+      element("td", cellsOf(part.wanted)), element("td", part.note, { className: "word note" }));
+    body.append(line);
+  }
+  document.getElementById("parts").append(headOf([["", "part", "", "word"], ["", "cells N"], ["", "N to 2N", "[m]"],
+    ["", "2N to 4N", "[m]"], ["", "order"], ["", "left", "[m]"], ["", "the want", "asks for"], ["", "", "", "word"]]), body);
+}
+
+function writePictured() {
+  const left = picture.springs - listed.length;
+  const apart = shown.map((k) => Math.hypot(...[0, 1, 2].map((axis) =>
+    picture.position[3 * k + axis] - picture.lean[3 * k + axis])));
+  document.getElementById("pictured").textContent = `The ${plural(shown.length, "watched particle")} ` +
+    `at ${words(picture.time, 6)} s${judgedAll ? "" : ", the last frame that is judged"}, in the full scene and, of the same ` +
+    `material points, in the lean one; ${words(extentBy(apart, (distance) => distance)[1])} m apart at most. ` +
+    (listed.length === 0 ? "No spring is between two of them." : "Lines are springs of the full scene between them" +
+      (left > 0 ? `: ${whole(listed.length)} of ${whole(picture.springs)} are drawn, ${whole(left)} are left out.` : "."));
+}
+
+function writeAbout() {
+  document.getElementById("about-head").textContent = "The scene";
+  fact("about", "particles", whole(data.particles));
+  fact("about", "watched", whole(data.watched));
+  fact("about", "springs", ran ? whole(full.springs) : "");
+  fact("about", "method", data.method);
+  fact("about", "step", full.step === null ? "" : `${words(full.step, 6)} s`);
+  fact("about", "rtol", full.rtol === null ? "" : words(full.rtol));
+  fact("about", "error of the step", full.step_error === null ? "" : `at most ${words(full.step_error)} m`);
+  fact("about", "judged until", !ran ? "" : judgedAll ? `${words(data.duration, 6)} s, the whole run`
+    : `${words(data.judged_until, 6)} s of ${words(data.duration, 6)} s`);
+}
+
+/* ---- all of it ---- */
+
+const show = (id, is) => { document.getElementById(id).hidden = !is; return is; };
+
+writeHead();
+writeVerdict();
+writeAbout();
+writeMachine();
+if (show("changed", data.rows.length > 0)) drawChanges();
+if (show("cost", data.rows.length > 0))
+  choice("measure", Object.entries(MEASURES).map(([key, [label]]) => [key, [label]]), "wall_seconds", drawCosts);
+if (show("laid", Boolean(picture) && leftOut.length > 0)) {
+  writePictured();
+  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), drawPicture);
+}
+if (show("resolution", data.parts.length > 0)) writeParts();
+if (show("all", ran && (data.rows.length > 0 || Boolean(lean)))) writeRows();

@@ -1,0 +1,44 @@
+"use strict";
+/* A scene along two of its axes, as pages have it under `picture`: springs as lines between particles. */
+
+const AXES = ["x", "y", "z"];
+const VIEWS = { xy: [0, 1], xz: [0, 2], zy: [2, 1] };
+const viewWith = (one, other) =>
+  Object.keys(VIEWS).find((key) => VIEWS[key].includes(one) && VIEWS[key].includes(other));
+
+const springsOf = (picture) =>
+  picture.spring.map((number, k) => ({ number, ends: [picture.ends[2 * k], picture.ends[2 * k + 1]] }));
+
+/* The least and the largest of what `of` gives. */
+const extentBy = (list, of) => list.reduce(([low, high], k) => [Math.min(low, of(k)), Math.max(high, of(k))],
+  [Infinity, -Infinity]);
+
+function lineOf(springs, at, rest) {
+  return { pointRadius: 0, pointHitRadius: 0, spanGaps: false, ...rest,
+    data: springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]) };
+}
+
+/* ---- one scale for both axes ---- */
+
+const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
+  grid: { color: (context) => (context.tick && context.tick.value === 0 ? "#9aa4ae" : "#edf0f2") } });
+
+/* Shows the box, and to its sides what else there is room for; `filled` is told when the edges are known. */
+function equalScale(chart, box, filled) {
+  const { width, height } = chart.chartArea;
+  const unit = Math.max((box.right - box.left) / width, (box.top - box.bottom) / height);
+  const x = (box.left + box.right) / 2, y = (box.bottom + box.top) / 2;
+  Object.assign(chart.options.scales.x, { min: x - unit * width / 2, max: x + unit * width / 2 });
+  Object.assign(chart.options.scales.y, { min: y - unit * height / 2, max: y + unit * height / 2 });
+  if (filled) filled(chart, chart.options.scales.x, chart.options.scales.y);
+  chart.update("none");
+}
+
+function drawEqual(id, lines, titles, box, describe, filled) {
+  const chart = draw(id, lines, axisOf(titles[0]), axisOf(titles[1]), describe);
+  /* the first one has made room for labels, so that the second one finds the widths that remain */
+  equalScale(chart, box, filled);
+  equalScale(chart, box, filled);
+  chart.options.onResize = () => setTimeout(() => chart.ctx && equalScale(chart, box, filled));
+  return chart;
+}

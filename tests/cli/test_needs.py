@@ -1,0 +1,268 @@
+"""hooke needs: keys, exit codes, the lean scene held against the full one, resolutions, and the page."""
+
+import copy
+import json
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from conftest import CLI, MINIMAL, SIX_PARTICLES
+from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, fetches, needs_browser, needs_page
+
+pytestmark = pytest.mark.everything
+
+# A cloth with a corner let down, whose bending counts and whose drag does not, and a rope far away.
+SCENE = {
+    "hooke": 1,
+    "title": TITLE,
+    "gravity": [0, -9.81, 0],
+    "drag": 1e-7,
+    "parts": [
+        {"kind": "cloth", "name": "cloth", "origin": [0, 0, 0], "edges": [[0.4, 0, 0], [0, 0, 0.4]], "size": [5, 5],
+         "mass": 0.1, "pinned": "top", "structural": {"stiffness": 40, "damping": 0.05},
+         "bend": {"stiffness": 20, "damping": 0.05}},
+        {"kind": "rope", "name": "rope", "from": [9, 0, 0], "to": [9.4, 0, 0], "segments": 4, "mass": 0.1,
+         "pinned": "start", "stretch": {"stiffness": 100, "damping": 0.05}},
+    ],
+    "run": {"method": "symplectic-euler", "step": 1e-3, "duration": 0.2, "every": 0.02},
+}
+WATCH = ("--want", "3mm", "--watch", "cloth")
+COST = {"wall_seconds", "springs", "step_limit", "particles", "step", "rtol", "force_evaluations", "steps"}
+BLUE, RED = "#7fb2e5", "#b00020"  # of the full scene, of the lean one
+GREEN, ORANGE = "#1b7f4d", "#c2410c"  # of what is left out, of what is needed
+LOOK = """
+for (const [id, colours] of Object.entries(COLOURS)) {
+  const { ctx, chartArea: area, currentDevicePixelRatio: scale } = Chart.getChart(id);
+  const bytes = ctx.getImageData(area.left * scale, area.top * scale, area.width * scale, area.height * scale).data;
+  const count = (colour) => {
+    const want = [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16));
+    let seen = 0;
+    for (let k = 0; k < bytes.length; k += 4) seen += want.every((value, i) => bytes[k + i] === value);
+    return seen;
+  };
+  document.getElementById(id).dataset.pixels = JSON.stringify(colours.map(count));
+}
+const bars = Chart.getChart("changes");
+bars.canvas.dataset.ends = JSON.stringify(bars.data.labels.map((label, i) => [label,
+  Math.max(...bars.data.datasets.map((set, k) => (set.data[i] === null ? -1 : bars.scales.x.getValueForPixel(
+    bars.getDatasetMeta(k).data[i].x))))]));
+""".replace("COLOURS", json.dumps({"picture": [BLUE, RED], "changes": [GREEN, ORANGE], "costs": [GREEN, ORANGE]}))
+
+
+def data_of(page):
+    start = page.index('id="data">') + len('id="data">')
+    return json.loads(page[start:page.index("</script>", start)])
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """The folder of one search, and what it printed."""
+    if MINIMAL:
+        pytest.skip("the minimal build reads no scenes")
+    folder = tmp_path_factory.mktemp("needs")
+    (folder / "scene.json").write_text(json.dumps(SCENE))
+    report = ["--report", "out.html"] if DRAWS else []
+    command = [CLI, "needs", "scene.json", *WATCH, "-o", "lean.json", "--json", *report]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
+    assert (done.returncode, done.stderr) == (0, "")
+    return folder, json.loads(done.stdout)
+
+
+def row_of(answer, name):
+    (row,) = [row for row in answer["rows"] if row["without"] == name]
+    return row
+
+
+def test_keys(found):
+    _, answer = found
+    assert set(answer) == {"want", "method", "duration", "judged_until", "full", "rows", "lean"}
+    assert (answer["want"], answer["method"], answer["duration"]) == (3e-3, "symplectic-euler", 0.2)
+    assert answer["judged_until"] == pytest.approx(0.2)
+    assert set(answer["full"]) == COST | {"step_error"} and answer["full"]["step_error"] <= 3e-4
+    assert all(set(row) == COST | {"without", "kind", "error", "needed", "note"} for row in answer["rows"])
+    assert set(answer["lean"]) == COST | {"scene", "without", "error", "command"}
+    assert (answer["lean"]["scene"], answer["lean"]["command"]) == ("lean.json", "hooke run lean.json")
+    names = [row["without"] for row in answer["rows"]]
+    assert {"cloth.structural", "cloth.bend", "damping", "drag", "gravity", "rope", "half the resolution of cloth"} <= set(names)
+    for row in answer["rows"]:
+        assert row["needed"] is (row["error"] > 3e-3), row
+    assert row_of(answer, "gravity")["needed"] and row_of(answer, "cloth.structural")["needed"]
+    assert row_of(answer, "rope")["error"] == 0 and not row_of(answer, "drag")["needed"]
+    assert "rope" in answer["lean"]["without"] and set(answer["lean"]["without"]) <= set(names)
+
+
+def test_the_lean_scene_is_as_far_off_as_it_says(found):
+    h5py, np = pytest.importorskip("h5py"), pytest.importorskip("numpy")
+    folder, answer = found
+    fine = str(answer["full"]["step"] / 16)
+    paths = []
+    for scene, options in (("scene.json", ["--step", fine]), ("lean.json", [])):
+        done = subprocess.run([CLI, "run", scene, *options, "-o", "out.h5", "--json"], cwd=folder, capture_output=True,
+                              text=True, timeout=240)
+        assert done.returncode == 0, done.stderr
+        with h5py.File(folder / "out.h5") as file:
+            paths.append(file["particles/all/position/value"][:, :25])
+    assert json.loads(done.stdout)["springs"] == answer["lean"]["springs"] < answer["full"]["springs"]
+    assert json.loads(done.stdout)["steps"] == answer["lean"]["steps"]
+    distance = np.sqrt(((paths[0] - paths[1]) ** 2).sum(axis=2).mean(axis=1))
+    assert distance.max() == pytest.approx(answer["lean"]["error"], rel=0.05, abs=1e-4)
+    assert distance.max() <= 3e-3
+
+
+def test_words(hooke, write):
+    answer = hooke("needs", write(SCENE), *WATCH)
+    assert answer.code == 0 and answer.err == ""
+    assert "nothing (the full scene)" in answer.out and "left out together: error" in answer.out
+    assert "add -o LEAN.json" in answer.out
+
+
+def test_usage(hooke, write):
+    scene = write(SIX_PARTICLES)
+    answer = hooke("needs", scene)
+    assert answer.code == 2 and "--want 1mm" in answer.err
+    assert hooke("needs", scene, "--want", "1kg").code == 2
+    assert hooke("needs", scene, "--want", "1mm", "--step", "1ms").code == 2
+    assert hooke("needs", scene, "--want", "1mm", "--refine", "-o", "lean.json").code == 2
+    assert hooke("needs", scene, "--want", "1mm", "-o", scene).code == 2
+    answer = hooke("needs", scene, "--want", "1mm", "--watch", "nobody")
+    assert answer.code == 3 and "edges" in answer.err and "0 to 5" in answer.err
+    assert hooke("needs", scene, "--want", "1mm", "--watch", "4-9").code == 3
+    assert hooke("needs", scene, "--want", "0").code == 2
+    assert hooke("needs", scene, "--want", "1mm", "--refine").code == 3  # no part has a resolution
+    assert hooke("needs", write(SIX_PARTICLES, duration=None), "--want", "1mm").code in (2, 3)
+    answer = hooke("needs", scene, "--want", "0.5", "--duration", "0.1", "-o", "nowhere/lean.json")
+    assert answer.code == 5 and "nowhere" in answer.err
+
+
+def test_refine(hooke, write):
+    answer = hooke("needs", write(SCENE), "--want", "1cm", "--watch", "rope", "--refine", "--json")
+    assert answer.code == 0, answer.err
+    assert set(answer.json) == {"want", "method", "duration", "judged_until", "full", "parts"}
+    cloth, rope = answer.json["parts"]
+    for part in (cloth, rope):
+        assert set(part) == {"part", "cells", "change", "change_fine", "order", "error", "factor", "wanted", "note"}
+    assert (cloth["part"], cloth["cells"], rope["part"], rope["cells"]) == ("cloth", [4, 4], "rope", [4])
+    assert rope["change"] > rope["change_fine"] > 0 and 0.25 < rope["order"] < 4.5 and rope["note"] == ""
+    assert rope["error"] == pytest.approx(rope["change"] * 2 ** rope["order"] / (2 ** rope["order"] - 1))
+    assert 10 ** -2 >= rope["error"] / rope["factor"] ** rope["order"] * 0.999 and len(rope["wanted"]) == 1
+    assert cloth["order"] is None and "the error of the step" in cloth["note"]
+    assert "2N to 4N" in hooke("needs", "scene.json", "--want", "1cm", "--watch", "rope", "--refine").out
+
+
+def long_scene():
+    scene = copy.deepcopy(SCENE)
+    scene["parts"][0]["size"] = [33, 33]
+    scene["run"].update(duration=2, every=0.02)
+    return scene
+
+
+def interrupt(process, after):
+    """Ctrl-C, some time after the program has begun to listen for it."""
+    while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
+        time.sleep(0.01)
+    time.sleep(after)
+    process.send_signal(signal.SIGINT)
+
+
+@pytest.mark.parametrize("wait", [0.0, 0.5])
+def test_interrupted(start, write, tmp_path, wait):
+    more = ["--report", "out.html"] if DRAWS else []
+    process = start("needs", write(long_scene()), "--want", "1mm", "--duration", "2", "--json", *more)
+    interrupt(process, wait)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130, err
+    answer = json.loads(out)
+    assert answer["lean"] is None and b"kept" in err
+    if DRAWS:
+        page = (tmp_path / "out.html").read_text(encoding="utf-8")
+        data = data_of(page)
+        assert len(data["rows"]) == len(answer["rows"]) and "gravity" in data["waiting"] and "picture" not in data
+
+
+@needs_page
+@needs_browser
+def test_what_is_drawn(found, tmp_path):
+    folder, answer = found
+    page = (folder / "out.html").read_text(encoding="utf-8")
+    data = data_of(page)
+    assert [row["without"] for row in data["rows"]] == [row["without"] for row in answer["rows"]]
+    seen = browse(tmp_path, page, LOOK)
+    assert seen.console == []
+    changes, costs, picture = (seen.drawn(name) for name in ("changes", "costs", "picture"))
+    needed = [row["without"] for row in answer["rows"] if row["needed"]]
+    left_out = answer["lean"]["without"]
+    assert (changes["bars"], changes["needed"], changes["left_out"]) == (len(answer["rows"]), len(needed), len(left_out))
+    assert (costs["bars"], costs["full"], costs["lean"]) == (len(answer["rows"]) + 2, 1, 1)
+    assert float(changes["mark"]) == 3e-3 and float(costs["mark"]) == answer["full"]["wall_seconds"]
+    ends = json.loads(changes["ends"])
+    sizes = [row_of(answer, name)["error"] for name, _ in ends]
+    assert sizes == sorted(sizes, reverse=True)
+    for (name, end), size in zip(ends, sizes):
+        assert end == pytest.approx(size, rel=1e-6) or size < min(end for _, end in ends)
+    for drawn in (changes, costs, picture):
+        assert min(json.loads(drawn["pixels"])) > 50, drawn
+    # the watched cloth: 40 structural springs and 30 bends
+    assert (picture["springs"], picture["particles"]) == (70, 25) and picture["view"] in ("xy", "xz", "zy")
+    assert seen.text["scene"] == TITLE and "hooke run lean.json" in seen.text["verdict"]
+    assert all(name in seen.text["verdict"] for name in left_out)
+    assert all(row["without"] in seen.text["rows"] for row in answer["rows"]) and "all that is left out" in seen.text["rows"]
+    assert "hidden" in seen.attributes["resolution"] and VERSION.split()[1] in seen.text["machine"]
+    assert fetches(page) == []
+
+
+@needs_page
+def test_the_picture_has_both(found):
+    np = pytest.importorskip("numpy")
+    folder, answer = found
+    data = data_of((folder / "out.html").read_text(encoding="utf-8"))
+    picture = data["picture"]
+    full, lean = (np.reshape(picture[name], (-1, 3)) for name in ("position", "lean"))
+    assert sorted(picture["particle"]) == list(range(25)) and sum(picture["held"]) == 5
+    assert picture["springs"] == 70 == len(picture["spring"]) and max(picture["ends"]) == 24
+    held = np.flatnonzero(picture["held"])
+    np.testing.assert_allclose(full[held], lean[held], atol=1e-6)
+    apart = np.sqrt(((full - lean) ** 2).sum(axis=1).mean())
+    assert 0 < apart <= answer["lean"]["error"] + 1e-5 and np.ptp(full[:, 1]) > 0.05
+
+
+@needs_page
+@needs_browser
+def test_other_pages(hooke, write, tmp_path):
+    assert hooke("needs", write(SCENE), "--want", "1cm", "--watch", "rope", "--refine", "--report", "out.html").code == 0
+    seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
+    assert seen.console == [] and "hidden" not in seen.attributes["resolution"]
+    for name in ("changed", "cost", "laid", "all"):
+        assert "hidden" in seen.attributes[name]
+    assert "rope" in seen.text["parts"] and "4 \u00d7 4" in seen.text["parts"] and "rope: " in seen.text["verdict"]
+    # all is needed: there is no picture; a particle alone is drawn as a point
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["drag"] = 1e-9
+    assert hooke("needs", write(scene), "--want", "1cm", "--duration", "0.1", "--every", "0.01", "--watch", "3",
+                 "--report", "out.html").code == 0
+    seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
+    assert seen.console == [] and "drag" in seen.text["verdict"] and "No spring is between" in seen.text["pictured"]
+    assert (seen.drawn("picture")["springs"], seen.drawn("picture")["points"]) == (0, 2)
+
+
+@needs_page
+@needs_browser
+def test_a_stopped_page(start, write, tmp_path):
+    process = start("needs", write(long_scene()), "--want", "1mm", "--report", "out.html", "-q")
+    interrupt(process, 0.1)
+    assert process.wait(timeout=60) == 130
+    seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
+    assert seen.console == [] and "Not known yet" in seen.text["verdict"] and "gravity" in seen.text["verdict"]
+
+
+@needs_page
+def test_places_that_cannot_be_written(hooke, write):
+    check_places(hooke, write(SIX_PARTICLES), "needs", "--want", "0.5", "--duration", "0.1")
+
+
+@pytest.mark.skipif(DRAWS, reason="this build writes reports")
+def test_not_in_this_build(hooke, write):
+    check_not_built(hooke, write(SIX_PARTICLES), "needs", "--want", "0.5", "--duration", "0.1")

@@ -1,0 +1,158 @@
+"""hooke.needs: rows, the lean system, resolutions, pictures; and scenes that are saved."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+
+import hooke
+
+ROPES = {
+    "hooke": 1,
+    "title": "a rope and its twin far away",
+    "gravity": [0, -9.81, 0],
+    "drag": 1e-9,
+    "parts": [
+        {"kind": "rope", "name": "rope", "from": [0, 0, 0], "to": [0.5, 0, 0], "segments": 6, "mass": 0.1,
+         "pinned": "start", "stretch": {"stiffness": 100, "damping": 0.05}},
+        {"kind": "rope", "name": "twin", "from": [9, 0, 0], "to": [9.5, 0, 0], "segments": 6, "mass": 0.1,
+         "pinned": "start", "stretch": {"stiffness": 100, "damping": 0.05}},
+    ],
+    "run": {"method": "symplectic-euler", "step": 1e-4, "duration": 0.2, "every": 0.02},
+}
+
+
+@pytest.fixture(scope="module")
+def ropes():
+    return hooke.needs(hooke.Scene.parse(ROPES), 2e-3, "rope")
+
+
+def test_rows(ropes):
+    assert ropes.outcome == "finished" and ropes.want == 2e-3 and ropes.method == "symplectic-euler"
+    assert ropes.duration == 0.2 and ropes.judged_until == pytest.approx(0.2) and ropes.runs > 2 * len(ropes.rows)
+    assert ropes["gravity"]["needed"] and ropes["rope.stretch"]["needed"] and ropes["gravity"]["error"] > 0.01
+    assert not ropes["drag"]["needed"] and ropes["drag"]["error"] < 1e-6
+    assert ropes["twin"]["error"] == 0 and ropes["twin"]["kind"] == "part" and ropes["twin"]["particles"] == 7
+    assert (ropes.rows["needed"] == (ropes.rows["error"] > ropes.want)).all() and ropes.parts.size == 0
+    full = ropes.full
+    assert (full.particles, full.springs) == (14, 12) and full.steps * full.step == pytest.approx(0.2)
+    assert full.step_error <= 0.1 * ropes.want and full.wall_seconds > 0 and np.isnan(full.rtol)
+    assert full.step < full.step_limit
+    with pytest.raises(KeyError, match="gravity"):
+        ropes["graviti"]
+    with pytest.raises(ValueError):
+        ropes.rows["error"][0] = 1
+
+
+def test_the_lean_system(ropes, tmp_path):
+    assert set(ropes.left_out) <= set(ropes.rows["without"][~ropes.rows["needed"]])
+    assert "twin" in ropes.left_out and ropes.lean.particle_count == ropes.lean_cost.particles == 7
+    assert 0 < ropes.lean_error <= ropes.want and ropes.lean_cost.springs < ropes.full.springs
+    result = hooke.run(ropes.lean, frames=True, **ropes.lean_options)
+    assert result.counts["steps"] == ropes.lean_cost.steps
+    lean = np.array([ropes.lean_position(q)[:7] for q in result.frames.q])
+    full = hooke.run(hooke.Scene.parse(ROPES), frames=True, step=ropes.full.step / 16).frames.q[:, :7]
+    error = np.sqrt(((lean - full) ** 2).sum(axis=2).mean(axis=1)).max()
+    assert error == pytest.approx(ropes.lean_error, rel=0.05, abs=0.05 * ropes.want)
+    assert np.isnan(ropes.lean_position(ropes.lean.state().q)[7:]).all()
+    ropes.save_lean(tmp_path / "lean.json")
+    scene = hooke.Scene.load(tmp_path / "lean.json")
+    assert scene.title == ROPES["title"]
+    np.testing.assert_array_equal(hooke.run(scene).state.q, result.state.q)
+    with pytest.raises(hooke.BadValue):
+        ropes.lean_position(np.zeros((3, 3)))
+
+
+def test_words(ropes):
+    words = str(ropes)
+    assert "nothing (the full scene)" in words and "left out together: " in words and "0.1 s" not in words
+    assert all(str(row["without"]) in words for row in ropes.rows)
+    assert repr(ropes) == f"Needs(finished, want=0.002, {len(ropes.rows)} rows, {len(ropes.left_out)} left out)"
+    assert "watch" in hooke.describe("needs")
+
+
+def test_resolutions(ropes):
+    found = hooke.needs(hooke.Scene.parse(ROPES), 2e-3, "rope", refine=True)
+    assert list(found.parts["part"]) == ["rope", "twin"] and found.rows.size == 0
+    rope, twin = found.parts
+    assert (rope["cells"], twin["cells"]) == (6, 6) and np.isnan(rope["cells_second"])
+    assert rope["change"] > rope["change_fine"] > 0 and 0.25 < rope["order"] < 4.5
+    assert rope["order"] == pytest.approx(np.log2(rope["change"] / rope["change_fine"]))
+    assert rope["wanted"] == np.ceil(6 * rope["factor"]) and twin["change"] < 1e-4 and twin["note"]
+    assert found.lean is None and found.lean_cost is None and found.lean_options == {} and np.isnan(found.lean_error)
+    assert "2N to 4N" in str(found) and twin["note"] in str(found) and "2 parts" in repr(found)
+    with pytest.raises(hooke.BadCall, match="no lean system"):
+        found.save_lean("lean.json")
+    with pytest.raises(hooke.BadCall):
+        found.lean_position(np.zeros((0, 3)))
+
+
+def test_a_system_what_is_watched_and_stopping():
+    system = build_oscillator()
+    system.set_gravity([1e-9, 0, 0])
+    found = hooke.needs(system, 1e-3, [1], method="verlet", duration=1.0)
+    assert found.method == "verlet" and not found["gravity"]["needed"] and found["spring"]["needed"]
+    same = hooke.needs(system, 1e-3, "1", method="verlet", duration=1.0)
+    np.testing.assert_array_equal(same.rows["error"], found.rows["error"])
+    told = []
+    stopped = hooke.needs(system, 1e-3, method="verlet", duration=1.0,
+                          progress=lambda done, what: told.append((done, what)) or done > 0.3)
+    assert stopped.outcome == "stopped" and stopped.lean is None and len(stopped.rows) < len(found.rows)
+    assert "the full scene" in {what for _, what in told} and not np.isnan(stopped.full.wall_seconds)
+    with pytest.raises(ZeroDivisionError):
+        hooke.needs(system, 1e-3, duration=1.0, method="verlet", progress=lambda done, what: 1 / 0)
+    with pytest.raises(hooke.BadValue, match="watch"):
+        hooke.needs(system, 1e-3, "nobody", duration=1.0)
+    with pytest.raises(hooke.BadValue, match="want"):
+        hooke.needs(system, 0, duration=1.0)
+    with pytest.raises(hooke.BadValue, match="first-order"):
+        hooke.needs(hooke.FirstOrder(lambda t, x, out: None, [1.0]), 1e-3)
+
+
+def test_a_force_of_its_own_lives_in_the_lean_system():
+    system = build_six_particles()
+    system.set_force(lambda t, q, v, force: force.__iadd__([0, 0, 1e-3]) is None)
+    found = hooke.needs(system, 0.5, duration=0.05, every=0.01, method="verlet")
+    assert "force callback" in " ".join(found.rows["without"]) or "callback" in found.rows["kind"]
+    assert hooke.run(found.lean, **found.lean_options).status == "finished"
+
+
+def test_scenes_that_are_saved(tmp_path):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    scene.run_options["duration"] = 0.25
+    scene.save(tmp_path / "scene.json")
+    again = hooke.Scene.load(tmp_path / "scene.json")
+    assert again.title == "six particles" and again.run_options["duration"] == 0.25
+    assert again.system.groups == scene.system.groups
+    np.testing.assert_array_equal(again.run().state.q, scene.run().state.q)
+    system = build_six_particles()
+    system.save(tmp_path / "system.json", "built", duration=0.1, step=1e-3)
+    text = json.loads((tmp_path / "system.json").read_text())
+    assert text["title"] == "built" and text["run"] == {"duration": 0.1, "step": 1e-3}
+    np.testing.assert_array_equal(hooke.run(tmp_path / "system.json").state.q,
+                                  hooke.run(system, duration=0.1, step=1e-3).state.q)
+    with pytest.raises(hooke.IOFailed):
+        system.save(tmp_path / "nowhere" / "system.json")
+    called = build_six_particles()
+    called.set_force(lambda t, q, v, force: None)
+    with pytest.raises(hooke.Unsuited):
+        called.save(tmp_path / "called.json")
+
+
+def test_picture(ropes):
+    import matplotlib.pyplot as plt
+
+    ax = ropes.plot()
+    names = [label.get_text() for label in ax.get_yticklabels()]
+    assert sorted(names) == sorted(ropes.rows["without"]) and ax.get_xscale() == "log"
+    for bars in ax.containers:
+        for bar in bars:
+            row = ropes[names[round(bar.get_y() + bar.get_height() / 2)]]
+            wide = bar.get_width()
+            assert (wide > ropes.want) == row["needed"] and (wide == row["error"] or row["error"] < ax.get_xlim()[0])
+            assert (bars.get_label() == "needed") == row["needed"]
+    assert ax.lines[0].get_xdata()[0] == ropes.want
+    assert hooke.plot.needs(ropes, ax) is ax
+    ax.figure.canvas.draw()
+    plt.close("all")
