@@ -61,10 +61,11 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (status != HOOKE_OK) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
+  const int32_t by_tiles = it->method->by_tiles && hooke_goes_by_tiles(system);
   if (!it->method->second_order) {
     status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
-  if (status == HOOKE_OK) status = hooke_motion_create(system, &it->motion);
+  if (status == HOOKE_OK) status = hooke_motion_create(system, by_tiles, &it->motion);
   if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, &it->recent);
   return finish(it, status, out);
 }

@@ -1,22 +1,14 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Forces of a block of springs go into a buffer
  * first, which vectorises whatever the ends are, and are then added in spring order, which keeps every sum
  * the same to the bit. */
+#include "kernel/isa.h"
+#include "kernel/net_loops.h"
 #include "kernel/spring_body.h"
 #include "kernel/spring_loops.h"
 
 #include <stddef.h>
 
-#define JOIN_NAMES(a, b) a##b
-#define JOIN(a, b)       JOIN_NAMES(a, b)
-
 enum { BLOCK = 256 };
-
-/* The block is apart from all arrays that are read, so iterations may be reordered. */
-#if defined(__clang__)
-#define VECTORISE _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define VECTORISE _Pragma("GCC ivdep")
-#endif
 
 struct block {
   double x[BLOCK], y[BLOCK], z[BLOCK];
@@ -38,7 +30,7 @@ HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double
                                 const struct springs springs, const ptrdiff_t count, const int indexed,
                                 const int damped, const int mixed, const int pull) {
   int64_t lost = 0;
-  VECTORISE
+  HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
     const ptrdiff_t i = indexed ? springs.head[k] : k, j = indexed ? springs.tail[k] : k + springs.offset;
     const double kappa = mixed ? springs.kappas[k] : springs.kappa;
@@ -156,7 +148,7 @@ HOOKE_INLINE void sum_lanes(ptrdiff_t count, const int lanes, const int first, c
     u[j] = upper[j];
     l[j] = lower[j];
   }
-  VECTORISE
+  HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
     double sum = first ? 0.0 : f[k];
     for (int j = 0; j < lanes; j++)
@@ -244,12 +236,14 @@ LOOPS(1, 1, 1)
 #define TEXT_OF(word) #word
 #define TEXT(word)    TEXT_OF(word)
 
-extern const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA);
-const struct hooke_spring_set JOIN(hooke_spring_set_, HOOKE_ISA) = {
+extern const struct hooke_net_loops HOOKE_OF_ISA(hooke_net_loops_);
+extern const struct hooke_spring_set HOOKE_OF_ISA(hooke_spring_set_);
+const struct hooke_spring_set HOOKE_OF_ISA(hooke_spring_set_) = {
     .name = TEXT(HOOKE_ISA),
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
     .fill = {BY_SHAPE(fill, 0)},
     .sum = sum,
+    .net = &HOOKE_OF_ISA(hooke_net_loops_),
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
 };

@@ -89,6 +89,7 @@ static int32_t choose_forces(hooke_system *system) {
 /* Back to an open system after a failure half-way. */
 static void undo(hooke_system *system) {
   hooke_lanes_release(&system->lanes);
+  hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_free(system->inverse_mass);
   hooke_free(system->held_particle);
@@ -108,6 +109,9 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = sort_springs(system);
   if (status == HOOKE_OK) {
     status = hooke_lanes_create(&system->springs, system->particle_count, &system->lanes);
+  }
+  if (status == HOOKE_OK && system->lanes.count == 0) {
+    status = hooke_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status != HOOKE_OK) {

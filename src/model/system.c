@@ -20,6 +20,7 @@ void hooke_system_destroy(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hooke_drive_release(&system->drive[k]);
   hooke_lanes_release(&system->lanes);
+  hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_free(system->position);
   hooke_free(system->velocity);

@@ -5,6 +5,7 @@
 #include "hooke/system.h"
 #include "model/drive.h"
 #include "model/lane.h"
+#include "model/net.h"
 #include "model/spring.h"
 
 struct hooke_force_row;
@@ -29,6 +30,7 @@ struct hooke_system {
   int64_t part_count;
   struct hooke_springs springs; /* from commit on */
   struct hooke_lanes lanes;     /* from commit on, of all springs or of none */
+  struct hooke_net net;         /* the same, where there are no lanes */
 
   double gravity[3];
   int32_t has_gravity;
