@@ -172,6 +172,36 @@ void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v)
   store_rows(motion, motion->v, v);
 }
 
+static void exchange_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      const double kept = row[a];
+      row[a] = component[a][p];
+      component[a][p] = kept;
+    }
+  }
+}
+
+void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v) {
+  exchange_rows(motion, motion->q, q);
+  exchange_rows(motion, motion->v, v);
+}
+
+static int same_rows(const struct hooke_motion *motion, double *const component[3], const double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      if (memcmp(&row[a], &component[a][p], sizeof(double)) != 0) return 0;
+    }
+  }
+  return 1;
+}
+
+int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v) {
+  return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
+}
+
 void hooke_motion_save(const struct hooke_motion *motion, double *place) {
   const size_t bytes = (size_t)motion->n * sizeof(double);
   for (int a = 0; a < 3; a++) {

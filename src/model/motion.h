@@ -37,6 +37,10 @@ void hooke_motion_destroy(struct hooke_motion *motion);
 void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, const double *q,
                        const double *v);
 void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v);
+/* What the motion has and what the rows have change places. */
+void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v);
+/* 1 if the motion is there, to the bit. */
+int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v);
 /* Positions and velocities to and from `place`: 6 components of n each. */
 void hooke_motion_save(const struct hooke_motion *motion, double *place);
 void hooke_motion_restore(struct hooke_motion *motion, const double *place);

@@ -17,9 +17,9 @@ struct hooke_system {
 
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;
-  double *position, *velocity, *mass;
-  uint8_t *held;        /* HOOKE_HELD_* */
-  double *inverse_mass; /* from commit on */
+  double *position, *velocity, *mass; /* velocity NULL from commit on if all are zero */
+  uint8_t *held;                      /* HOOKE_HELD_* */
+  double *inverse_mass;               /* from commit on */
 
   int64_t held_count; /* from commit on: pinned and driven particles, ascending */
   int32_t *held_particle;
