@@ -269,7 +269,7 @@ static void check_sums(const struct hooke_net_loops *loops, struct random_source
       double sum[3] = {0.0, 0.0, 0.0};
       for (int k = 0; k < degree[p]; k++, at++) {
         for (int a = 0; a < 3; a++)
-          sum[a] += net->pairs[0][4 * net->wide[at] + (uint32_t)a];
+          sum[a] += net->pairs[net->wide[at] / 2][4 * (net->wide[at] % 2) + (uint32_t)a];
       }
       assert_true(x[p] == sum[0] && y[p] == sum[1] && z[p] == sum[2]);
     }
