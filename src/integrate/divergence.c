@@ -6,7 +6,11 @@
  * in v before q has moved), and what errors do: U is that of springs and bending, K the sum of all kappa and 16 c, d = 1e-12 times the largest coordinate, which
  * rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is atol_velocity. Energies
  * below the smallest normal number prove nothing, and neither do those of a scene that begins with energies
- * above the largest. */
+ * above the largest.
+ *
+ * The last state that passed is kept in `recent`. Where that has no room, since the scene is large, the caller's state is
+ * that state until the next one is stored, which happens as an exchange: the motion then has what has to come back if the
+ * check fails. */
 #include "integrate/integrator.h"
 
 #include "core/status.h"
@@ -71,6 +75,7 @@ int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
     it->energy0 = kinetic + elastic;
   }
   hooke_recent_begin(&it->recent, state);
+  it->good_time = *state->t;
   return HOOKE_OK;
 }
 
@@ -89,8 +94,25 @@ static const char *advice(const hooke_integrator *it) {
   return it->method->adaptive ? "tighter tolerances" : "a smaller step";
 }
 
+int32_t hooke_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
+  if (it->recent.room > 0) return it->method->store(it, t, state);
+  hooke_motion_exchange(it->motion, state->q, state->v);
+  return HOOKE_OK;
+}
+
+static void put_back(hooke_integrator *it, hooke_state *state) {
+  if (it->recent.room > 0) {
+    hooke_state_copy(hooke_recent_state(&it->recent, 0, NULL), state);
+    return;
+  }
+  hooke_motion_exchange(it->motion, state->q, state->v);
+  *state->t = it->good_time;
+}
+
 static int32_t pass(hooke_integrator *it, const hooke_state *state) {
   hooke_recent_keep(&it->recent, state, it->k);
+  it->good_time = *state->t;
+  if (it->recent.room == 0) hooke_motion_load(it->system, it->motion, state->q, state->v);
   if (it->checker.look == NULL) return HOOKE_OK;
   it->stop_value = it->checker.look(it, state, it->checker.own);
   if (it->stop_value == 0) return HOOKE_OK;
@@ -107,7 +129,7 @@ int32_t hooke_divergence_check(hooke_integrator *it, hooke_state *state, int32_t
     return pass(it, state);
   }
   it->diverged_at = t;
-  hooke_state_copy(hooke_recent_state(&it->recent, 0, NULL), state);
+  put_back(it, state);
   if (!finite) {
     return hooke_fail(
         HOOKE_DIVERGED, NULL,

@@ -42,26 +42,16 @@ static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   const struct hooke_motion *m = move->integrator->motion;
   if (system->drag > 0.0) brake(system->drag, from, count, m, f);
   for (int a = 0; a < 3; a++) {
-    move->loop(count, move->integrator->schedule.step, system->inverse_mass + from, f[a],
+    move->loop(count, move->integrator->schedule.step, m->w + from, f[a],
                system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
   }
 }
 
-/* 1 if the forces on a tile of particles can be known before the rest of the motion is. */
-static int goes_by_tiles(const hooke_system *system) {
-  int by_tiles = system->lanes.count > 0;
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hooke_force_row *row = system->force_row[k];
-    by_tiles &= row->add == NULL || row == &hooke_force_springs || row == &hooke_force_drag;
-  }
-  return by_tiles;
-}
-
 int32_t hooke_integrator_move(hooke_integrator *it, hooke_step_loop *loop) {
   struct move move = {it, loop};
-  if (goes_by_tiles(it->system)) {
+  if (it->motion->f[0] == NULL) {
     it->count.force_evaluations++;
-    it->motion->coincident = hooke_lanes_pass(&it->system->lanes, it->motion, move_tile, &move);
+    hooke_motion_pass(it->system, it->motion, move_tile, &move);
     return HOOKE_OK;
   }
   const int32_t status = hooke_integrator_forces(it, it->t);

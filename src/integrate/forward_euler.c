@@ -20,6 +20,7 @@ const struct hooke_method hooke_forward_euler = {.name = "forward-euler",
                                                  .order = 1,
                                                  .first_order = 1,
                                                  .second_order = 1,
+                                                 .by_tiles = 1,
                                                  .begin = hooke_fixed_begin,
                                                  .step = step,
                                                  .store = hooke_fixed_store};

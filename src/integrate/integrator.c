@@ -61,11 +61,12 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (status != HOOKE_OK) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
+  const int32_t by_tiles = it->method->by_tiles && hooke_goes_by_tiles(system);
   if (!it->method->second_order) {
     status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
-  if (status == HOOKE_OK) status = hooke_motion_create(system, &it->motion);
-  if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, &it->recent);
+  if (status == HOOKE_OK) status = hooke_motion_create(system, by_tiles, &it->motion);
+  if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, !by_tiles, &it->recent);
   return finish(it, status, out);
 }
 
@@ -83,7 +84,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
         HOOKE_UNSUITED, "method", "%s %s; take one of the methods that do not, such as rk4", it->method->name,
         why ? why : "steps positions and velocities apart, and x' = phi(t, x) has no such parts");
   }
-  if (status == HOOKE_OK) status = hooke_recent_create(size, 0, &it->recent);
+  if (status == HOOKE_OK) status = hooke_recent_create(size, 0, 1, &it->recent);
   if (status == HOOKE_OK) {
     it->x = hooke_new(2 * size, sizeof(double));
     it->slope = it->x ? it->x + size : NULL;
@@ -112,10 +113,26 @@ int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *
   return HOOKE_OK;
 }
 
+static void store_good(const hooke_integrator *it, hooke_state *state) {
+  hooke_motion_store(it->motion, state->q, state->v);
+  *state->t = it->good_time;
+}
+
+/* A copy of the last good state, which so far the motion alone has. */
+static int32_t keep_copy(hooke_integrator *it) {
+  const int32_t status = hooke_recent_make_room(it->size, 1, &it->recent);
+  if (status == HOOKE_OK && it->recent.count > 0) store_good(it, it->recent.state[0]);
+  return status;
+}
+
 int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
                                  void *ctx) {
   if (stride < 1) {
     return hooke_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
+  }
+  if (integrator->recent.room == 0) {
+    const int32_t status = keep_copy(integrator); /* states are stored between checks */
+    if (status != HOOKE_OK) return status;
   }
   integrator->on_step = (struct hooke_watch){observer, ctx, stride};
   return HOOKE_OK;
@@ -133,6 +150,10 @@ int64_t hooke_integrator_recent_count(const hooke_integrator *it) {
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
   const hooke_state *kept = hooke_recent_state(&it->recent, place, NULL);
   if (kept) return hooke_state_copy(kept, state);
+  if (place == 0 && it->recent.count > 0 && state->size == it->size && state->has_v) {
+    store_good(it, state);
+    return HOOKE_OK;
+  }
   return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld",
                     (long long)place, (long long)it->recent.count);
 }

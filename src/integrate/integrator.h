@@ -55,6 +55,7 @@ struct hooke_integrator {
   double goal;  /* the time that the run loop wants next; a method that does not interpolate stops there */
   int64_t k;    /* steps since t0 */
   struct hooke_recent recent;                      /* the newest is the last state that passed the check */
+  double good_time;                                /* of it, where recent has no room: see divergence.c */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
 
@@ -104,6 +105,8 @@ void hooke_integrator_set_checker(hooke_integrator *integrator, struct hooke_che
 /* 1 if every number is finite. */
 int32_t hooke_all_finite(int64_t count, const double *value);
 
+/* Writes the motion, which is at time t, into `state`, in a way that the check below can take back. */
+int32_t hooke_divergence_store(hooke_integrator *integrator, double t, hooke_state *state);
 /* Divergence: remembers the energy at the start; then HOOKE_DIVERGED, with the last good state put back into
  * `state`, if the state has left every physical bound. Without `energy` only numbers that are not finite are
  * looked for. */

@@ -13,6 +13,7 @@ struct hooke_method {
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
+  int32_t by_tiles;                  /* 1: steps by hooke_integrator_move() alone */
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);

@@ -9,15 +9,21 @@ static int64_t state_bytes(int64_t size, int32_t has_v) {
   return (1 + (has_v ? 2 : 1) * size) * (int64_t)sizeof(double);
 }
 
-int32_t hooke_recent_create(int64_t size, int32_t has_v, struct hooke_recent *recent) {
+int32_t hooke_recent_create(int64_t size, int32_t has_v, int32_t least, struct hooke_recent *recent) {
   const int64_t fit = MOST_BYTES / state_bytes(size, has_v);
   *recent = (struct hooke_recent){.room = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
                                           : fit > 2               ? (int32_t)(fit - 1)
-                                                                  : 1};
+                                                                  : least};
   int32_t status = fit >= 2 ? hooke_state_create_sized(size, has_v, &recent->first) : HOOKE_OK;
   for (int32_t k = 0; k < recent->room && status == HOOKE_OK; k++)
     status = hooke_state_create_sized(size, has_v, &recent->state[k]);
   if (status != HOOKE_OK) hooke_recent_release(recent);
+  return status;
+}
+
+int32_t hooke_recent_make_room(int64_t size, int32_t has_v, struct hooke_recent *recent) {
+  const int32_t status = hooke_state_create_sized(size, has_v, &recent->state[0]);
+  if (status == HOOKE_OK) recent->room = 1;
   return status;
 }
 
@@ -42,16 +48,18 @@ void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state) {
 void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, int64_t step) {
   const int32_t again = recent->count > 0 && recent->step[recent->newest] == step;
   if (!again) {
-    recent->newest = recent->count == 0 ? 0 : (recent->newest + 1) % recent->room;
-    if (recent->count < recent->room) recent->count++;
+    const int32_t room = recent->room > 0 ? recent->room : 1;
+    recent->newest = recent->count == 0 ? 0 : (recent->newest + 1) % room;
+    if (recent->count < room) recent->count++;
   }
-  hooke_state_copy(state, recent->state[recent->newest]);
+  if (recent->room > 0) hooke_state_copy(state, recent->state[recent->newest]);
   recent->step[recent->newest] = step;
 }
 
 const hooke_state *hooke_recent_state(const struct hooke_recent *recent, int64_t place, int64_t *step) {
   if (place < 0 || place >= recent->count) return NULL;
-  const int32_t at = (recent->newest - (int32_t)place + recent->room) % recent->room;
+  const int32_t at = recent->newest >= place ? recent->newest - (int32_t)place
+                                             : recent->newest - (int32_t)place + recent->room;
   if (step) *step = recent->step[at];
   return recent->state[at];
 }

@@ -14,8 +14,10 @@ struct hooke_recent {
   int32_t room, count, newest;
 };
 
-/* Room for at least one state of `size` numbers in q. HOOKE_NO_MEMORY. */
-int32_t hooke_recent_create(int64_t size, int32_t has_v, struct hooke_recent *recent);
+/* Room for at least `least` (0 or 1) states of `size` numbers in q. HOOKE_NO_MEMORY. */
+int32_t hooke_recent_create(int64_t size, int32_t has_v, int32_t least, struct hooke_recent *recent);
+/* Without room there is no copy of the one state that counts as kept: this makes room for one, without its numbers. */
+int32_t hooke_recent_make_room(int64_t size, int32_t has_v, struct hooke_recent *recent);
 void hooke_recent_release(struct hooke_recent *recent);
 int64_t hooke_recent_memory(const struct hooke_recent *recent);
 
@@ -24,7 +26,7 @@ void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state);
 /* A second state after the same step takes the place of the first. */
 void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, int64_t step);
 
-/* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none. */
+/* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none, or no room. */
 const hooke_state *hooke_recent_state(const struct hooke_recent *recent, int64_t place, int64_t *step);
 
 #endif

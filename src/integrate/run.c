@@ -60,9 +60,11 @@ static int32_t observe(hooke_integrator *it, const struct hooke_watch *watch, co
   return hooke_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.17g s", (int)value, *state->t);
 }
 
-/* Stores the solution at time t, the bits of a frame's time being t itself. */
-static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
-  const int32_t status = it->method->store(it, t, state);
+/* Stores the solution at time t, the bits of a frame's time being t itself; `checked` where hooke_divergence_check() is
+ * next. */
+static int32_t store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
+  const int32_t status = checked ? hooke_divergence_store(it, t, state) : it->method->store(it, t, state);
+  if (!checked && it->recent.room == 0) it->recent.count = 0; /* nobody has the last good state any more */
   *state->t = t;
   return status;
 }
@@ -111,12 +113,12 @@ static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last,
     if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
     if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
     status = take_fixed_steps(it, count);
-    const int32_t stored = store(it, it->t0 + (double)it->k * it->schedule.step, state);
-    if (status == HOOKE_OK) status = stored;
     const int frame = frame_steps && it->k % frame_steps == 0;
     const int thorough = frame || it->thorough || it->k % CHECK_STEPS == 0;
-    if (status == HOOKE_OK && (thorough || it->k == last))
-      status = hooke_divergence_check(it, state, thorough);
+    const int checked = status == HOOKE_OK && (thorough || it->k == last);
+    const int32_t stored = store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
+    if (status == HOOKE_OK) status = stored;
+    if (checked && status == HOOKE_OK) status = hooke_divergence_check(it, state, thorough);
     if (status == HOOKE_OK && it->on_step.observer && it->k % it->on_step.stride == 0) {
       status = observe(it, &it->on_step, state);
     }
@@ -130,7 +132,7 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state, int64_t lim
   int32_t status = HOOKE_OK;
   const int watched = it->on_step.observer && it->k % it->on_step.stride == 0;
   const int checked = it->k % CHECK_STEPS == 0;
-  if (watched || checked || it->k >= limit) status = store(it, it->t, state);
+  if (watched || checked || it->k >= limit) status = store(it, it->t, state, 0);
   if (status == HOOKE_OK && checked) status = hooke_divergence_check(it, state, 1);
   if (status == HOOKE_OK && watched) status = observe(it, &it->on_step, state);
   if (status == HOOKE_OK && it->k >= limit) {
@@ -143,7 +145,7 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state, int64_t lim
 }
 
 static int32_t report_frame(hooke_integrator *it, hooke_state *state, double t) {
-  int32_t status = store(it, t, state);
+  int32_t status = store(it, t, state, 0);
   if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
   return status == HOOKE_OK ? observe(it, &it->on_frame, state) : status;
 }
@@ -178,7 +180,7 @@ static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const stru
     }
     if (status == HOOKE_OK && it->t < end) status = report_step(it, state, limit);
   }
-  if (status == HOOKE_OK) status = store(it, end, state);
+  if (status == HOOKE_OK) status = store(it, end, state, 0);
   return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
 }
 
@@ -189,6 +191,9 @@ static int32_t end(hooke_integrator *it, hooke_state *state, int32_t status) {
   const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   if (reached && hooke_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
     hooke_recent_keep(&it->recent, state, it->k);
+  if (status == HOOKE_DIVERGED && it->recent.room == 0 &&
+      hooke_recent_make_room(it->size, 1, &it->recent) == HOOKE_OK)
+    hooke_state_copy(state, it->recent.state[0]);
   return status;
 }
 
@@ -249,10 +254,13 @@ int32_t hooke_integrator_run_on(hooke_integrator *it, const hooke_state *first, 
 
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
 static int goes_on(const hooke_integrator *it, const hooke_state *state) {
+  if (it->k == 0 || (it->outcome != HOOKE_OK && it->outcome != HOOKE_STOPPED)) return 0;
+  if (it->recent.room == 0 && it->recent.count > 0)
+    return memcmp(&it->good_time, state->t, sizeof(double)) == 0 &&
+           hooke_motion_is_at(it->motion, state->q, state->v);
   const size_t bytes = (size_t)(1 + (state->has_v ? 2 : 1) * state->size) * sizeof(double);
   const hooke_state *last = hooke_recent_state(&it->recent, 0, NULL);
-  return it->k > 0 && (it->outcome == HOOKE_OK || it->outcome == HOOKE_STOPPED) && last &&
-         memcmp(last->t, state->t, bytes) == 0;
+  return last && memcmp(last->t, state->t, bytes) == 0;
 }
 
 static int32_t take_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
@@ -263,7 +271,7 @@ static int32_t take_steps(hooke_integrator *it, hooke_state *state, int64_t step
     status = take_adaptive_step(it, state);
     if (status == HOOKE_OK) status = report_step(it, state, INT64_MAX);
   }
-  if (status == HOOKE_OK) status = store(it, it->t, state);
+  if (status == HOOKE_OK) status = store(it, it->t, state, 0);
   return status == HOOKE_OK ? hooke_divergence_check(it, state, it->thorough) : status;
 }
 

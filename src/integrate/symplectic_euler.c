@@ -12,6 +12,7 @@ const struct hooke_method hooke_symplectic_euler = {.name = "symplectic-euler",
                                                     .built = 1,
                                                     .order = 1,
                                                     .second_order = 1,
+                                                    .by_tiles = 1,
                                                     .begin = hooke_fixed_begin,
                                                     .step = step,
                                                     .store = hooke_fixed_store};

@@ -74,7 +74,7 @@ static void add_particles(struct hooke_text *text, const hooke_system *system,
   int64_t moving = 0, pinned = 0;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (numbering->in_part[p]) continue;
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3 && system->velocity; a++)
       moving += system->velocity[3 * p + a] != 0.0;
     pinned += system->held[p] == HOOKE_HELD_PINNED;
   }

@@ -4,13 +4,23 @@
 
 #include "kernel/spring_loops.h"
 
-#define JOIN_NAMES(a, b) a##b
-#define JOIN(a, b)       JOIN_NAMES(a, b)
+#define HOOKE_JOIN_NAMES(a, b) a##b
+#define HOOKE_JOIN(a, b)       HOOKE_JOIN_NAMES(a, b)
+#define HOOKE_OF_ISA(name)     HOOKE_JOIN(name, HOOKE_ISA)
 
-#define HOOKE_SPRING_SET    JOIN(hooke_spring_set_, HOOKE_ISA)
-#define HOOKE_BENDING_LOOPS JOIN(hooke_bending_loops_, HOOKE_ISA)
+/* What the loop writes is apart from all arrays that it reads, so iterations may be reordered. */
+#if defined(__clang__)
+#define HOOKE_VECTORISE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define HOOKE_VECTORISE _Pragma("GCC ivdep")
+#endif
+
+#define HOOKE_SPRING_SET    HOOKE_OF_ISA(hooke_spring_set_)
+#define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hooke_net_loops_)
+#define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hooke_bending_loops_)
 
 extern const struct hooke_spring_set HOOKE_SPRING_SET;
+extern const struct hooke_net_loops HOOKE_NET_LOOPS;
 extern hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 
 #endif

@@ -2,18 +2,12 @@
  * first, which vectorises whatever the ends are, and are then added in spring order, which keeps every sum
  * the same to the bit. */
 #include "kernel/instruction_set.h"
+#include "kernel/net_loops.h"
 #include "kernel/spring_body.h"
 
 #include <stddef.h>
 
 enum { BLOCK = 256 };
-
-/* The block is apart from all arrays that are read, so iterations may be reordered. */
-#if defined(__clang__)
-#define VECTORISE _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define VECTORISE _Pragma("GCC ivdep")
-#endif
 
 struct block {
   double x[BLOCK], y[BLOCK], z[BLOCK];
@@ -35,7 +29,7 @@ HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double
                                 const struct springs springs, const ptrdiff_t count, const int indexed,
                                 const int damped, const int mixed, const int pull) {
   int64_t lost = 0;
-  VECTORISE
+  HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
     const ptrdiff_t i = indexed ? springs.head[k] : k, j = indexed ? springs.tail[k] : k + springs.offset;
     const double kappa = mixed ? springs.kappas[k] : springs.kappa;
@@ -153,7 +147,7 @@ HOOKE_INLINE void sum_lanes(ptrdiff_t count, const int lanes, const int first, c
     u[j] = upper[j];
     l[j] = lower[j];
   }
-  VECTORISE
+  HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
     double sum = first ? 0.0 : f[k];
     for (int j = 0; j < lanes; j++)
@@ -246,6 +240,7 @@ const struct hooke_spring_set HOOKE_SPRING_SET = {
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
     .fill = {BY_SHAPE(fill, 0)},
     .sum = sum,
+    .net = &HOOKE_NET_LOOPS,
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
     .bending = HOOKE_BENDING_LOOPS,

@@ -29,6 +29,7 @@ enum {
 };
 
 struct hooke_run;
+struct hooke_net_loops;
 
 /* Adds the forces of a run; returns how many of its springs had a rest length but no direction. */
 typedef int64_t hooke_spring_loop(const struct hooke_run *run, const struct hooke_fields *fields);
@@ -40,8 +41,25 @@ struct hooke_run {
   const int32_t *head, *tail;                   /* indexed: first and second ends, `count` long */
   double kappa, gamma, rest_length;             /* shared */
   const double *kappas, *gammas, *rest_lengths; /* mixed: `count` long */
+  const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
+  int32_t
+      strain; /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
   hooke_spring_loop *loop;
 };
+
+struct hooke_material {
+  double kappa, gamma, rest_length;
+};
+
+static inline struct hooke_material hooke_run_material(const struct hooke_run *run, ptrdiff_t k) {
+  if (!(run->shape & HOOKE_RUN_MIXED))
+    return (struct hooke_material){run->kappa, run->gamma, run->rest_length};
+  const ptrdiff_t at = run->place ? run->place[k] : k;
+  const double length = run->rest_lengths[at];
+  if (run->kappas) return (struct hooke_material){run->kappas[at], run->gammas[at], length};
+  if (run->strain) return (struct hooke_material){run->kappa / length, run->gamma / length, length};
+  return (struct hooke_material){run->kappa, run->gamma, length};
+}
 
 /* b = s d, with F = -s d on the end of the lower number and s d on the other, for springs done .. done + count - 1 of a
  * run of constant offset; `at` begins at the lower end of the first of them. `count` may go on past the run where its
@@ -68,6 +86,7 @@ struct hooke_spring_set {
   hooke_lane_sum *sum;
   hooke_step_loop *kick_then_drift, *drift_then_kick;
   hooke_bending_loop *const *bending; /* by HOOKE_BENDING_* */
+  const struct hooke_net_loops *net;
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
 

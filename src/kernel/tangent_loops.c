@@ -2,29 +2,24 @@
  * in spring order afterwards. */
 #include "kernel/tangent_loops.h"
 
+#include "kernel/instruction_set.h"
 #include "kernel/spring_body.h"
 
 #include <stddef.h>
 
 enum { BLOCK = 256 };
 
-#if defined(__clang__)
-#define VECTORISE _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define VECTORISE _Pragma("GCC ivdep")
-#endif
-
 /* ---- filling ---- */
 
 HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *fields, const double alpha,
                        const double beta, const struct hooke_tangent *tangent, const int axial) {
   const double *const *q = fields->q, *const *v = fields->v;
-  const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  const int indexed = run->shape & HOOKE_RUN_INDEXED;
   const int pull = run->shape & HOOKE_RUN_PULL_ONLY;
   for (ptrdiff_t k = 0; k < run->count; k++) {
     const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
-    const double kappa = mixed ? run->kappas[k] : run->kappa, gamma = mixed ? run->gammas[k] : run->gamma;
-    const double rest_length = mixed ? run->rest_lengths[k] : run->rest_length;
+    const struct hooke_material material = hooke_run_material(run, k);
+    const double kappa = material.kappa, gamma = material.gamma, rest_length = material.rest_length;
     const double d[3] = {q[0][i] - q[0][j], q[1][i] - q[1][j], q[2][i] - q[2][j]};
     const double w[3] = {v[0][i] - v[0][j], v[1][i] - v[1][j], v[2][i] - v[2][j]};
     const double r = hooke_spring_length(d[0], d[1], d[2]), ir = hooke_spring_inverse_length(r);
@@ -92,7 +87,7 @@ HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *r
                              const double *restrict x, const double *restrict y, const double *restrict z,
                              const struct numbers s, const ptrdiff_t count, const int indexed,
                              const int axial) {
-  VECTORISE
+  HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
     const ptrdiff_t i = indexed ? s.head[k] : k, j = indexed ? s.tail[k] : k + s.offset;
     const double dx = x[i] - x[j], dy = y[i] - y[j], dz = z[i] - z[j];

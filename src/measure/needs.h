@@ -108,6 +108,12 @@ struct hooke_needs_trial {
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
                             struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
                             struct hooke_needs_path *fine);
+/* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together: the
+ * run to recommend. `from` (NULL: the step limit) says where to begin. `error` is NaN, and there is no path, if none is not
+ * much smaller than that of the full system. */
+int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                        const struct hooke_needs_cost *from, struct hooke_needs_cost *cost,
+                        struct hooke_needs_path *path, double *error);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run);
 

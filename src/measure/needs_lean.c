@@ -26,18 +26,16 @@ static void release(struct candidate *candidate) {
   memset(candidate, 0, sizeof *candidate);
 }
 
-/* The run that is recommended, with its own step, against the full system: NaN where it has none. */
-static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
+/* The run to recommend of it; NaN where it has none. */
+static int32_t try_variant(hooke_needs *needs, const struct hooke_needs_cost *from,
+                           struct candidate *candidate) {
   candidate->error = NAN;
   int32_t status =
       hooke_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
   if (status != HOOKE_OK) return status;
   const struct hooke_needs_trial trial = {candidate->system, &candidate->map};
-  status = hooke_needs_measure(needs, &trial, &candidate->cost, &candidate->path, NULL);
-  if (status == HOOKE_OK && candidate->path.position)
-    candidate->error = hooke_needs_distance(needs, &needs->path, &candidate->path);
-  return status;
+  return hooke_needs_fit(needs, &trial, from, &candidate->cost, &candidate->path, &candidate->error);
 }
 
 static int32_t take(hooke_needs *needs, struct candidate *candidate) {
@@ -62,10 +60,10 @@ static double work(const struct hooke_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
-/* Whether it makes a run cheaper. Without damping, say, a step may have to be smaller; springs that only pull cost a
- * comparison more, and lone springs that are left out break up runs of equal ones. */
-static int32_t saves(const hooke_needs *needs, const struct hooke_needs_row *row) {
-  if (strcmp(row->kind, "compression") == 0 || work(&row->cost) > work(&needs->full)) return 0;
+/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out may
+ * break up runs of equal ones. */
+static int32_t may_save(const hooke_needs *needs, const struct hooke_needs_row *row) {
+  if (strcmp(row->kind, "compression") == 0) return 0;
   return strcmp(row->kind, "idle") != 0 || row->cost.wall_seconds < needs->full.wall_seconds;
 }
 
@@ -80,7 +78,7 @@ static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hooke_needs_row *row = &needs->row[k];
-    if (tried[k] || !row->measured || row->needed || !saves(needs, row)) continue;
+    if (tried[k] || !row->measured || row->needed || !may_save(needs, row)) continue;
     if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
     if (found < 0 || comes_before(row, &needs->row[found])) found = k;
   }
@@ -93,9 +91,10 @@ static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
   if (status == HOOKE_OK) {
     hooke_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
     hooke_variant_join(needs->system, &candidate.variant, &row->variant);
-    status = try_variant(needs, &candidate);
+    status = try_variant(needs, NULL, &candidate);
   }
-  if (status == HOOKE_OK && candidate.error <= needs->want) {
+  if (status == HOOKE_OK && candidate.error <= needs->want &&
+      work(&candidate.cost) <= work(&needs->lean_cost)) {
     row->left_out = 1;
     status = take(needs, &candidate);
   }
@@ -106,7 +105,7 @@ static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
 static int32_t begin_with_everything(hooke_needs *needs) {
   struct candidate candidate = {.system = NULL};
   int32_t status = hooke_variant_create(needs->system, &candidate.variant);
-  if (status == HOOKE_OK) status = try_variant(needs, &candidate);
+  if (status == HOOKE_OK) status = try_variant(needs, &needs->full, &candidate);
   if (status == HOOKE_OK) status = take(needs, &candidate);
   release(&candidate);
   return status;
@@ -128,7 +127,8 @@ static void say_why_it_stays(const hooke_needs *needs, struct hooke_needs_row *r
   if (row->needed || row->left_out || row->note[0]) return;
   if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
-           saves(needs, row) ? "not together with the rest" : "saves nothing, so it stays");
+           may_save(needs, row) ? "saves no work, or not together with the rest"
+                                : "saves nothing, so it stays");
 }
 
 int32_t hooke_needs_find_lean(hooke_needs *needs) {

@@ -217,34 +217,80 @@ static int32_t judge_full(struct search *search, double limit, struct hooke_need
   return status == HOOKE_OK ? find_step(search) : status;
 }
 
+static int32_t start(struct search *search, double limit) {
+  const hooke_needs *needs = search->recorder.needs;
+  begin_search(search, limit);
+  int32_t status = hooke_options_copy(needs->run, &search->options);
+  if (status == HOOKE_OK && is_shortened(search))
+    status =
+        hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
+  for (int k = 0; k < 2 && status == HOOKE_OK; k++)
+    status = hooke_needs_path_create(needs, &search->path[k]);
+  return status;
+}
+
+static void end(struct search *search) {
+  for (int k = 0; k < 2; k++)
+    hooke_needs_path_release(&search->path[k]);
+  hooke_options_destroy(search->options);
+}
+
+static struct search new_search(hooke_needs *needs, const struct hooke_needs_trial *trial) {
+  const char *method = hooke_options_text(needs->run, "method");
+  return (struct search){.recorder = {.needs = needs, .trial = trial},
+                         .adaptive = hooke_method_find(method)->adaptive};
+}
+
+static void fill_cost(const struct search *search, double limit, struct hooke_needs_cost *cost) {
+  const hooke_system *system = search->recorder.trial->system;
+  *cost = search->cost[0];
+  cost->step_error = NAN;
+  cost->step_limit = limit;
+  cost->springs = (double)hooke_system_spring_count(system);
+  cost->particles = (double)hooke_system_particle_count(system);
+}
+
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
                             struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
                             struct hooke_needs_path *fine) {
-  const char *name = hooke_options_text(needs->run, "method");
-  const double limit = step_limit(trial->system, name);
-  struct search search = {.recorder = {.needs = needs, .trial = trial},
-                          .adaptive = hooke_method_find(name)->adaptive};
-  begin_search(&search, limit);
-  int32_t status = hooke_options_copy(needs->run, &search.options);
-  if (status == HOOKE_OK && is_shortened(&search))
-    status = hooke_options_set_number(search.options, "duration", (double)(needs->judged - 1) * needs->every);
-  for (int k = 0; k < 2 && status == HOOKE_OK; k++)
-    status = hooke_needs_path_create(needs, &search.path[k]);
+  const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
+  struct search search = new_search(needs, trial);
+  int32_t status = start(&search, limit);
   if (status == HOOKE_OK) status = find_step(&search);
   if (status == HOOKE_OK && has_finished(&search)) status = judge_full(&search, limit, fine);
   int32_t finished = has_finished(&search);
-  *cost = search.cost[0];
-  cost->step_error = finished ? search.error : (double)NAN;
-  cost->step_limit = limit;
-  cost->springs = (double)hooke_system_spring_count(trial->system);
-  cost->particles = (double)hooke_system_particle_count(trial->system);
+  fill_cost(&search, limit, cost);
+  if (finished) cost->step_error = search.error;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
   if (status == HOOKE_OK && finished) {
     hand_over(&search.path[0], coarse);
     if (fine && fine->position == NULL) hand_over(&search.path[1], fine);
   }
-  for (int k = 0; k < 2; k++)
-    hooke_needs_path_release(&search.path[k]);
-  hooke_options_destroy(search.options);
+  end(&search);
+  return status;
+}
+
+int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                        const struct hooke_needs_cost *from, struct hooke_needs_cost *cost,
+                        struct hooke_needs_path *path, double *error) {
+  const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
+  struct search search = new_search(needs, trial);
+  int32_t status = start(&search, limit), finished = 0;
+  if (from) search.value = search.adaptive ? -log10(from->rtol) : round(needs->unit / from->step);
+  for (*error = NAN; status == HOOKE_OK && !(*error <= needs->want);
+       search.value = finer(&search, search.value)) {
+    status = run_at(&search, search.value, 0);
+    finished = search.finished[0];
+    *error = finished ? hooke_needs_distance(needs, &needs->path, &search.path[0]) : (double)NAN;
+    if (!is_coarser_than_full(&search)) break;
+  }
+  fill_cost(&search, limit, cost);
+  if (!(*error <= needs->want)) finished = 0;
+  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
+  if (status == HOOKE_OK && finished)
+    hand_over(&search.path[0], path);
+  else
+    *error = NAN;
+  end(&search);
   return status;
 }

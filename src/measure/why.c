@@ -36,6 +36,9 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
     return hooke_fail(HOOKE_BAD_CALL, NULL,
                       "the last run of this integrator did not blow up: there is nothing to explain");
   }
+  if (run->recent.room == 0) {
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
+  }
   struct hooke_why *why = hooke_new(1, sizeof *why);
   if (why == NULL) return HOOKE_NO_MEMORY;
   why->time = why->limit = why->particle = why->step = NAN;

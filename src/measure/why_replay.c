@@ -166,9 +166,11 @@ static void look_at_damage(struct hooke_inquiry *inquiry, const hooke_integrator
       speed = isfinite(v) && isfinite(q) ? fmax(speed, v) : (double)INFINITY;
       size = isfinite(v) && isfinite(q) ? fmax(size, fmax(q, v)) : (double)INFINITY;
     }
-    if (inquiry->system->held[p] || !(speed > most)) continue;
+    const int64_t number = motion->order ? motion->order[p] : p;
+    if (inquiry->system->held[number] || !(speed >= most)) continue;
+    if (speed == most && number > inquiry->bad_particle) continue;
     most = speed;
-    inquiry->bad_particle = p;
+    inquiry->bad_particle = number;
   }
   inquiry->bad_size = size;
 }

@@ -46,6 +46,31 @@ static int32_t sort_springs(hooke_system *system) {
   return status;
 }
 
+static int is_at_rest(const hooke_system *system) {
+  const double zero = 0.0;
+  int rest = 1;
+  for (int64_t k = 0; k < 3 * system->particle_count && rest; k++)
+    rest = memcmp(&system->velocity[k], &zero, sizeof zero) == 0;
+  return rest;
+}
+
+/* Gives back room for particles that never came, and velocities that are all zero; as far as that takes no memory that is
+ * not there. */
+static void trim_particles(hooke_system *system) {
+  const int64_t n = system->particle_count;
+  if (is_at_rest(system)) {
+    hooke_free(system->velocity);
+    system->velocity = NULL;
+  }
+  if (system->particle_capacity == n) return;
+  int32_t status = hooke_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
+  if (status == HOOKE_OK && system->velocity)
+    status = hooke_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
+  if (status == HOOKE_OK) status = hooke_grow((void **)&system->mass, n, n, sizeof(double));
+  if (status == HOOKE_OK) status = hooke_grow((void **)&system->held, n, n, sizeof(uint8_t));
+  if (status == HOOKE_OK) system->particle_capacity = n;
+}
+
 static void drop_building_arrays(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hooke_group_release_arrays(&system->group[k]);
@@ -110,6 +135,7 @@ static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hooke_group_take_back(&system->group[k]);
   hooke_lanes_release(&system->lanes);
+  hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_bending_release(&system->bending);
   hooke_free(system->inverse_mass);
@@ -135,6 +161,9 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) {
     status = hooke_bending_create(system->bending_group, system->bending_group_count, &system->bending);
   }
+  if (status == HOOKE_OK && system->lanes.count == 0) {
+    status = hooke_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
+  }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = count_idle(system);
   if (status != HOOKE_OK) {
@@ -142,6 +171,7 @@ int32_t hooke_system_commit(hooke_system *system) {
     return status;
   }
   drop_building_arrays(system);
+  trim_particles(system);
   system->committed = 1;
   return HOOKE_OK;
 }

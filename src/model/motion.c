@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force.h"
-#include "model/lane.h"
 
 #include <string.h>
 
@@ -14,41 +13,103 @@ static int64_t driven_count(const hooke_system *system) {
   return count;
 }
 
-int32_t hooke_motion_create(const hooke_system *system, struct hooke_motion **out) {
+int32_t hooke_goes_by_tiles(const hooke_system *system) {
+  int by_tiles = system->lanes.count > 0 || system->net.particles > 0;
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hooke_force_row *row = system->force_row[k];
+    by_tiles &= row->add == NULL || row == &hooke_force_springs || row == &hooke_force_drag;
+  }
+  return by_tiles;
+}
+
+/* Arrays of n numbers each, and what else goes with them. */
+static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hooke_motion *motion) {
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
    * sets */
-  const int64_t stride = (n + 7) / 8 * 8 + 24;
-  const int64_t components = 9 * stride, rows = system->force ? 9 * n : 0;
+  const int64_t stride = (n + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
+  const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->held_count, driven = 6 * driven_count(system);
-  struct hooke_motion *motion = hooke_new(1, sizeof *motion);
-  double *block = hooke_new(components + rows + still + driven, sizeof(double));
-  struct hooke_windows *windows = system->lanes.count ? hooke_windows_create(&system->lanes) : NULL;
-  if (motion == NULL || block == NULL || (system->lanes.count && windows == NULL)) {
-    hooke_windows_destroy(windows);
-    hooke_free(motion);
-    hooke_free(block);
-    return HOOKE_NO_MEMORY;
-  }
+  const int64_t numbers = components + rows + still + driven;
+  double *block = hooke_new(numbers, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
   motion->n = n;
-  motion->windows = windows;
-  motion->memory =
-      (components + rows + still + driven) * (int64_t)sizeof(double) + hooke_windows_memory(windows);
+  motion->memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
     motion->q[a] = block + a * stride;
     motion->v[a] = block + (3 + a) * stride;
-    motion->f[a] = block + (6 + a) * stride;
+    if (!by_tiles) motion->f[a] = block + (6 + a) * stride;
   }
   motion->rows = rows ? block + components : NULL;
   motion->still = block + components + rows;
   motion->driven = motion->still + still;
-  *out = motion;
   return HOOKE_OK;
+}
+
+/* Numbers here of held and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
+static void number_held(const hooke_system *system, const int32_t *place, struct hooke_motion *motion) {
+  int32_t *moved = motion->moved;
+  for (int64_t k = 0; k < system->held_count; k++)
+    motion->held[k] = place ? place[system->held_particle[k]] : system->held_particle[k];
+  for (int64_t d = 0; d < system->drive_count; d++) {
+    for (int64_t k = 0; k < system->drive[d].count; k++) {
+      const int32_t p = system->drive[d].particle[k];
+      *moved++ = place ? place[p] : p;
+    }
+  }
+}
+
+static int32_t new_numbers(const hooke_system *system, struct hooke_motion *motion) {
+  const int64_t count = system->held_count + driven_count(system);
+  motion->held = hooke_new(count, sizeof *motion->held);
+  if (motion->held == NULL) return HOOKE_NO_MEMORY;
+  motion->moved = motion->held + system->held_count;
+  motion->memory += count * (int64_t)sizeof *motion->held;
+  int32_t *place = NULL;
+  if (motion->order && count > 0) {
+    place = hooke_new(motion->n, sizeof *place);
+    if (place == NULL) return HOOKE_NO_MEMORY;
+    for (int64_t p = 0; p < motion->n; p++)
+      place[motion->order[p]] = (int32_t)p;
+  }
+  number_held(system, place, motion);
+  hooke_free(place);
+  return HOOKE_OK;
+}
+
+static int32_t new_scratch(const hooke_system *system, struct hooke_motion *motion) {
+  if (system->lanes.count > 0) {
+    motion->windows = hooke_windows_create(&system->lanes);
+    if (motion->windows == NULL) return HOOKE_NO_MEMORY;
+  }
+  if (system->net.particles > 0) {
+    motion->net = hooke_net_scratch_create(&system->net);
+    if (motion->net == NULL) return HOOKE_NO_MEMORY;
+  }
+  motion->memory += hooke_windows_memory(motion->windows) + hooke_net_scratch_memory(motion->net);
+  return HOOKE_OK;
+}
+
+int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_motion **out) {
+  struct hooke_motion *motion = hooke_new(1, sizeof *motion);
+  if (motion == NULL) return HOOKE_NO_MEMORY;
+  motion->order = by_tiles ? system->net.order : NULL;
+  motion->w = motion->order ? system->net.inverse_mass : system->inverse_mass;
+  int32_t status = new_arrays(system, by_tiles, motion);
+  if (status == HOOKE_OK) status = new_numbers(system, motion);
+  if (status == HOOKE_OK) status = new_scratch(system, motion);
+  if (status == HOOKE_OK)
+    *out = motion;
+  else
+    hooke_motion_destroy(motion);
+  return status;
 }
 
 void hooke_motion_destroy(struct hooke_motion *motion) {
   if (motion == NULL) return;
   hooke_windows_destroy(motion->windows);
+  hooke_net_scratch_destroy(motion->net);
+  hooke_free(motion->held);
   hooke_free(motion->q[0]);
   hooke_free(motion);
 }
@@ -71,10 +132,35 @@ void hooke_components_from_rows(int64_t n, const double *rows, double *const com
   }
 }
 
+/* Rows in the caller's numbers. */
+static void load_rows(const struct hooke_motion *motion, const double *rows, double *const component[3]) {
+  if (motion->order == NULL) {
+    hooke_components_from_rows(motion->n, rows, component);
+    return;
+  }
+  for (int64_t p = 0; p < motion->n; p++) {
+    const double *row = rows + 3 * (int64_t)motion->order[p];
+    for (int a = 0; a < 3; a++)
+      component[a][p] = row[a];
+  }
+}
+
+static void store_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+  if (motion->order == NULL) {
+    hooke_rows_from_components(motion->n, component, rows);
+    return;
+  }
+  for (int64_t p = 0; p < motion->n; p++) {
+    double *row = rows + 3 * (int64_t)motion->order[p];
+    for (int a = 0; a < 3; a++)
+      row[a] = component[a][p];
+  }
+}
+
 void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, const double *q,
                        const double *v) {
-  hooke_components_from_rows(motion->n, q, motion->q);
-  hooke_components_from_rows(motion->n, v, motion->v);
+  load_rows(motion, q, motion->q);
+  load_rows(motion, v, motion->v);
   for (int64_t k = 0; k < system->held_count; k++) {
     memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->held_particle[k], 3 * sizeof(double));
   }
@@ -82,8 +168,38 @@ void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, 
 }
 
 void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v) {
-  hooke_rows_from_components(motion->n, motion->q, q);
-  hooke_rows_from_components(motion->n, motion->v, v);
+  store_rows(motion, motion->q, q);
+  store_rows(motion, motion->v, v);
+}
+
+static void exchange_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      const double kept = row[a];
+      row[a] = component[a][p];
+      component[a][p] = kept;
+    }
+  }
+}
+
+void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v) {
+  exchange_rows(motion, motion->q, q);
+  exchange_rows(motion, motion->v, v);
+}
+
+static int same_rows(const struct hooke_motion *motion, double *const component[3], const double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      if (memcmp(&row[a], &component[a][p], sizeof(double)) != 0) return 0;
+    }
+  }
+  return 1;
+}
+
+int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v) {
+  return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
 }
 
 void hooke_motion_save(const struct hooke_motion *motion, double *place) {
@@ -119,6 +235,13 @@ int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_mot
   return HOOKE_OK;
 }
 
+void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion, hooke_tile *tile, void *ctx) {
+  if (system->lanes.count > 0)
+    motion->coincident = hooke_lanes_pass(&system->lanes, motion, tile, ctx);
+  else
+    motion->coincident = hooke_net_pass(&system->net, motion, tile, ctx);
+}
+
 int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t) {
   double *q = motion->driven;
   for (int64_t k = 0; k < system->drive_count; k++) {
@@ -133,10 +256,11 @@ int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *moti
   return HOOKE_OK;
 }
 
-static void hold_driven(const struct hooke_drive_group *drive, const double *q, struct hooke_motion *motion) {
-  const double *v = q + 3 * drive->count;
-  for (int64_t k = 0; k < drive->count; k++) {
-    const int32_t p = drive->particle[k];
+/* `count` particles with the numbers `moved`. */
+static void hold_driven(int64_t count, const int32_t *moved, const double *q, struct hooke_motion *motion) {
+  const double *v = q + 3 * count;
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t p = moved[k];
     for (int a = 0; a < 3; a++) {
       motion->q[a][p] = q[3 * k + a];
       motion->v[a][p] = v[3 * k + a];
@@ -146,16 +270,19 @@ static void hold_driven(const struct hooke_drive_group *drive, const double *q, 
 
 void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion) {
   for (int64_t k = 0; k < system->held_count; k++) {
-    const int32_t p = system->held_particle[k];
-    if (system->held[p] != HOOKE_HELD_PINNED) continue;
+    if (system->held[system->held_particle[k]] != HOOKE_HELD_PINNED) continue;
+    const int32_t p = motion->held[k];
     for (int a = 0; a < 3; a++) {
       motion->q[a][p] = motion->still[3 * k + a];
       motion->v[a][p] = 0.0;
     }
   }
   const double *driven = motion->driven;
+  const int32_t *moved = motion->moved;
   for (int64_t k = 0; k < system->drive_count; k++) {
-    hold_driven(&system->drive[k], driven, motion);
-    driven += 6 * system->drive[k].count;
+    const int64_t count = system->drive[k].count;
+    hold_driven(count, moved, driven, motion);
+    driven += 6 * count;
+    moved += count;
   }
 }

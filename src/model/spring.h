@@ -36,13 +36,14 @@ struct hooke_spring {
 };
 
 static inline struct hooke_spring hooke_run_spring(const struct hooke_run *run, int64_t k) {
-  const int32_t indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
+  const struct hooke_material material = hooke_run_material(run, k);
   struct hooke_spring spring;
   spring.head = indexed ? run->head[k] : run->start + k;
   spring.tail = indexed ? run->tail[k] : run->start + k + run->offset;
-  spring.kappa = mixed ? run->kappas[k] : run->kappa;
-  spring.gamma = mixed ? run->gammas[k] : run->gamma;
-  spring.rest_length = mixed ? run->rest_lengths[k] : run->rest_length;
+  spring.kappa = material.kappa;
+  spring.gamma = material.gamma;
+  spring.rest_length = material.rest_length;
   spring.pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
   return spring;
 }
@@ -74,6 +75,8 @@ int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_coun
 void hooke_springs_release(struct hooke_springs *springs);
 /* 1 if some spring is damped. */
 int32_t hooke_springs_are_damped(const struct hooke_springs *springs);
+/* For whoever has made the runs look their material up elsewhere. */
+void hooke_springs_drop_material(struct hooke_springs *springs);
 int64_t hooke_springs_memory(const struct hooke_springs *springs);
 
 /* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes them out of

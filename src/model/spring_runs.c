@@ -134,13 +134,19 @@ int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_coun
   return HOOKE_OK;
 }
 
-void hooke_springs_release(struct hooke_springs *springs) {
-  hooke_free(springs->run);
-  hooke_free(springs->head);
-  hooke_free(springs->tail);
+void hooke_springs_drop_material(struct hooke_springs *springs) {
   hooke_free(springs->kappa);
   hooke_free(springs->gamma);
   hooke_free(springs->rest_length);
+  springs->kappa = springs->gamma = springs->rest_length = NULL;
+  springs->mixed_count = 0;
+}
+
+void hooke_springs_release(struct hooke_springs *springs) {
+  hooke_springs_drop_material(springs);
+  hooke_free(springs->run);
+  hooke_free(springs->head);
+  hooke_free(springs->tail);
   memset(springs, 0, sizeof *springs);
 }
 

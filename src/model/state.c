@@ -55,7 +55,7 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
   if (system->particle_count > 0) {
     const size_t bytes = (size_t)state->size * sizeof(double);
     memcpy(state->q, system->position, bytes);
-    memcpy(state->v, system->velocity, bytes);
+    if (system->velocity) memcpy(state->v, system->velocity, bytes); /* else zeros, as it was made */
   }
   status = place_driven(system, state);
   if (status == HOOKE_OK)

@@ -25,6 +25,7 @@ void hooke_system_destroy(hooke_system *system) {
     hooke_bending_group_release(&system->bending_group[k]);
   hooke_lanes_release(&system->lanes);
   hooke_bending_release(&system->bending);
+  hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_free(system->position);
   hooke_free(system->velocity);

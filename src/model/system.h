@@ -7,6 +7,7 @@
 #include "model/derived.h"
 #include "model/drive.h"
 #include "model/lane.h"
+#include "model/net.h"
 #include "model/part_record.h"
 #include "model/spring.h"
 
@@ -19,9 +20,9 @@ struct hooke_system {
 
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;
-  double *position, *velocity, *mass;
-  uint8_t *held;        /* HOOKE_HELD_* */
-  double *inverse_mass; /* from commit on */
+  double *position, *velocity, *mass; /* velocity NULL from commit on if all are zero */
+  uint8_t *held;                      /* HOOKE_HELD_* */
+  double *inverse_mass;               /* from commit on */
 
   int64_t held_count; /* from commit on: pinned and driven particles, ascending */
   int32_t *held_particle;
@@ -34,6 +35,7 @@ struct hooke_system {
   struct hooke_part_record *part; /* part_count, in the order of adding */
   struct hooke_springs springs;   /* from commit on */
   struct hooke_lanes lanes;       /* from commit on, of all springs or of none */
+  struct hooke_net net;           /* the same, where there are no lanes */
 
   /* groups of triples, those of parts last */
   int64_t bending_group_count, bending_group_capacity;

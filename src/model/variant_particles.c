@@ -104,9 +104,9 @@ static int32_t add_alone(struct hooke_variant_maker *maker, int64_t first, int64
       stop++;
     int64_t added = 0;
     if (stop > first) {
-      status =
-          hooke_system_add_particles(maker->made, stop - first, from->position + 3 * first,
-                                     from->velocity + 3 * first, stop - first, from->mass + first, &added);
+      status = hooke_system_add_particles(maker->made, stop - first, from->position + 3 * first,
+                                          from->velocity ? from->velocity + 3 * first : NULL, stop - first,
+                                          from->mass + first, &added);
     }
     for (int64_t p = first; p < stop; p++)
       maker->map->to[p] = added + p - first;

@@ -1,7 +1,8 @@
-/* Every instruction set that this machine has gives the same bits, for every shape of run. */
+/* Every instruction set that this machine has gives the same bits, for every shape of run and of nets. */
 #include "check.h"
 #include "random.h"
 
+#include "kernel/net_loops.h"
 #include "kernel/spring_loops.h"
 
 #include <math.h>
@@ -176,6 +177,137 @@ static void test_sums_and_moves_agree(void **unused) {
   }
 }
 
+/* ---- nets ---- */
+
+/* Springs of a trial whose upper ends are looked up as rows and whose lower ends are among the first rows. */
+struct net_trial {
+  double rows[PARTICLES][HOOKE_NET_ROW], pairs[HOOKE_NET_BATCH][HOOKE_NET_ROW];
+  uint8_t lower[HOOKE_NET_BATCH];
+  uint16_t narrow[2 * HOOKE_NET_BATCH];
+  uint32_t wide[2 * HOOKE_NET_BATCH];
+};
+
+static void draw_net(struct random_source *source, int32_t shape, ptrdiff_t count, struct trial *trial,
+                     struct net_trial *net) {
+  draw(source, HOOKE_RUN_INDEXED, 1, trial);
+  const int32_t material = shape & HOOKE_NET_MIXED;
+  struct hooke_run *run = &trial->run;
+  run->count = count;
+  run->shape = HOOKE_RUN_INDEXED | (shape & HOOKE_NET_DAMPED ? HOOKE_RUN_DAMPED : 0) |
+               (shape & HOOKE_NET_PULL_ONLY ? HOOKE_RUN_PULL_ONLY : 0) | (material ? HOOKE_RUN_MIXED : 0);
+  for (ptrdiff_t k = 0; k < count; k++) {
+    net->lower[k] = (uint8_t)random_whole(source, 0, 255);
+    trial->head[k] = net->lower[k];
+    trial->tail[k] = (int32_t)(net->lower[k] + random_whole(source, 1, PARTICLES - 256));
+    net->narrow[k] = (uint16_t)trial->tail[k];
+    net->wide[k] = (uint32_t)trial->tail[k];
+    trial->rest_lengths[k] = random_between(source, 0.1, 2.0);
+    const double share = material == HOOKE_NET_STRAIN ? trial->rest_lengths[k] : 1.0;
+    trial->kappas[k] = material == HOOKE_NET_MIXED ? random_between(source, 1.0, 9.0) : run->kappa / share;
+    trial->gammas[k] = material == HOOKE_NET_MIXED ? random_between(source, 1.0, 9.0) : run->gamma / share;
+  }
+  for (int p = 0; p < PARTICLES; p++) {
+    const double row[HOOKE_NET_ROW] = {trial->q[0][p],
+                                       trial->q[1][p],
+                                       trial->q[2][p],
+                                       trial->v[2][p],
+                                       trial->v[0][p],
+                                       trial->v[1][p],
+                                       NAN,
+                                       NAN};
+    memcpy(net->rows[p], row, sizeof row);
+  }
+}
+
+/* Each spring alone, in the plain loop: what it does to its ends are the halves of its pair. */
+static void check_pairs(const struct trial *trial, const struct net_trial *net, ptrdiff_t count,
+                        int64_t lost) {
+  double f[3][PARTICLES];
+  struct trial one = *trial;
+  one.run.head = one.head;
+  one.run.tail = one.tail;
+  for (ptrdiff_t k = 0; k < count; k++) {
+    one.run.count = 1;
+    one.run.shape &= ~HOOKE_RUN_MIXED;
+    one.head[0] = trial->head[k];
+    one.tail[0] = trial->tail[k];
+    if (trial->run.shape & HOOKE_RUN_MIXED) {
+      one.run.kappa = trial->kappas[k];
+      one.run.gamma = trial->gammas[k];
+      one.run.rest_length = trial->rest_lengths[k];
+    }
+    for (int a = 0; a < 3; a++)
+      f[a][one.head[0]] = f[a][one.tail[0]] = 0.0;
+    lost -= plain(&one, f);
+    for (int a = 0; a < 3; a++) {
+      assert_true(net->pairs[k][a] == f[a][one.tail[0]]);
+      assert_true(net->pairs[k][4 + a] == f[a][one.head[0]]);
+    }
+  }
+  assert_int_equal(lost, 0);
+}
+
+static void check_sums(const struct hooke_net_loops *loops, struct random_source *source,
+                       struct net_trial *net) {
+  enum { MOST_PARTICLES = 2 * HOOKE_NET_BATCH };
+  uint16_t degree[MOST_PARTICLES];
+  double x[MOST_PARTICLES], y[MOST_PARTICLES], z[MOST_PARTICLES], *const f[3] = {x, y, z};
+  ptrdiff_t particles = 0, used = 0;
+  while (used < 2 * HOOKE_NET_BATCH) {
+    const ptrdiff_t left = 2 * HOOKE_NET_BATCH - used, own = random_whole(source, 0, 9);
+    degree[particles] = (uint16_t)(own < left ? own : left);
+    used += degree[particles++];
+    if (particles == MOST_PARTICLES) break;
+  }
+  for (ptrdiff_t k = 0; k < used; k++)
+    net->wide[k] = net->narrow[k] = (uint16_t)random_whole(source, 0, 2 * HOOKE_NET_BATCH - 1);
+  for (int wide = 0; wide <= 1; wide++) {
+    const void *half = wide ? (const void *)net->wide : (const void *)net->narrow;
+    const void *end = wide ? (const void *)(net->wide + used) : (const void *)(net->narrow + used);
+    assert_ptr_equal(loops->sum[wide](particles, degree, half, net->pairs[0], f), end);
+    for (ptrdiff_t p = 0, at = 0; p < particles; p++) {
+      double sum[3] = {0.0, 0.0, 0.0};
+      for (int k = 0; k < degree[p]; k++, at++) {
+        for (int a = 0; a < 3; a++)
+          sum[a] += net->pairs[net->wide[at] / 2][4 * (net->wide[at] % 2) + (uint32_t)a];
+      }
+      assert_true(x[p] == sum[0] && y[p] == sum[1] && z[p] == sum[2]);
+    }
+  }
+}
+
+static void test_nets_agree(void **unused) {
+  (void)unused;
+  struct random_source source = {31};
+  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
+  struct net_trial *net = aligned_alloc(64, (sizeof *net + 63) / 64 * 64);
+  assert_non_null(net);
+  const struct hooke_spring_set *set;
+  for (int32_t shape = 0; shape < HOOKE_NET_SHAPES; shape++) {
+    for (ptrdiff_t count = 1; count <= HOOKE_NET_BATCH; count += count < 20 ? 1 : 9) {
+      for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
+        draw_net(&source, shape, count, trial, net);
+        memset(net->pairs, 0, sizeof net->pairs);
+        const struct hooke_net_springs springs = {.lower = net->lower,
+                                                  .upper = shape & HOOKE_NET_WIDE ? (const void *)net->wide
+                                                                                  : (const void *)net->narrow,
+                                                  .kappa = trial->run.kappa,
+                                                  .gamma = trial->run.gamma,
+                                                  .rest_length = trial->run.rest_length,
+                                                  .kappas = trial->kappas,
+                                                  .gammas = trial->gammas,
+                                                  .rest_lengths = trial->rest_lengths};
+        const int64_t lost =
+            set->net->fill[shape](&springs, count, net->rows[0], net->rows[0], net->pairs[0]);
+        check_pairs(trial, net, count, lost);
+        check_sums(set->net, &source, net);
+      }
+    }
+  }
+  free(trial);
+  free(net);
+}
+
 static void test_sets_agree(void **unused) {
   (void)unused;
   struct random_source source = {4711};
@@ -262,9 +394,9 @@ static void test_sets_have_names(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets_have_names),
-                                     cmocka_unit_test(test_sets_agree), cmocka_unit_test(test_windows_agree),
-                                     cmocka_unit_test(test_sums_and_moves_agree),
-                                     cmocka_unit_test(test_bending_agrees)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_sets_have_names),      cmocka_unit_test(test_sets_agree),
+      cmocka_unit_test(test_nets_agree),           cmocka_unit_test(test_windows_agree),
+      cmocka_unit_test(test_sums_and_moves_agree), cmocka_unit_test(test_bending_agrees)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

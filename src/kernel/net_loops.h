@@ -1,0 +1,51 @@
+/* The loops of nets: springs whose ends are looked up, summed in one pass over tiles of particles. Positions and
+ * velocities of the particles near a tile are in rows, forces of the springs near it in pairs b and -b, with F = -b on the
+ * lower end, so that the sum at a particle is a sum of rows that are looked up. */
+#ifndef HOOKE_KERNEL_NET_LOOPS_H
+#define HOOKE_KERNEL_NET_LOOPS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+  HOOKE_NET_ROW =
+      8, /* numbers in a row (x, y, z, vz, vx, vy, two unused), and in a pair (b, unused, -b, unused) */
+  HOOKE_NET_BATCH = 128 /* most springs that are filled at once */
+};
+
+/* The shape of springs that are filled together is a sum of these. */
+enum {
+  HOOKE_NET_DAMPED = 1,
+  HOOKE_NET_PULL_ONLY = 2,
+  HOOKE_NET_WIDE = 4,    /* indices are uint32_t, else uint16_t */
+  HOOKE_NET_LENGTHS = 8, /* each spring has a rest length; kappa and gamma are shared */
+  HOOKE_NET_STRAIN = 16, /* besides: they are kappa/l0 and gamma/l0 */
+  HOOKE_NET_MIXED = 24,  /* each spring has all three */
+  HOOKE_NET_SHAPES = 32
+};
+
+struct hooke_net_springs {
+  const uint8_t *lower; /* rows of the lower ends, from the first of the tile */
+  const void *upper;    /* rows of the upper ends */
+  double kappa, gamma, rest_length;
+  const double *kappas, *gammas, *rest_lengths;
+};
+
+/* Pairs of `count` springs; returns how many had a rest length but no direction. */
+typedef int64_t hooke_net_fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,
+                               const double *upper, double *pair);
+
+/* f = sums of halves of pairs, degree[p] of them at particle p, in the order of `half`; returns where `half` ends. */
+typedef const void *hooke_net_sum(ptrdiff_t count, const uint16_t *degree, const void *half,
+                                  const double *pair, double *const f[3]);
+
+struct hooke_net_loops {
+  hooke_net_fill *fill[HOOKE_NET_SHAPES];
+  hooke_net_sum *sum[2]; /* narrow, wide */
+};
+
+/* Rows of `count` particles, those that `order` (NULL: the first ones) says; v NULL: positions alone. */
+void hooke_net_rows(ptrdiff_t count, const int32_t *order, const double *const q[3], const double *const v[3],
+                    double *rows);
+
+#endif

@@ -1,0 +1,56 @@
+#include "agree.h"
+
+#include "check.h"
+#include "run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int64_t lost_springs(const struct canonical *c, const double *q) {
+  int64_t lost = 0;
+  for (int64_t s = 0; s < c->spring_count; s++) {
+    const double *i = q + 3 * c->ends[2 * s], *j = q + 3 * c->ends[2 * s + 1];
+    lost += c->rest_length[s] != 0.0 && i[0] == j[0] && i[1] == j[1] && i[2] == j[2];
+  }
+  return lost;
+}
+
+static void check_steps(const hooke_system *system, const struct canonical *c, const char *method,
+                        const double *q0, const double *v0) {
+  const int64_t size = 3 * c->particle_count;
+  const double h = 0.0009765;
+  double *q = new_doubles(size), *v = new_doubles(size);
+  memcpy(q, q0, (size_t)size * sizeof *q);
+  memcpy(v, v0, (size_t)size * sizeof *v);
+  hooke_state *state = start_state(system);
+  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
+  int64_t lost = 0;
+  for (int k = 0; k < 3; k++) {
+    lost = lost_springs(c, q);
+    assert_int_equal(canonical_step(c, method, k * h, (k + 1) * h, h, q, v), CANONICAL_STEPPED);
+  }
+  check_ok(hooke_integrator_step(integrator, state, 3));
+  check_same_bits(size, hooke_state_position(state), q);
+  check_same_bits(size, hooke_state_velocity(state), v);
+  if (strcmp(method, "rk4") != 0) {
+    assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), lost);
+    assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 3);
+  }
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  free(q);
+  free(v);
+}
+
+void check_agrees(const hooke_system *system, const struct canonical *c, const double *q, const double *v) {
+  const int64_t size = 3 * c->particle_count;
+  double *found = new_doubles(size), *expected = new_doubles(size);
+  check_ok(hooke_system_acceleration(system, 0.0, q, v, found));
+  canonical_acceleration(c, 0.0, q, v, expected);
+  check_same_bits(size, found, expected);
+  check_steps(system, c, "symplectic-euler", q, v);
+  check_steps(system, c, "forward-euler", q, v);
+  check_steps(system, c, "rk4", q, v);
+  free(found);
+  free(expected);
+}

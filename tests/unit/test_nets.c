@@ -1,0 +1,232 @@
+/* Systems whose springs form a net: sums and steps have the bits of the plain order, whatever the numbers of particles and
+ * springs are. */
+#include "agree.h"
+#include "check.h"
+#include "random.h"
+
+#include "model/system.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Sides of sheets; only the springs of a large one are stored by the law that they follow. */
+enum { SMALL = 30, LARGE = 220, MOST_PARTICLES = LARGE * LARGE, MOST_SPRINGS = 5 * MOST_PARTICLES };
+
+/* What is asked of a scene: a sheet, its numbers as they come or in no order, cut up into groups. */
+enum { AS_BUILT, SPRINGS_IN_NO_ORDER, ALL_IN_NO_ORDER };
+enum { ONE_LENGTH, LENGTHS, STRAIN, OF_ITS_OWN, MATERIALS };
+
+struct sheet {
+  int64_t side, particles, springs, ends[2 * MOST_SPRINGS], number[MOST_PARTICLES];
+  double q[3 * MOST_PARTICLES], v[3 * MOST_PARTICLES], mass[MOST_PARTICLES];
+  double gravity[3];
+};
+
+static void swap(int64_t *a, int64_t *b) {
+  const int64_t kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+/* Every particle with some of its neighbours, and now and then with the same one twice. */
+static void join(struct random_source *source, struct sheet *sheet) {
+  static const int step[5][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}, {0, 2}};
+  sheet->springs = 0;
+  for (int64_t p = 0; p < sheet->particles; p++) {
+    for (int k = 0; k < 5; k++) {
+      const int64_t side = sheet->side, row = p / side + step[k][0], column = p % side + step[k][1];
+      if (row >= side || column < 0 || column >= side || random_whole(source, 0, 3) == 0) continue;
+      const int64_t other =
+          random_whole(source, 0, 60) == 0 ? (p + 1) % sheet->particles : row * side + column;
+      const int turned = random_whole(source, 0, 1) == 0;
+      int64_t *ends = sheet->ends + 2 * sheet->springs++;
+      ends[turned] = sheet->number[p];
+      ends[!turned] = sheet->number[other];
+    }
+  }
+}
+
+static void draw_sheet(struct random_source *source, int order, struct sheet *sheet) {
+  for (int64_t p = 0; p < sheet->particles; p++)
+    sheet->number[p] = p;
+  for (int64_t p = sheet->particles - 1; p > 0 && order == ALL_IN_NO_ORDER; p--)
+    swap(&sheet->number[p], &sheet->number[random_whole(source, 0, p)]);
+  join(source, sheet);
+  for (int64_t s = sheet->springs - 1; s > 0 && order != AS_BUILT; s--) {
+    const int64_t other = random_whole(source, 0, s);
+    swap(&sheet->ends[2 * s], &sheet->ends[2 * other]);
+    swap(&sheet->ends[2 * s + 1], &sheet->ends[2 * other + 1]);
+  }
+  for (int64_t p = 0; p < sheet->particles; p++) {
+    double *q = sheet->q + 3 * sheet->number[p];
+    q[0] = 0.1 * (double)(p % sheet->side) + random_between(source, 0.0, 0.03);
+    q[1] = random_between(source, 0.0, 0.03);
+    q[2] = 0.1 * (double)(p / sheet->side) + random_between(source, 0.0, 0.03);
+    sheet->mass[p] = random_between(source, 0.5, 2.0);
+  }
+  for (int64_t k = 0; k < 3 * sheet->particles; k++)
+    sheet->v[k] = random_between(source, -1.0, 1.0);
+  memcpy(sheet->q + 3 * sheet->number[7], sheet->q + 3 * sheet->number[8], 3 * sizeof(double));
+}
+
+static void add_group(struct random_source *source, const struct sheet *sheet, hooke_system *system,
+                      int64_t from, int64_t count, int material) {
+  hooke_options *options;
+  check_ok(hooke_spring_options_create(&options));
+  double *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
+  const int pulls = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 3) > 0;
+  for (int64_t k = 0; k < count; k++) {
+    const int own = k == 0 || material == OF_ITS_OWN;
+    kappa[k] = own ? random_between(source, 1.0, 100.0) : kappa[0];
+    gamma[k] = !damped ? 0.0 : own ? random_between(source, 0.0, 1.0) : gamma[0];
+    length[k] = k == 0 || material != ONE_LENGTH ? random_between(source, 0.05, 0.2) : length[0];
+  }
+  check_ok(hooke_options_set_text(options, "law", material == STRAIN ? "strain" : "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
+  check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
+  check_ok(hooke_options_set_numbers(options, "rest_length", count, length));
+  check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
+  check_ok(hooke_system_add_springs(system, pulls ? "pull" : "push", count, sheet->ends + 2 * from, options));
+  hooke_options_destroy(options);
+  free(kappa);
+  free(gamma);
+  free(length);
+}
+
+static hooke_system *build(struct random_source *source, struct sheet *sheet, int groups, int material,
+                           double *drag) {
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  const int64_t pinned[] = {3, sheet->particles - 1};
+  for (int a = 0; a < 3; a++)
+    sheet->v[3 * pinned[0] + a] = sheet->v[3 * pinned[1] + a] = 0.0;
+  check_ok(hooke_system_add_particles(system, sheet->particles, sheet->q, sheet->v, sheet->particles,
+                                      sheet->mass, NULL));
+  check_ok(hooke_system_pin(system, 2, pinned));
+  for (int g = 0; g < groups; g++) {
+    const int64_t from = g * sheet->springs / groups, to = (g + 1) * sheet->springs / groups;
+    add_group(source, sheet, system, from, to - from, material);
+  }
+  sheet->gravity[1] = random_whole(source, 0, 1) ? -9.81 : 0.0;
+  *drag = random_whole(source, 0, 1) ? 0.25 : 0.0;
+  check_ok(hooke_system_set_gravity(system, sheet->gravity));
+  check_ok(hooke_system_set_drag(system, *drag));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* What the springs were given is what the system answers, and no more is stored than the law needs. */
+static void check_material(const hooke_system *system, const struct canonical *c, int groups, int material,
+                           int64_t side) {
+  const struct hooke_net *net = &system->net;
+  const int of_its_own =
+      material == OF_ITS_OWN || groups > HOOKE_NET_CLASSES || (material == STRAIN && side == SMALL);
+  assert_int_equal(net->kappa != NULL, of_its_own);
+  assert_int_equal(net->rest_length != NULL, of_its_own || material != ONE_LENGTH);
+  assert_in_range(net->classes, 1, of_its_own ? 2 : groups);
+  assert_int_equal(system->springs.mixed_count, 0);
+  for (int64_t s = 0; s < c->spring_count; s++)
+    assert_true(c->kappa[s] > 0.0 && c->rest_length[s] >= 0.05);
+}
+
+static void check_numbering(const struct hooke_net *net, int order) {
+  if (order != ALL_IN_NO_ORDER) {
+    assert_null(net->order);
+    return;
+  }
+  assert_non_null(net->order);
+  unsigned char *seen = new_block(net->particles, 1);
+  for (int64_t p = 0; p < net->particles; p++) {
+    assert_in_range(net->order[p], 0, net->particles - 1);
+    assert_false(seen[net->order[p]]++);
+  }
+  free(seen);
+  assert_in_range(net->rows, HOOKE_TILE,
+                  net->particles < 1000 ? 3 * HOOKE_TILE : net->particles / 8); /* neighbours are near */
+}
+
+static void compare(uint64_t seed, int64_t side, int order, int groups, int material) {
+  struct random_source source = {seed};
+  struct sheet *sheet = new_block(1, (int64_t)sizeof *sheet);
+  sheet->side = side;
+  sheet->particles = side * side;
+  draw_sheet(&source, order, sheet);
+  struct canonical c;
+  double drag;
+  hooke_system *system = build(&source, sheet, groups, material, &drag);
+  assert_int_equal(system->net.particles, sheet->particles);
+  assert_int_equal(system->lanes.count, 0);
+  canonical_create(system, &c);
+  c.gravity = sheet->gravity[1] != 0.0 ? sheet->gravity : NULL;
+  c.drag = drag;
+  check_material(system, &c, groups, material, sheet->side);
+  check_numbering(&system->net, order);
+  check_agrees(system, &c, sheet->q, sheet->v);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+  free(sheet);
+}
+
+static void test_same_bits(void **unused) {
+  (void)unused;
+  static const int groups[] = {1, 3, 20};
+  uint64_t seed = 0;
+  for (int order = AS_BUILT; order <= ALL_IN_NO_ORDER; order++) {
+    for (int g = 0; g < 3; g++) {
+      for (int material = 0; material < MATERIALS; material++)
+        compare(++seed, SMALL, order, groups[g], material);
+    }
+  }
+}
+
+static void test_same_bits_by_law(void **unused) {
+  (void)unused;
+  compare(101, LARGE, ALL_IN_NO_ORDER, 1, STRAIN);
+  compare(102, LARGE, AS_BUILT, 3, STRAIN);
+  compare(103, LARGE, ALL_IN_NO_ORDER, 3, LENGTHS);
+}
+
+/* So many springs between neighbours that places in the ring need more than 16 bits. */
+static void test_wide(void **unused) {
+  (void)unused;
+  enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };
+  struct random_source source = {5};
+  double q[3 * CHAIN], v[3 * CHAIN], mass[CHAIN];
+  int64_t *ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
+  for (int p = 0; p < CHAIN; p++) {
+    mass[p] = random_between(&source, 100.0, 200.0);
+    for (int a = 0; a < 3; a++) {
+      q[3 * p + a] = (a == 0 ? 0.1 * p : 0.0) + random_between(&source, 0.0, 0.02);
+      v[3 * p + a] = random_between(&source, -1.0, 1.0);
+    }
+  }
+  for (int64_t s = 0; s < COUNT; s++) {
+    const int64_t low = (s * 7919) % (CHAIN - 1), turned = random_whole(&source, 0, 1);
+    ends[2 * s + turned] = low;
+    ends[2 * s + 1 - turned] = low + 1;
+  }
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
+  check_ok(hooke_options_set_number(options, "damping", 0.01));
+  check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(system->net.particles, CHAIN);
+  assert_true(system->net.wide);
+  struct canonical c;
+  canonical_create(system, &c);
+  check_agrees(system, &c, q, v);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+  free(ends);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
+                                     cmocka_unit_test(test_same_bits_by_law), cmocka_unit_test(test_wide)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
