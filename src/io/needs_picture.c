@@ -61,9 +61,16 @@ static int32_t add_positions(struct hooke_text *data, const hooke_needs *needs, 
 
 /* ---- all of it ---- */
 
+/* That is judged and that both paths have. */
+static int64_t last_frame(const hooke_needs *needs) {
+  int64_t frames = needs->judged;
+  if (needs->path.recorded < frames) frames = needs->path.recorded;
+  return (needs->lean_path.recorded < frames ? needs->lean_path.recorded : frames) - 1;
+}
+
 static int32_t add(struct hooke_text *data, const hooke_needs *needs, struct hooke_picture *p,
                    const char *watched) {
-  const int64_t frame = needs->judged - 1, springs = choose(p, watched);
+  const int64_t frame = last_frame(needs), springs = choose(p, watched);
   hooke_text_open(data, "picture", '{');
   hooke_text_number(data, "time", (double)frame * needs->every);
   hooke_text_number(data, "springs", (double)springs);
@@ -78,7 +85,7 @@ static int32_t add(struct hooke_text *data, const hooke_needs *needs, struct hoo
 
 void hooke_needs_picture_add(struct hooke_text *data, const hooke_needs *needs) {
   struct hooke_picture p;
-  if (needs->lean == NULL) return;
+  if (needs->lean_path.position == NULL) return;
   int32_t status = hooke_picture_create(needs->system, &p);
   char *watched = find_watched(needs);
   if (status == HOOKE_OK) status = watched ? add(data, needs, &p, watched) : HOOKE_NO_MEMORY;
