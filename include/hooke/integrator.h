@@ -4,7 +4,7 @@
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
  * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], newton, rtol, atol [m],
- * atol_velocity [m/s], max_order, max_steps, threads.
+ * atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without

@@ -5,7 +5,7 @@
 #if HOOKE_HAVE_SUNDIALS
 
 #include "core/status.h"
-#include "integrate/sundials_problem.h"
+#include "integrate/sundials_linear.h"
 
 #include <arkode/arkode_arkstep.h>
 #include <float.h>
@@ -23,10 +23,17 @@ static void destroy(hooke_integrator *it) {
   hooke_sundials_release(it);
 }
 
+static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
+  N_Vector predicted, slope, start;
+  void *ctx;
+  return ARKStepGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &start, &ctx);
+}
+
 static int attach_solver(hooke_integrator *it, struct hooke_sundials *own) {
+  own->where = where;
   int flag = ARKStepSetLinearSolver(own->memory, own->linear, NULL);
   if (flag == ARK_SUCCESS) flag = ARKStepSetEpsLin(own->memory, hooke_sundials_linear_share(it));
-  if (flag != ARK_SUCCESS || it->rate) return flag;
+  if (flag != ARK_SUCCESS || it->rate || hooke_sundials_linear_is_own(it)) return flag;
   return ARKStepSetJacTimes(own->memory, hooke_sundials_product_setup, hooke_sundials_product);
 }
 

@@ -41,7 +41,7 @@ static int32_t create(hooke_integrator *it) {
   own->change = own->v + it->size;
   own->right = own->change + it->size;
   own->moved = own->right + it->size;
-  return hooke_reduced_create(it, 0, &own->reduced);
+  return hooke_reduced_create(it, HOOKE_REDUCED_GENERAL, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {
@@ -287,6 +287,7 @@ static int32_t converge(hooke_integrator *it) {
 static int32_t step(hooke_integrator *it) {
   struct backward_euler *own = it->own;
   hooke_motion_save(it->motion, own->start);
+  hooke_reduced_drop_factor(&own->reduced); /* a step hangs on its start alone */
   int32_t status = linearise(it);
   if (status == HOOKE_OK && !own->one_iteration) status = converge(it);
   if (status == HOOKE_OK) {

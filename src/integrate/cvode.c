@@ -6,6 +6,7 @@
 
 #include "core/status.h"
 #include "integrate/cvode_order.h"
+#include "integrate/sundials_linear.h"
 
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -23,14 +24,22 @@ static void destroy(hooke_integrator *it) {
   hooke_sundials_release(it);
 }
 
+static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
+  N_Vector predicted, slope, first;
+  realtype scale;
+  void *ctx;
+  return CVodeGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &scale, &first, &ctx);
+}
+
 static int attach_solver(hooke_integrator *it, struct hooke_sundials *own) {
   if (!is_bdf(it)) {
     own->nonlinear = SUNNonlinSol_FixedPoint(own->y, 0, own->context);
     return own->nonlinear ? CVodeSetNonlinearSolver(own->memory, own->nonlinear) : CV_MEM_FAIL;
   }
+  own->where = where;
   int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
   if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, hooke_sundials_linear_share(it));
-  if (flag != CV_SUCCESS || it->rate) return flag;
+  if (flag != CV_SUCCESS || it->rate || hooke_sundials_linear_is_own(it)) return flag;
   return CVodeSetJacTimes(own->memory, hooke_sundials_product_setup, hooke_sundials_product);
 }
 

@@ -50,17 +50,19 @@ void hooke_order_choice_begin(struct hooke_order_choice *c, double t) {
 
 /* ---- the fastest modes ---- */
 
-/* Mass of the free particle that has row k of y. */
-static double mass_of(const hooke_integrator *it, const struct hooke_unknowns *u, int64_t k) {
-  return it->system->mass[u->free ? u->free[k / 3] : k / 3];
-}
-
-/* Both over the rows of velocities; x and p are its scratch. */
+/* Both over the unknowns that are velocities; x and p are its scratch. */
 static double product_of(const hooke_integrator *it, const struct hooke_unknowns *u, const double *x,
                          const double *p) {
   double sum = 0.0;
-  for (int64_t k = 0; k < 3 * u->free_count; k++)
-    sum += mass_of(it, u, k) * x[k] * p[k];
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const double *mass = it->system->mass + s->particle;
+      const int64_t from = a * u->free_count + s->place;
+      for (int64_t j = 0; j < s->count; j++)
+        sum += mass[j] * x[from + j] * p[from + j];
+    }
+  }
   return sum;
 }
 

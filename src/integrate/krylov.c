@@ -186,3 +186,90 @@ int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, dou
     if (status != HOOKE_OK) return status;
   }
 }
+
+/* ---- GMRES ---- */
+
+enum { SPACE = HOOKE_MINIMAL_SPACE };
+
+struct minimal {
+  const struct hooke_operator *a;
+  double *v[SPACE + 1];       /* an orthonormal basis */
+  double h[SPACE][SPACE + 1]; /* columns of the triangle */
+  double c[SPACE], s[SPACE];  /* rotations */
+  double right[SPACE + 1];    /* rotated */
+};
+
+/* Column j of the basis and of the triangle. `broken` where nothing new came, or numbers that are not finite. */
+static int32_t extend(struct minimal *g, int j, int *broken) {
+  const int64_t size = g->a->size;
+  double *h = g->h[j], *next = g->v[j + 1];
+  const int32_t status = g->a->apply(g->a->ctx, g->v[j], next);
+  if (status != HOOKE_OK) return status;
+  for (int i = 0; i <= j; i++) {
+    h[i] = hooke_long_dot(size, next, g->v[i]);
+    hooke_add_multiple(size, -h[i], g->v[i], next);
+  }
+  const double length = sqrt(hooke_long_dot(size, next, next));
+  for (int i = 0; i < j; i++) {
+    const double first = g->c[i] * h[i] + g->s[i] * h[i + 1];
+    h[i + 1] = g->c[i] * h[i + 1] - g->s[i] * h[i];
+    h[i] = first;
+  }
+  const double radius = sqrt(h[j] * h[j] + length * length);
+  *broken = !(radius > 0.0 && radius < INFINITY);
+  if (*broken) return HOOKE_OK;
+  g->c[j] = h[j] / radius;
+  g->s[j] = length / radius;
+  h[j] = radius;
+  g->right[j + 1] = -g->s[j] * g->right[j];
+  g->right[j] *= g->c[j];
+  if (length > 0.0) hooke_scale(size, 1.0 / length, next, next);
+  return HOOKE_OK;
+}
+
+/* x += the combination of the first `count` of the basis that the triangle gives. */
+static void combine(struct minimal *g, int count, double *x) {
+  double share[SPACE];
+  for (int j = count - 1; j >= 0; j--) {
+    double left = g->right[j];
+    for (int i = j + 1; i < count; i++)
+      left -= g->h[i][j] * share[i];
+    share[j] = left / g->h[j][j];
+  }
+  for (int j = 0; j < count; j++)
+    hooke_add_multiple(g->a->size, share[j], g->v[j], x);
+}
+
+int32_t hooke_solve_minimal(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
+                            double *scratch, double *x, struct hooke_solution *solution) {
+  const int64_t size = a->size;
+  struct minimal g = {.a = a};
+  for (int k = 0; k <= SPACE; k++)
+    g.v[k] = scratch + k * size;
+  *solution = (struct hooke_solution){0};
+  memset(x, 0, (size_t)size * sizeof(double));
+  copy(size, b, g.v[0]);
+  for (int broken = 0; !broken;) {
+    const double length = solution->residual = norm(size, g.v[0]);
+    solution->converged = length <= tolerance;
+    if (solution->converged || solution->iterations >= limit || !(length < INFINITY)) return HOOKE_OK;
+    hooke_scale(size, 1.0 / length, g.v[0], g.v[0]);
+    g.right[0] = length;
+    int count = 0;
+    while (count < SPACE && solution->iterations < limit && solution->residual > tolerance) {
+      const int32_t status = extend(&g, count, &broken);
+      if (status != HOOKE_OK) return status;
+      if (broken) break;
+      solution->residual = fabs(g.right[++count]);
+      solution->iterations++;
+    }
+    combine(&g, count, x);
+    solution->converged = !broken && solution->residual <= tolerance;
+    if (solution->converged || broken) return HOOKE_OK;
+    const int32_t status = a->apply(a->ctx, x, g.v[1]);
+    if (status != HOOKE_OK) return status;
+    for (int64_t k = 0; k < size; k++)
+      g.v[0][k] = b[k] - g.v[1][k];
+  }
+  return HOOKE_OK;
+}

@@ -12,11 +12,13 @@ struct hooke_operator {
   void *ctx;
 };
 
-/* Vectors of scratch that each of the two needs. */
+/* Vectors of scratch that each of them needs. */
 enum {
   HOOKE_SYMMETRIC_VECTORS = 3,
   HOOKE_GENERAL_SWEEP = 4,
-  HOOKE_GENERAL_VECTORS = 2 * HOOKE_GENERAL_SWEEP + 3
+  HOOKE_GENERAL_VECTORS = 2 * HOOKE_GENERAL_SWEEP + 3,
+  HOOKE_MINIMAL_SPACE = 30,
+  HOOKE_MINIMAL_VECTORS = HOOKE_MINIMAL_SPACE + 1
 };
 
 struct hooke_solution {
@@ -34,6 +36,11 @@ int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, d
 /* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. Not converged
  * also where rounding allows no smaller residual; `residual` tells. */
 int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
+                            double *scratch, double *x, struct hooke_solution *solution);
+
+/* GMRES (Saad and Schultz 1986), started again each time that its space is full: the smallest residual that so many
+ * products allow, for few of them. `tolerance` is absolute, and so is `residual`. */
+int32_t hooke_solve_minimal(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
                             double *scratch, double *x, struct hooke_solution *solution);
 
 #endif

@@ -66,6 +66,12 @@ static const struct hooke_option_row run_rows[] = {
      .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
             "arkode-esdirk (3 to 5); if not given the highest, which cvode-bdf at rtol >= 1e-6 lowers to 2 "
             "where stiff springs are weakly damped"},
+    {.name = "linear_solver",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "auto direct blocks gmres",
+     .fallback = "auto",
+     .doc = "how cvode-bdf and arkode-esdirk solve their linear equations: by iterations after a sparse "
+            "factorisation (direct) or one of 3x3 blocks (blocks), as it pays (auto), or by plain gmres"},
     {.name = "max_steps",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,

@@ -1,6 +1,7 @@
 #if HOOKE_HAVE_SUNDIALS
 
-#include "integrate/sundials_problem.h"
+#include "integrate/sundials_linear.h"
+#include "integrate/sundials_vector.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -8,7 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sunlinsol/sunlinsol_spgmr.h>
 
 static int32_t no_memory(const hooke_integrator *it, int64_t size) {
   return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s on %lld numbers", it->method->name,
@@ -22,17 +22,14 @@ int32_t hooke_sundials_create(hooke_integrator *it, int32_t implicit, int64_t ve
   const int32_t status = hooke_unknowns_create(it, implicit, &own->unknowns);
   if (status != HOOKE_OK) return status;
   const int64_t size = own->unknowns.size;
-  if (implicit) vectors += HOOKE_KRYLOV_VECTORS;
   it->own_memory += vectors * size * (int64_t)sizeof(double);
   if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
-  own->y = N_VNew_Serial(size, own->context);
-  own->tolerance = N_VNew_Serial(size, own->context);
+  own->y = hooke_sundials_vector(size, own->context);
+  own->tolerance = hooke_sundials_vector(size, own->context);
   if (own->y == NULL || own->tolerance == NULL) return no_memory(it, size);
   N_VConst(0.0, own->y);
   hooke_unknowns_tolerance(it, &own->unknowns, N_VGetArrayPointer(own->tolerance));
-  if (!implicit) return HOOKE_OK;
-  own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
-  return own->linear ? HOOKE_OK : no_memory(it, size);
+  return implicit ? hooke_sundials_linear_create(it) : HOOKE_OK;
 }
 
 void hooke_sundials_release(hooke_integrator *it) {
@@ -65,6 +62,7 @@ double hooke_sundials_linear_share(const hooke_integrator *it) {
 void hooke_sundials_load(hooke_integrator *it, const hooke_state *state) {
   struct hooke_sundials *own = it->own;
   hooke_unknowns_load(it, &own->unknowns, state, N_VGetArrayPointer(own->y));
+  hooke_sundials_linear_begin(it);
   own->before = it->count;
   own->message[0] = '\0';
 }

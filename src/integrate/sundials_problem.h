@@ -18,6 +18,8 @@ struct hooke_sundials {
   struct hooke_unknowns unknowns;
   SUNContext context;
   void *memory; /* the solver's own; its method frees it */
+  /* where a Newton iteration is: time, gamma and unknowns; a flag */
+  int (*where)(void *memory, realtype *t, realtype *gamma, N_Vector *y);
   N_Vector y, tolerance;
   SUNLinearSolver linear;
   SUNNonlinearSolver nonlinear;
@@ -26,8 +28,8 @@ struct hooke_sundials {
   char message[512];                 /* the solver's last complaint */
 };
 
-/* Makes integrator->own with context, vectors and tolerances. `implicit`: with GMRES and room for products of the
- * derivative; `vectors`: how many the solver keeps besides, for the count of memory. HOOKE_NO_MEMORY. */
+/* Makes integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and room for products of
+ * the derivative; `vectors`: how many the solver keeps besides, for the count of memory. HOOKE_NO_MEMORY. */
 int32_t hooke_sundials_create(hooke_integrator *integrator, int32_t implicit, int64_t vectors);
 /* All but `memory`, which goes first. */
 void hooke_sundials_release(hooke_integrator *integrator);

@@ -6,11 +6,17 @@
 
 #include <string.h>
 
-static int32_t list_free(const hooke_system *system, struct hooke_unknowns *u) {
-  u->free = hooke_new(u->free_count, sizeof *u->free);
-  if (u->free == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t p = 0, k = 0; p < system->particle_count; p++) {
-    if (!system->held[p]) u->free[k++] = (int32_t)p;
+static int32_t find_stretches(const hooke_system *system, struct hooke_unknowns *u) {
+  u->stretch = hooke_new(system->held_count + 1, sizeof *u->stretch);
+  if (u->stretch == NULL) return HOOKE_NO_MEMORY;
+  int64_t from = 0, place = 0;
+  for (int64_t k = 0; k <= system->held_count; k++) {
+    const int64_t to = k < system->held_count ? system->held_particle[k] : system->particle_count;
+    if (to > from) {
+      u->stretch[u->stretch_count++] = (struct hooke_stretch_of_free){from, place, to - from};
+      place += to - from;
+    }
+    from = to + 1;
   }
   return HOOKE_OK;
 }
@@ -20,7 +26,7 @@ int32_t hooke_unknowns_create(hooke_integrator *it, int32_t products, struct hoo
   if (it->rate) return HOOKE_OK;
   u->free_count = it->system->particle_count - it->system->held_count;
   u->size = u->free_count > 0 ? 6 * u->free_count : 1;
-  if (it->system->held_count > 0 && list_free(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (!products) return HOOKE_OK;
   u->rows = hooke_new(5 * it->size, sizeof(double));
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
@@ -28,7 +34,7 @@ int32_t hooke_unknowns_create(hooke_integrator *it, int32_t products, struct hoo
 }
 
 void hooke_unknowns_release(struct hooke_unknowns *u) {
-  hooke_free(u->free);
+  hooke_free(u->stretch);
   hooke_free(u->rows);
   *u = (struct hooke_unknowns){0};
 }
@@ -40,32 +46,43 @@ void hooke_unknowns_tolerance(const hooke_integrator *it, const struct hooke_unk
     tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
 }
 
-/* ---- between y and rows of all particles; held ones keep what the rows have ---- */
+/* ---- between y and all particles ---- */
 
-static void pack(const struct hooke_unknowns *u, const double *q, const double *v, double *y) {
-  const int64_t m = u->free_count;
-  if (u->free == NULL) {
-    memcpy(y, q, (size_t)(3 * m) * sizeof(double));
-    memcpy(y + 3 * m, v, (size_t)(3 * m) * sizeof(double));
-    return;
-  }
-  for (int64_t k = 0; k < m; k++) {
-    memcpy(y + 3 * k, q + 3 * (int64_t)u->free[k], 3 * sizeof(double));
-    memcpy(y + 3 * (m + k), v + 3 * (int64_t)u->free[k], 3 * sizeof(double));
+void hooke_unknowns_gather(const struct hooke_unknowns *u, const double *const all[3], double *some) {
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      memcpy(some + a * u->free_count + s->place, all[a] + s->particle, (size_t)s->count * sizeof(double));
+    }
   }
 }
 
-static void unpack(const struct hooke_unknowns *u, const double *y, double *q, double *v) {
-  const int64_t m = u->free_count;
-  if (u->free == NULL) {
-    memcpy(q, y, (size_t)(3 * m) * sizeof(double));
-    memcpy(v, y + 3 * m, (size_t)(3 * m) * sizeof(double));
-    return;
+void hooke_unknowns_spread(const struct hooke_unknowns *u, const double *some, double *const all[3]) {
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      memcpy(all[a] + s->particle, some + a * u->free_count + s->place, (size_t)s->count * sizeof(double));
+    }
   }
-  for (int64_t k = 0; k < m; k++) {
-    memcpy(q + 3 * (int64_t)u->free[k], y + 3 * k, 3 * sizeof(double));
-    memcpy(v + 3 * (int64_t)u->free[k], y + 3 * (m + k), 3 * sizeof(double));
+}
+
+/* Rows of x y z of the free particles; those of the others stay. */
+static void spread_to_rows(const struct hooke_unknowns *u, const double *some, double *rows) {
+  for (int64_t k = 0; k < u->stretch_count; k++) {
+    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    const double *x = some + s->place, *y = x + u->free_count, *z = y + u->free_count;
+    double *row = rows + 3 * s->particle;
+    for (int64_t p = 0; p < s->count; p++, row += 3) {
+      row[0] = x[p];
+      row[1] = y[p];
+      row[2] = z[p];
+    }
   }
+}
+
+static void gather_motion(const struct hooke_unknowns *u, const struct hooke_motion *motion, double *y) {
+  hooke_unknowns_gather(u, (const double *const *)motion->q, y);
+  hooke_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
 }
 
 void hooke_unknowns_load(hooke_integrator *it, const struct hooke_unknowns *u, const hooke_state *state,
@@ -76,7 +93,7 @@ void hooke_unknowns_load(hooke_integrator *it, const struct hooke_unknowns *u, c
   }
   y[0] = 0.0; /* stays where nothing is free */
   hooke_motion_load(it->system, it->motion, state->q, state->v);
-  pack(u, state->q, state->v, y);
+  gather_motion(u, it->motion, y);
 }
 
 int32_t hooke_unknowns_store(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y,
@@ -88,27 +105,17 @@ int32_t hooke_unknowns_store(hooke_integrator *it, const struct hooke_unknowns *
   }
   const int32_t status = hooke_integrator_hold(it, t);
   hooke_motion_store(it->motion, state->q, state->v);
-  unpack(u, y, state->q, state->v);
+  spread_to_rows(u, y, state->q);
+  spread_to_rows(u, y + 3 * u->free_count, state->v);
   return status;
 }
 
 /* ---- the right-hand side ---- */
 
-/* Puts y and the held particles of time t into the working copy. */
-static int32_t place(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y) {
-  struct hooke_motion *motion = it->motion;
-  const int64_t m = u->free_count;
-  if (u->free == NULL) {
-    hooke_components_from_rows(m, y, motion->q);
-    hooke_components_from_rows(m, y + 3 * m, motion->v);
-    return HOOKE_OK;
-  }
-  for (int a = 0; a < 3; a++) {
-    for (int64_t k = 0; k < m; k++) {
-      motion->q[a][u->free[k]] = y[3 * k + a];
-      motion->v[a][u->free[k]] = y[3 * (m + k) + a];
-    }
-  }
+int32_t hooke_unknowns_place(hooke_integrator *it, const struct hooke_unknowns *u, double t,
+                             const double *y) {
+  hooke_unknowns_spread(u, y, it->motion->q);
+  hooke_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
   return hooke_integrator_hold(it, t);
 }
 
@@ -116,12 +123,16 @@ static int32_t place(hooke_integrator *it, const struct hooke_unknowns *u, doubl
 static double accelerations(const hooke_integrator *it, const struct hooke_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;
-  for (int64_t k = 0; k < u->free_count; k++) {
-    const int64_t p = u->free ? u->free[k] : k;
-    for (int a = 0; a < 3; a++) {
-      const double force = system->inverse_mass[p] * it->motion->f[a][p];
-      out[3 * k + a] = system->has_gravity ? force + system->gravity[a] : force;
-      sum += 0.0 * out[3 * k + a];
+  for (int a = 0; a < 3; a++) {
+    const double g = system->gravity[a];
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
+      double *to = out + a * u->free_count + s->place;
+      for (int64_t p = 0; p < s->count; p++) {
+        to[p] = system->has_gravity ? w[p] * f[p] + g : w[p] * f[p];
+        sum += 0.0 * to[p];
+      }
     }
   }
   return sum;
@@ -144,7 +155,7 @@ int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, d
     slope[0] = 0.0;
     return HOOKE_SLOPE_FINE;
   }
-  if (place(it, u, t, y) != HOOKE_OK || hooke_integrator_forces(it, t) != HOOKE_OK)
+  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK || hooke_integrator_forces(it, t) != HOOKE_OK)
     return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->free_count;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
@@ -156,7 +167,7 @@ int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, d
 int hooke_unknowns_linearise(hooke_integrator *it, const struct hooke_unknowns *u, double t,
                              const double *y) {
   if (u->free_count == 0) return HOOKE_SLOPE_FINE;
-  if (place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
   hooke_motion_store(it->motion, u->rows, u->rows + it->size);
   return HOOKE_SLOPE_FINE;
 }
@@ -168,7 +179,9 @@ int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u,
     return HOOKE_SLOPE_FINE;
   }
   double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
-  unpack(u, direction, dq, dv); /* held particles: zero from the start */
+  const int64_t m = u->free_count;
+  spread_to_rows(u, direction, dq); /* held particles: zero from the start */
+  spread_to_rows(u, direction + 3 * m, dv);
   it->count.derivative_products++;
   int32_t stop_value = 0;
   const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
@@ -176,12 +189,14 @@ int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u,
     it->stop_value = stop_value;
     return HOOKE_SLOPE_STOPPED;
   }
-  const int64_t m = u->free_count;
   memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
-  for (int64_t k = 0; k < m; k++) {
-    const int64_t p = u->free ? u->free[k] : k;
-    for (int a = 0; a < 3; a++)
-      product[3 * (m + k) + a] = it->system->inverse_mass[p] * out[3 * p + a];
+  for (int64_t k = 0; k < u->stretch_count; k++) {
+    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    for (int64_t p = 0; p < s->count; p++) {
+      for (int a = 0; a < 3; a++)
+        product[(3 + a) * m + s->place + p] =
+            it->system->inverse_mass[s->particle + p] * out[3 * (s->particle + p) + a];
+    }
   }
   return HOOKE_SLOPE_FINE;
 }

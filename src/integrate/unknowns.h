@@ -1,16 +1,21 @@
-/* The problem as y' = phi(t, y), for methods that know nothing of particles: y = (q, v) of the free particles in rows
- * of x y z, or x of a first-order problem. Where nothing is free y is one number that stays 0, because solvers take no
- * empty vector. */
+/* The problem as y' = phi(t, y), for methods that know nothing of particles: y = (q, v) of the free particles with x, y
+ * and z apart, as the working copy of a state has them, or x of a first-order problem. Where nothing is free y is one
+ * number that stays 0, because solvers take no empty vector. */
 #ifndef HOOKE_INTEGRATE_UNKNOWNS_H
 #define HOOKE_INTEGRATE_UNKNOWNS_H
 
 #include "integrate/integrator.h"
 
+/* Free particles in a row: those from `particle` on, the first of which is free one number `place`. */
+struct hooke_stretch_of_free {
+  int64_t particle, place, count;
+};
+
 struct hooke_unknowns {
   int64_t size; /* numbers in y */
-  int64_t free_count;
-  int32_t *free; /* free particles, NULL if all are */
-  double *rows;  /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
+  int64_t free_count, stretch_count;
+  struct hooke_stretch_of_free *stretch;
+  double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
 };
 
 /* What the functions below answer, as solvers understand it: a failure to recover from by a smaller step, or one that
@@ -31,6 +36,14 @@ void hooke_unknowns_load(hooke_integrator *integrator, const struct hooke_unknow
                          const hooke_state *state, double *y);
 int32_t hooke_unknowns_store(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
                              const double *y, hooke_state *state);
+
+/* Three components of the free particles (3 free_count) from and to those of all (3 n); those of the others stay. */
+void hooke_unknowns_gather(const struct hooke_unknowns *unknowns, const double *const all[3], double *some);
+void hooke_unknowns_spread(const struct hooke_unknowns *unknowns, const double *some, double *const all[3]);
+
+/* Puts y and the held particles of time t into the working copy; a status. */
+int32_t hooke_unknowns_place(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
+                             const double *y);
 
 /* slope = phi(t, y), counted. */
 int hooke_unknowns_slope(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,

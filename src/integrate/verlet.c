@@ -38,7 +38,7 @@ static int32_t create(hooke_integrator *it) {
   if (!own->damped) return HOOKE_OK;
   own->right = own->start + 2 * it->size;
   own->change = own->right + it->size;
-  return hooke_reduced_create(it, 1, &own->reduced);
+  return hooke_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {

@@ -244,4 +244,7 @@ const struct hooke_spring_set HOOKE_SPRING_SET = {
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
     .bending = HOOKE_BENDING_LOOPS,
+    .vector = &HOOKE_VECTOR_SET,
+    .tangent = &HOOKE_TANGENT_SET,
+    .front = &HOOKE_FRONT_SET,
 };

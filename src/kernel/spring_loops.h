@@ -30,6 +30,9 @@ enum {
 
 struct hooke_run;
 struct hooke_net_loops;
+struct hooke_front_set;
+struct hooke_tangent_set;
+struct hooke_vector_set;
 
 /* Adds the forces of a run; returns how many of its springs had a rest length but no direction. */
 typedef int64_t hooke_spring_loop(const struct hooke_run *run, const struct hooke_fields *fields);
@@ -87,6 +90,9 @@ struct hooke_spring_set {
   hooke_step_loop *kick_then_drift, *drift_then_kick;
   hooke_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hooke_net_loops *net;
+  const struct hooke_vector_set *vector;
+  const struct hooke_tangent_set *tangent;
+  const struct hooke_front_set *front;
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
 

@@ -1,5 +1,5 @@
 /* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises whatever the ends are, sums
- * in spring order afterwards. */
+ * in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
 #include "kernel/tangent_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -37,7 +37,7 @@ HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *f
     const double b = r == 0.0 ? alpha * isotropic : alpha * taut * tension * ir;
     const double along = taut * (alpha * kappa + beta * gamma) - b, turning = taut * alpha * gamma * ir;
     for (int a = 0; a < 3; a++) {
-      const double u = d[a] * ir;
+      const double u = taut * d[a] * ir;
       tangent->u[a][s] = u;
       tangent->e[a][s] = along * u + turning * (w[a] - rate * u);
     }
@@ -45,8 +45,8 @@ HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *f
   }
 }
 
-void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
-                        double beta, const struct hooke_tangent *tangent) {
+static void tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
+                         double beta, const struct hooke_tangent *tangent) {
   if (tangent->b)
     fill(run, fields, alpha, beta, tangent, 0);
   else
@@ -142,8 +142,8 @@ HOOKE_INLINE void multiply(const struct hooke_run *run, const struct hooke_tange
   }
 }
 
-void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                           const double *const x[3], double *const out[3]) {
+static void tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                            const double *const x[3], double *const out[3]) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = tangent->b == NULL;
   if (indexed && axial)
     multiply(run, tangent, x, out, 1, 1);
@@ -157,8 +157,8 @@ void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tange
 
 /* ---- diagonal ---- */
 
-void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *t,
-                            double *const block[6]) {
+static void tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *t,
+                             double *const block[6]) {
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
   const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = t->b == NULL;
   for (ptrdiff_t k = 0; k < run->count; k++) {
@@ -177,3 +177,25 @@ void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tang
     }
   }
 }
+
+/* ---- damping ---- */
+
+static void tangent_damping(const struct hooke_run *run, const struct hooke_tangent *t,
+                            const double *const x[3], double *const out[3]) {
+  const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  for (ptrdiff_t k = 0; k < run->count; k++) {
+    const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
+    const ptrdiff_t s = run->first + k;
+    const double gamma = mixed ? run->gammas[k] : run->gamma;
+    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
+    const double along =
+        gamma * (((x[0][i] - x[0][j]) * u[0] + (x[1][i] - x[1][j]) * u[1]) + (x[2][i] - x[2][j]) * u[2]);
+    for (int a = 0; a < 3; a++) {
+      out[a][i] += along * u[a];
+      out[a][j] -= along * u[a];
+    }
+  }
+}
+
+const struct hooke_tangent_set HOOKE_TANGENT_SET = {tangent_fill, tangent_product, tangent_diagonal,
+                                                    tangent_damping};

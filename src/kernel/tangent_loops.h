@@ -14,6 +14,8 @@ struct hooke_tangent {
   double *u[3], *e[3], *b;
 };
 
+/* The loops are compiled once for each instruction set; these functions take the best that the machine has. */
+
 /* At the positions and velocities of `fields`. */
 void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
                         double beta, const struct hooke_tangent *tangent);
@@ -26,5 +28,20 @@ void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tange
  * either end: xx, yy, zz, xy, xz, yz. */
 void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *tangent,
                             double *const block[6]);
+
+/* out += what springs damp of velocities x: gamma u (u.x) of those that are not slack. */
+void hooke_tangent_damping(const struct hooke_run *run, const struct hooke_tangent *tangent,
+                           const double *const x[3], double *const out[3]);
+
+/* The loops of one instruction set, under the names above. */
+struct hooke_tangent_set {
+  void (*tangent_fill)(const struct hooke_run *, const struct hooke_fields *, double, double,
+                       const struct hooke_tangent *);
+  void (*tangent_product)(const struct hooke_run *, const struct hooke_tangent *, const double *const[3],
+                          double *const[3]);
+  void (*tangent_diagonal)(const struct hooke_run *, const struct hooke_tangent *, double *const[6]);
+  void (*tangent_damping)(const struct hooke_run *, const struct hooke_tangent *, const double *const[3],
+                          double *const[3]);
+};
 
 #endif

@@ -1,12 +1,15 @@
+/* Compiled once per instruction set, with HOOKE_ISA naming it. */
 #include "kernel/vector_loops.h"
 
-enum { PARTS = 8 };
+#include "kernel/instruction_set.h"
+
+enum { PARTS = 8, LONG_PARTS = 32 };
 
 static double sum_of(const double part[PARTS]) {
   return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-double hooke_dot(int64_t size, const double *restrict x, const double *restrict y) {
+static double dot(int64_t size, const double *restrict x, const double *restrict y) {
   double part[PARTS] = {0.0};
   const int64_t whole = size / PARTS * PARTS;
   for (int64_t k = 0; k < whole; k += PARTS) {
@@ -18,8 +21,8 @@ double hooke_dot(int64_t size, const double *restrict x, const double *restrict 
   return sum_of(part);
 }
 
-double hooke_dot_weighed(int64_t n, const double *restrict weight, const double *restrict x,
-                         const double *restrict y) {
+static double dot_weighed(int64_t n, const double *restrict weight, const double *restrict x,
+                          const double *restrict y) {
   double part[PARTS] = {0.0};
   const int64_t whole = n / PARTS * PARTS;
   for (int a = 0; a < 3; a++, x += n, y += n) {
@@ -33,9 +36,9 @@ double hooke_dot_weighed(int64_t n, const double *restrict weight, const double 
   return sum_of(part);
 }
 
-double hooke_lanczos_begin(int64_t n, const double *restrict mass, const double *restrict inverse, double a,
-                           double b, const double *restrict before, const double *restrict x,
-                           double *restrict out) {
+static double lanczos_begin(int64_t n, const double *restrict mass, const double *restrict inverse, double a,
+                            double b, const double *restrict before, const double *restrict x,
+                            double *restrict out) {
   double part[PARTS] = {0.0};
   const int64_t whole = n / PARTS * PARTS;
   for (int c = 0; c < 3; c++, x += n, out += n, before += n) {
@@ -53,8 +56,8 @@ double hooke_lanczos_begin(int64_t n, const double *restrict mass, const double 
   return sum_of(part);
 }
 
-double hooke_lanczos_end(int64_t n, const double *restrict mass, double b, const double *restrict x,
-                         double *restrict out) {
+static double lanczos_end(int64_t n, const double *restrict mass, double b, const double *restrict x,
+                          double *restrict out) {
   double part[PARTS] = {0.0};
   const int64_t whole = n / PARTS * PARTS;
   for (int c = 0; c < 3; c++, x += n, out += n) {
@@ -72,18 +75,18 @@ double hooke_lanczos_end(int64_t n, const double *restrict mass, double b, const
   return sum_of(part);
 }
 
-void hooke_add_multiple(int64_t size, double a, const double *restrict x, double *restrict y) {
+static void add_multiple(int64_t size, double a, const double *restrict x, double *restrict y) {
   for (int64_t k = 0; k < size; k++)
     y[k] += a * x[k];
 }
 
-void hooke_scale_and_add(int64_t size, double b, const double *restrict x, double *restrict y) {
+static void scale_and_add(int64_t size, double b, const double *restrict x, double *restrict y) {
   for (int64_t k = 0; k < size; k++)
     y[k] = x[k] + b * y[k];
 }
 
-void hooke_apply_factor_transposed(int64_t n, const double *restrict w, const double *restrict x,
-                                   double *restrict y) {
+static void apply_factor_transposed(int64_t n, const double *restrict w, const double *restrict x,
+                                    double *restrict y) {
   const double *w11 = w, *w22 = w + n, *w33 = w + 2 * n, *w21 = w + 3 * n, *w31 = w + 4 * n, *w32 = w + 5 * n;
   for (int64_t p = 0; p < n; p++)
     y[p] = (w11[p] * x[p] + w21[p] * x[n + p]) + w31[p] * x[2 * n + p];
@@ -94,7 +97,7 @@ void hooke_apply_factor_transposed(int64_t n, const double *restrict w, const do
 }
 
 /* From the last component up, so that each finds those it needs. */
-void hooke_apply_factor(int64_t n, const double *restrict w, double *x) {
+static void apply_factor(int64_t n, const double *restrict w, double *x) {
   const double *w11 = w, *w22 = w + n, *w33 = w + 2 * n, *w21 = w + 3 * n, *w31 = w + 4 * n, *w32 = w + 5 * n;
   double *restrict a = x, *restrict b = x + n, *restrict c = x + 2 * n;
   for (int64_t p = 0; p < n; p++)
@@ -105,9 +108,123 @@ void hooke_apply_factor(int64_t n, const double *restrict w, double *x) {
     a[p] = w11[p] * a[p];
 }
 
-void hooke_apply_diagonal(int64_t n, const double *restrict d, const double *restrict x, double *restrict y) {
+static void apply_diagonal(int64_t n, const double *restrict d, const double *restrict x,
+                           double *restrict y) {
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < n; p++)
       y[a * n + p] = d[p] * x[a * n + p];
   }
 }
+
+/* ---- one by one ---- */
+
+static void linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = a * x[k] + b * y[k];
+}
+
+static void scale(int64_t size, double a, const double *x, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = a * x[k];
+}
+
+static void multiply(int64_t size, const double *x, const double *y, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = x[k] * y[k];
+}
+
+static void divide(int64_t size, const double *x, const double *y, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = x[k] / y[k];
+}
+
+static void invert(int64_t size, const double *x, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = 1.0 / x[k];
+}
+
+static void absolute(int64_t size, const double *x, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = x[k] < 0.0 ? -x[k] : x[k];
+}
+
+static void add_number(int64_t size, double a, const double *x, double *z) {
+  HOOKE_VECTORISE
+  for (int64_t k = 0; k < size; k++)
+    z[k] = a + x[k];
+}
+
+static double sum_of_long(double part[LONG_PARTS]) {
+  double first[PARTS];
+  for (int p = 0; p < PARTS; p++)
+    first[p] = (part[p] + part[PARTS + p]) + (part[2 * PARTS + p] + part[3 * PARTS + p]);
+  return sum_of(first);
+}
+
+static double sum_of_squares(int64_t size, const double *x, const double *y) {
+  double part[LONG_PARTS] = {0.0};
+  const int64_t whole = size / LONG_PARTS * LONG_PARTS;
+  for (int64_t k = 0; k < whole; k += LONG_PARTS) {
+    for (int p = 0; p < LONG_PARTS; p++)
+      part[p] += (x[k + p] * y[k + p]) * (x[k + p] * y[k + p]);
+  }
+  for (int64_t k = whole; k < size; k++)
+    part[k - whole] += (x[k] * y[k]) * (x[k] * y[k]);
+  return sum_of_long(part);
+}
+
+static double long_dot(int64_t size, const double *x, const double *y) {
+  double part[LONG_PARTS] = {0.0};
+  const int64_t whole = size / LONG_PARTS * LONG_PARTS;
+  for (int64_t k = 0; k < whole; k += LONG_PARTS) {
+    for (int p = 0; p < LONG_PARTS; p++)
+      part[p] += x[k + p] * y[k + p];
+  }
+  for (int64_t k = whole; k < size; k++)
+    part[k - whole] += x[k] * y[k];
+  return sum_of_long(part);
+}
+
+static double largest(int64_t size, const double *x) {
+  double part[PARTS] = {0.0}, most = 0.0;
+  const int64_t whole = size / PARTS * PARTS;
+  for (int64_t k = 0; k < whole; k += PARTS) {
+    for (int p = 0; p < PARTS; p++) {
+      const double value = x[k + p] < 0.0 ? -x[k + p] : x[k + p];
+      part[p] = value > part[p] ? value : part[p];
+    }
+  }
+  for (int64_t k = whole; k < size; k++)
+    part[0] = x[k] > part[0] ? x[k] : -x[k] > part[0] ? -x[k] : part[0];
+  for (int p = 0; p < PARTS; p++)
+    most = part[p] > most ? part[p] : most;
+  return most;
+}
+
+const struct hooke_vector_set HOOKE_VECTOR_SET = {
+    .dot = dot,
+    .add_multiple = add_multiple,
+    .scale_and_add = scale_and_add,
+    .dot_weighed = dot_weighed,
+    .lanczos_begin = lanczos_begin,
+    .lanczos_end = lanczos_end,
+    .apply_factor_transposed = apply_factor_transposed,
+    .apply_factor = apply_factor,
+    .apply_diagonal = apply_diagonal,
+    .linear_sum = linear_sum,
+    .scale = scale,
+    .multiply = multiply,
+    .divide = divide,
+    .invert = invert,
+    .absolute = absolute,
+    .add_number = add_number,
+    .sum_of_squares = sum_of_squares,
+    .long_dot = long_dot,
+    .largest = largest,
+};

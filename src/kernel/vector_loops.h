@@ -1,5 +1,6 @@
-/* Vectors of `size` numbers. Sums go in eight interleaved parts that are added in one order, so that their bits depend
- * on nothing but the numbers. */
+/* Vectors of `size` numbers. Sums go in interleaved parts that are added in one order, so that their bits depend on
+ * nothing but the numbers. The loops are compiled once for each instruction set; these functions take the best that the
+ * machine has. */
 #ifndef HOOKE_KERNEL_VECTOR_LOOPS_H
 #define HOOKE_KERNEL_VECTOR_LOOPS_H
 
@@ -26,5 +27,43 @@ double hooke_lanczos_end(int64_t n, const double *mass, double c, const double *
 void hooke_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y);
 void hooke_apply_factor(int64_t n, const double *w, double *x);
 void hooke_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
+
+/* Loops for libraries that call them one by one; vectors may be the same, and else do not overlap.
+ * z = a x + b y;  z = a x;  z = x y;  z = x/y;  z = 1/x;  z = |x|;  z = a + x */
+void hooke_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z);
+void hooke_scale(int64_t size, double a, const double *x, double *z);
+void hooke_multiply(int64_t size, const double *x, const double *y, double *z);
+void hooke_divide(int64_t size, const double *x, const double *y, double *z);
+void hooke_invert(int64_t size, const double *x, double *z);
+void hooke_absolute(int64_t size, const double *x, double *z);
+void hooke_add_number(int64_t size, double a, const double *x, double *z);
+/* The sums of (x y)^2 and of x y in thirty-two parts, and the largest |x|. */
+double hooke_sum_of_squares(int64_t size, const double *x, const double *y);
+double hooke_long_dot(int64_t size, const double *x, const double *y);
+double hooke_largest(int64_t size, const double *x);
+
+/* The loops of one instruction set, under the names above. */
+struct hooke_vector_set {
+  double (*dot)(int64_t, const double *, const double *);
+  void (*add_multiple)(int64_t, double, const double *, double *);
+  void (*scale_and_add)(int64_t, double, const double *, double *);
+  double (*dot_weighed)(int64_t, const double *, const double *, const double *);
+  double (*lanczos_begin)(int64_t, const double *, const double *, double, double, const double *,
+                          const double *, double *);
+  double (*lanczos_end)(int64_t, const double *, double, const double *, double *);
+  void (*apply_factor_transposed)(int64_t, const double *, const double *, double *);
+  void (*apply_factor)(int64_t, const double *, double *);
+  void (*apply_diagonal)(int64_t, const double *, const double *, double *);
+  void (*linear_sum)(int64_t, double, const double *, double, const double *, double *);
+  void (*scale)(int64_t, double, const double *, double *);
+  void (*multiply)(int64_t, const double *, const double *, double *);
+  void (*divide)(int64_t, const double *, const double *, double *);
+  void (*invert)(int64_t, const double *, double *);
+  void (*absolute)(int64_t, const double *, double *);
+  void (*add_number)(int64_t, double, const double *, double *);
+  double (*sum_of_squares)(int64_t, const double *, const double *);
+  double (*long_dot)(int64_t, const double *, const double *);
+  double (*largest)(int64_t, const double *);
+};
 
 #endif

@@ -101,15 +101,16 @@ static void test_stiff_and_weakly_damped(void **unused) {
   hooke_system *system = rope(STIFF, WEAK);
   const struct outcome exact = run_once(system, (struct ask){"cvode-adams", 1e-8, 1e-11, 0.3, 0});
   struct ask ask = LOOSE;
-  for (int k = 0; k < 2; k++, ask.rtol *= 10.0, ask.atol *= 10.0) {
+  for (int k = 0; k < 2; k++, ask.rtol /= 10.0, ask.atol /= 10.0) {
     const struct outcome chosen = run_with(system, ask, 0);
     const struct outcome low = run_with(system, ask, 2), high = run_with(system, ask, 5);
-    check_between((double)chosen.steps / (double)high.steps, 0.02, 0.5);
+    check_between((double)chosen.steps / (double)high.steps, 0.005, 0.2);
     check_between((double)chosen.steps / (double)low.steps, 0.5, 2.5);
-    /* positions are up to a metre: both are far better than the tolerance asks */
+    /* positions are up to a metre */
     const double error = largest_difference(SIZE, chosen.q, exact.q);
     check_between(error / ask.rtol, 1e-4, 1.0);
-    check_between(error / largest_difference(SIZE, high.q, exact.q), 0.03, 30.0);
+    /* whose many steps, held far below what the tolerance asks, leave less */
+    check_between(error / largest_difference(SIZE, high.q, exact.q), 0.03, 300.0);
   }
   hooke_system_destroy(system);
 }
@@ -165,12 +166,12 @@ static void test_tight_tolerance(void **unused) {
   (void)unused;
   needs_cvode();
   hooke_system *system = rope(STIFF, WEAK);
-  const struct ask last = {"cvode-bdf", 1e-6, 1e-5, 0.1, 0}, tight = {"cvode-bdf", 0.999e-6, 1e-5, 0.1, 0};
+  const struct ask last = {"cvode-bdf", 1e-6, 1e-5, 0.3, 0}, tight = {"cvode-bdf", 0.999e-6, 1e-5, 0.3, 0};
   const struct outcome chosen = run_with(system, last, 0), high = run_with(system, last, 5);
   assert_true(chosen.steps != high.steps);
   hooke_system_destroy(system);
   check_left_alone(STIFF, WEAK, tight);
-  check_left_alone(STIFF, WEAK, (struct ask){"cvode-bdf", 1e-8, 1e-5, 0.1, 0});
+  check_left_alone(STIFF, WEAK, (struct ask){"cvode-bdf", 1e-8, 1e-5, 0.3, 0});
 }
 
 /* Steps that follow the fastest motion: accuracy holds them. */

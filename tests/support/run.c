@@ -14,6 +14,8 @@ hooke_options *run_options(struct run run) {
   check_ok(hooke_run_options_create(&options));
   if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
   if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
+  if (run.linear_solver != NULL)
+    check_ok(hooke_options_set_text(options, "linear_solver", run.linear_solver));
   set_number(options, "step", run.step);
   set_number(options, "duration", run.duration);
   set_number(options, "every", run.every);

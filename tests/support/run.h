@@ -10,7 +10,7 @@ struct run {
   double step, duration, every;
   double rtol, atol;
   int32_t threads;
-  const char *newton; /* NULL: the default */
+  const char *newton, *linear_solver; /* NULL: the default */
 };
 
 /* The caller destroys what these return. */

@@ -1,0 +1,196 @@
+/* The ways in which cvode-bdf and arkode-esdirk solve their linear equations: all lead to the same motion. */
+#include "check.h"
+#include "random_scene.h"
+#include "reference.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const solvers[] = {"auto", "direct", "blocks", "gmres"};
+enum { SOLVERS = sizeof solvers / sizeof solvers[0] };
+
+static void needs_cvode(void) {
+  if (hooke_method_is_built("cvode-bdf") != 1) skip();
+}
+
+static void references_are_met(void **unused) {
+  (void)unused;
+  needs_cvode();
+  for (int k = 0; k < REFERENCE_COUNT; k++) {
+    const struct reference *reference = &references[k];
+    const struct reference_state *last = &reference->state[reference->state_count - 1];
+    const int64_t size = 3 * reference->particle_count;
+    hooke_system *system = build_reference(reference);
+    double *q = new_doubles(size);
+    for (int s = 0; s < SOLVERS; s++) {
+      run_to_end(system,
+                 (struct run){.method = "cvode-bdf",
+                              .rtol = 1e-10,
+                              .atol = 1e-12,
+                              .duration = last->time,
+                              .linear_solver = solvers[s]},
+                 q, NULL);
+      const double error = largest_difference(size, q, last->position) / largest(size, last->position);
+      if (!(error <= 1e-7)) check_failed("%s by %s: error %.3g", reference->name, solvers[s], error);
+    }
+    free(q);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Every force, driven and pinned particles, springs that only pull, callbacks with and without their derivative. */
+static void everything(void **unused) {
+  (void)unused;
+  static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
+  needs_cvode();
+  for (uint64_t seed = 1; seed <= 6; seed++) {
+    struct random_scene scene;
+    random_scene_create((struct random_scene_request){.seed = seed,
+                                                      .particles = 30,
+                                                      .springs = 70,
+                                                      .triples = seed % 2 ? 8 : 0,
+                                                      .rope = seed % 2 ? 5 : 0,
+                                                      .with_product = seed % 3 == 0,
+                                                      .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT},
+                        &scene);
+    const int64_t size = 3 * hooke_system_particle_count(scene.system);
+    double *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
+    struct run run = {.method = "cvode-adams", .rtol = 1e-11, .atol = 1e-13, .duration = 0.4};
+    run_to_end(scene.system, run, expected, expected + size);
+    run.rtol = 1e-9, run.atol = 1e-11;
+    for (int m = 0; m < 2; m++) {
+      for (int s = 0; s < SOLVERS; s++) {
+        run.method = methods[m];
+        run.linear_solver = solvers[s];
+        run_to_end(scene.system, run, found, found + size);
+        const double q = largest_difference(size, found, expected) / largest(size, expected),
+                     v = largest_difference(size, found + size, expected + size) /
+                         largest(size, expected + size);
+        if (!(q <= 1e-6 && v <= 1e-6))
+          check_failed("seed %d, %s by %s: errors %.3g, %.3g", (int)seed, methods[m], solvers[s], q, v);
+      }
+    }
+    free(expected);
+    free(found);
+    random_scene_destroy(&scene);
+  }
+}
+
+/* ---- a stiff, strongly damped rope ---- */
+
+enum { SEGMENTS = 80, PARTICLES = SEGMENTS + 1, SIZE = 3 * PARTICLES };
+
+static hooke_system *rope(double lightest) {
+  const double gravity[3] = {0.0, -9.81, 0.0};
+  double position[SIZE] = {0.0}, mass[PARTICLES];
+  int64_t ends[2 * SEGMENTS];
+  for (int k = 0; k < PARTICLES; k++) {
+    position[3 * k] = (double)k / SEGMENTS;
+    mass[k] = k == 7 ? lightest : 0.25 / PARTICLES;
+  }
+  for (int k = 0; k < SEGMENTS; k++) {
+    ends[2 * k] = k;
+    ends[2 * k + 1] = k + 1;
+  }
+  const int64_t pinned = 0;
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, PARTICLES, position, NULL, PARTICLES, mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  small_springs(system, SEGMENTS, ends, (struct springs){NULL, 1e4, 10.0, -1.0, 0});
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_set_drag(system, 0.2));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+struct counted {
+  int64_t steps, linear;
+  double q[SIZE];
+};
+
+static struct counted run_counted(hooke_integrator *integrator, const hooke_system *system) {
+  struct counted found = {.steps = -hooke_integrator_count(integrator, "steps"),
+                          .linear = -hooke_integrator_count(integrator, "linear_iterations")};
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_run(integrator, state));
+  found.steps += hooke_integrator_count(integrator, "steps");
+  found.linear += hooke_integrator_count(integrator, "linear_iterations");
+  memcpy(found.q, hooke_state_position(state), sizeof found.q);
+  hooke_state_destroy(state);
+  return found;
+}
+
+static hooke_integrator *start(const hooke_system *system, const char *solver) {
+  return start_run(
+      system,
+      (struct run){
+          .method = "cvode-bdf", .rtol = 1e-4, .atol = 1e-7, .duration = 0.3, .linear_solver = solver});
+}
+
+static struct counted run_alone(const hooke_system *system, const char *solver) {
+  hooke_integrator *integrator = start(system, solver);
+  const struct counted found = run_counted(integrator, system);
+  hooke_integrator_destroy(integrator);
+  return found;
+}
+
+/* A factor takes few iterations, and the choice comes to it; also beside a particle of a millionth of the mass. */
+static void factor_pays(void **unused) {
+  (void)unused;
+  needs_cvode();
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = rope(k == 0 ? 0.25 / PARTICLES : 1e-9);
+    double exact[SIZE];
+    run_to_end(
+        system,
+        (struct run){
+            .method = "cvode-bdf", .rtol = 1e-9, .atol = 1e-12, .duration = 0.3, .linear_solver = "direct"},
+        exact, NULL);
+    const struct counted direct = run_alone(system, "direct"), blocks = run_alone(system, "blocks"),
+                         chosen = run_alone(system, "auto");
+    check_between((double)direct.linear / (double)direct.steps, 0.5, 8.0);
+    check_between((double)blocks.linear / (double)direct.linear, 4.0, 1e4);
+    check_between((double)chosen.linear / (double)blocks.linear, 0.0, 0.5);
+    check_between(largest_difference(SIZE, direct.q, exact), 1e-9, 1e-4);
+    check_between(largest_difference(SIZE, blocks.q, exact), 1e-9, 1e-4);
+    check_between(largest_difference(SIZE, chosen.q, exact), 1e-9, 1e-4);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Nothing of a run stays for the next. */
+static void runs_repeat(void **unused) {
+  (void)unused;
+  needs_cvode();
+  hooke_system *system = rope(0.25 / PARTICLES);
+  for (int s = 0; s < SOLVERS - 1; s++) {
+    hooke_integrator *integrator = start(system, solvers[s]);
+    const struct counted first = run_counted(integrator, system), second = run_counted(integrator, system);
+    assert_int_equal(second.steps, first.steps);
+    assert_int_equal(second.linear, first.linear);
+    check_same_bits(SIZE, second.q, first.q);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
+static void words(void **unused) {
+  (void)unused;
+  hooke_options *options = NULL;
+  check_ok(hooke_run_options_create(&options));
+  assert_string_equal(hooke_options_text(options, "linear_solver"), "auto");
+  check_status(hooke_options_set_text(options, "linear_solver", "cholmod"), HOOKE_BAD_VALUE);
+  hooke_options_destroy(options);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(references_are_met), cmocka_unit_test(everything), cmocka_unit_test(factor_pays),
+      cmocka_unit_test(runs_repeat),        cmocka_unit_test(words),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,268 @@
+/* The sparse factor of S against S itself, found column by column from its definition; and GMRES. */
+#include "check.h"
+#include "integrate/krylov.h"
+#include "integrate/reduced.h"
+#include "random.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct bench {
+  struct random_scene scene;
+  hooke_integrator *integrator;
+  struct hooke_reduced reduced;
+  int64_t n;
+};
+
+static void set_up(struct random_scene_request request, double alpha, double beta, struct bench *bench) {
+  random_scene_create(request, &bench->scene);
+  const hooke_system *system = bench->scene.system;
+  bench->n = hooke_system_particle_count(system);
+  double *q = new_doubles(6 * bench->n), *v = q + 3 * bench->n;
+  random_scene_shake(&bench->scene, 7, q, v);
+  bench->integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
+  hooke_motion_load(system, bench->integrator->motion, q, v);
+  check_ok(hooke_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, &bench->reduced));
+  hooke_reduced_set(&bench->reduced, 0.25, alpha, beta);
+  free(q);
+}
+
+static void tear_down(struct bench *bench) {
+  hooke_reduced_release(&bench->reduced);
+  hooke_integrator_destroy(bench->integrator);
+  random_scene_destroy(&bench->scene);
+}
+
+/* out = S x over the free particles, spring by spring. */
+static void multiply(const struct bench *bench, const double *x, double *out) {
+  const hooke_system *system = bench->scene.system;
+  const struct hooke_motion *m = bench->integrator->motion;
+  const double alpha = bench->reduced.alpha, beta = bench->reduced.beta;
+  const int64_t n = bench->n;
+  for (int64_t k = 0; k < 3 * n; k++)
+    out[k] = (system->mass[k % n] + beta * system->drag) * x[k];
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring s = hooke_run_spring(run, k);
+      double u[3], d[3], length = 0.0, rate = 0.0, along = 0.0;
+      for (int a = 0; a < 3; a++) {
+        u[a] = m->q[a][s.head] - m->q[a][s.tail];
+        d[a] = x[a * n + s.head] - x[a * n + s.tail];
+        length += u[a] * u[a];
+      }
+      length = sqrt(length);
+      for (int a = 0; a < 3; a++) {
+        if (length > 0.0) u[a] /= length;
+        rate += u[a] * (m->v[a][s.head] - m->v[a][s.tail]);
+        along += u[a] * d[a];
+      }
+      const double tension = s.kappa * (length - s.rest_length) + s.gamma * rate;
+      if (s.pull_only && (length <= s.rest_length || tension < 0.0)) continue;
+      double across = length > 0.0 ? fmax(0.0, alpha * tension / length) : 0.0,
+             axial = alpha * s.kappa + beta * s.gamma;
+      if (length == 0.0) axial = across = s.rest_length == 0.0 && !s.pull_only ? alpha * s.kappa : 0.0;
+      for (int a = 0; a < 3; a++) {
+        const double force = axial * along * u[a] + across * (d[a] - along * u[a]);
+        out[a * n + s.head] += force;
+        out[a * n + s.tail] -= force;
+      }
+    }
+  }
+  struct hooke_triple t;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &t);) {
+    for (int a = 0; a < 3; a++) {
+      const double *c = x + a * n;
+      const double bend = c[t.particle[0]] - 2.0 * c[t.particle[1]] + c[t.particle[2]];
+      out[a * n + t.particle[0]] += alpha * t.coefficient * bend;
+      out[a * n + t.particle[1]] -= 2.0 * alpha * t.coefficient * bend;
+      out[a * n + t.particle[2]] += alpha * t.coefficient * bend;
+    }
+  }
+}
+
+static void solves_s(void **unused) {
+  (void)unused;
+  static const double weights[][2] = {{1e-4, 1e-2}, {0.0, 0.3}, {1.0, 1.0}, {1e-8, 1e-4}};
+  for (int k = 0; k < 24; k++) {
+    struct bench b;
+    set_up((struct random_scene_request){.seed = (uint64_t)(900 + k),
+                                         .particles = 20 + 17 * k,
+                                         .springs = 5 + 40 * k,
+                                         .triples = k % 3 == 0 ? 9 : 0,
+                                         .features = k * 53 & SCENE_EVERYTHING,
+                                         .cloth = {k % 2 ? k + 3 : 0, 11},
+                                         .rope = k % 5 ? 0 : 60},
+           weights[k % 4][0], weights[k % 4][1], &b);
+    const int64_t size = 3 * b.n;
+    struct random_source source = {(uint64_t)k};
+    double *x = new_doubles(4 * size), *s = x + size, *ordered = s + size, *found = ordered + size;
+    for (int64_t j = 0; j < size; j++)
+      x[j] = b.scene.system->held[j % b.n] ? 0.0 : random_between(&source, -1.0, 1.0);
+    multiply(&b, x, s);
+    check_ok(hooke_reduced_prepare_whole(&b.reduced));
+    assert_non_null(b.reduced.whole);
+    for (int again = 0; again < 2; again++) { /* the second time on what the first has left */
+      assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+      hooke_factor_gather(b.reduced.whole, s, ordered);
+      hooke_factor_forward(b.reduced.whole, ordered);
+      hooke_factor_backward(b.reduced.whole, ordered);
+      memset(found, 0x7f, (size_t)size * sizeof(double));
+      hooke_factor_spread(b.reduced.whole, ordered, found);
+      double worst = largest_difference(size, found, x);
+      if (!(worst <= 1e-9)) check_failed("scene %d: error %g", k, worst);
+    }
+    assert_true(hooke_factor_memory(b.reduced.whole) > 8 * hooke_factor_numbers(b.reduced.whole));
+    free(x);
+    tear_down(&b);
+  }
+}
+
+/* Numbers that leave no positive matrix are told, and the blocks are in use again. */
+static void not_positive(void **unused) {
+  (void)unused;
+  struct bench b;
+  set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150, .features = SCENE_DAMPING},
+         1e-4, 1e-2, &b);
+  check_ok(hooke_reduced_prepare_whole(&b.reduced));
+  assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+  assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_IN_USE);
+  const double bad[] = {NAN, INFINITY, -1.0, 0.0};
+  for (int k = 0; k < 4; k++) {
+    const double kept = b.reduced.block[17];
+    b.reduced.block[17] = bad[k];
+    assert_int_equal(hooke_reduced_factorise(&b.reduced), 0);
+    assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_READY);
+    b.reduced.block[17] = kept;
+  }
+  assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+  tear_down(&b);
+}
+
+/* A chain keeps its factor small, and what is too large is not made. */
+static void sizes(void **unused) {
+  (void)unused;
+  struct bench b;
+  struct hooke_factor *factor = NULL;
+  set_up((struct random_scene_request){.seed = 5, .particles = 2, .springs = 1, .rope = 2000}, 1e-4, 1e-2,
+         &b);
+  check_ok(hooke_factor_create(b.scene.system, INT64_C(1) << 40, &factor));
+  const int64_t numbers = hooke_factor_numbers(factor);
+  check_between((double)numbers / 2000.0, 9.0, 200.0);
+  hooke_factor_destroy(factor);
+  check_ok(hooke_factor_create(b.scene.system, numbers / 2, &factor));
+  assert_null(factor);
+  tear_down(&b);
+}
+
+/* dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and by a factor. */
+static void implicit_equation(void **unused) {
+  (void)unused;
+  for (int k = 0; k < 12; k++) {
+    struct bench b;
+    const double gamma = k % 2 ? 1e-2 : 1e-3;
+    set_up((struct random_scene_request){.seed = (uint64_t)(70 + k),
+                                         .particles = 40,
+                                         .springs = 90,
+                                         .triples = k % 2 ? 12 : 0,
+                                         .with_product = 1,
+                                         .features = SCENE_EVERYTHING & ~(k % 3 ? SCENE_CALLBACK : 0)},
+           gamma * gamma, gamma, &b);
+    const hooke_system *system = b.scene.system;
+    const int64_t n = b.n, size = 3 * n;
+    struct random_source source = {(uint64_t)(5 + k)};
+    double *bq = new_doubles(10 * size), *bv = bq + size, *right = bv + size, *z = right + size,
+           *weight = z + size, *q = weight + size, *v = q + size, *dq = v + size, *dv = dq + size,
+           *out = dv + size;
+    for (int64_t j = 0; j < size; j++) {
+      weight[j] = random_between(&source, 0.5, 2.0);
+      bq[j] = system->held[j % n] ? 0.0 : gamma * random_between(&source, -1.0, 1.0);
+      bv[j] = system->held[j % n] ? 0.0 : random_between(&source, -1.0, 1.0);
+    }
+    hooke_motion_store(b.integrator->motion, q, v);
+    for (int whole = 0; whole < 2; whole++) {
+      struct hooke_solution solution;
+      if (whole) check_ok(hooke_reduced_prepare_whole(&b.reduced));
+      if (whole) assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+      check_ok(hooke_reduced_right(&b.reduced, bq, bv, right));
+      check_ok(hooke_reduced_minimise(&b.reduced, right, weight, 1e-12, 500, z, &solution));
+      assert_int_equal(solution.converged, 1);
+      for (int64_t j = 0; j < size; j++) { /* rows of x y z */
+        const int64_t at = j % 3 * n + j / 3;
+        dq[j] = gamma * z[at];
+        dv[j] = z[at] - bq[at] / gamma;
+      }
+      check_ok(hooke_system_derivative_product(system, 0.25, q, v, dq, dv, out));
+      for (int64_t j = 0; j < size; j++) {
+        const int64_t at = j % 3 * n + j / 3;
+        if (system->held[j / 3])
+          check_close(z[at], 0.0, 0.0);
+        else
+          check_close(system->mass[j / 3] * dv[j] - gamma * out[j], system->mass[j / 3] * bv[at], 1e-9);
+      }
+    }
+    free(bq);
+    tear_down(&b);
+  }
+}
+
+/* ---- GMRES ---- */
+
+enum { SIZE = 75 };
+
+static int32_t apply(void *ctx, const double *x, double *out) {
+  const double *a = ctx;
+  for (int i = 0; i < SIZE; i++) {
+    out[i] = 0.0;
+    for (int j = 0; j < SIZE; j++)
+      out[i] += a[SIZE * i + j] * x[j];
+  }
+  return HOOKE_OK;
+}
+
+static void minimal(void **unused) {
+  (void)unused;
+  struct random_source source = {41};
+  double *a = new_doubles(SIZE * SIZE), *x = new_doubles(3 * SIZE), *b = x + SIZE, *found = b + SIZE;
+  double *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
+  const struct hooke_operator operator= {SIZE, apply, a};
+  for (int k = 0; k < SIZE * SIZE; k++)
+    a[k] = random_between(&source, -0.19, 0.19) + (k % (SIZE + 1) == 0 ? 2.0 : 0.0);
+  for (int k = 0; k < SIZE; k++)
+    x[k] = random_between(&source, -1.0, 1.0);
+  apply(a, x, b);
+  struct hooke_solution solution;
+  check_ok(
+      hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution)); /* more than its space */
+  assert_int_equal(solution.converged, 1);
+  assert_true(solution.iterations > HOOKE_MINIMAL_SPACE);
+  check_between(largest_difference(SIZE, found, x), 0.0, 1e-11);
+  check_ok(hooke_solve_minimal(&operator, b, 1e-3, 500, scratch, found, &solution));
+  check_between(largest_difference(SIZE, found, x), 1e-6, 1e-2); /* absolute, and no further */
+  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 3, scratch, found, &solution));
+  assert_int_equal(solution.converged, 0);
+  assert_int_equal(solution.iterations, 3);
+  check_ok(hooke_solve_minimal(&operator, b, 1e6, 3, scratch, found, &solution));
+  assert_int_equal(solution.converged, 1);
+  assert_int_equal(solution.iterations, 0);
+  b[3] = NAN;
+  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
+  assert_int_equal(solution.converged, 0);
+  b[3] = 1.0;
+  memset(a, 0, SIZE * SIZE * sizeof(double));
+  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
+  assert_int_equal(solution.converged, 0);
+  free(a);
+  free(x);
+  free(scratch);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(solves_s), cmocka_unit_test(not_positive),
+                                     cmocka_unit_test(sizes), cmocka_unit_test(implicit_equation),
+                                     cmocka_unit_test(minimal)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
