@@ -58,9 +58,12 @@ int32_t hooke_integrator_move(hooke_integrator *it, hooke_step_loop *loop) {
   if (status != HOOKE_OK) return status;
   const hooke_system *system = it->system;
   struct hooke_motion *m = it->motion;
-  for (int a = 0; a < 3; a++) {
-    loop(m->n, it->schedule.step, system->inverse_mass, m->f[a],
-         system->has_gravity ? &system->gravity[a] : NULL, m->q[a], m->v[a]);
+  for (int64_t s = 0; s < system->span_count; s++) {
+    const int64_t from = system->span[s].from;
+    for (int a = 0; a < 3; a++) {
+      loop(system->span[s].count, it->schedule.step, system->inverse_mass + from, m->f[a] + from,
+           system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
+    }
   }
   return HOOKE_OK;
 }

@@ -68,11 +68,16 @@ static void move_motion(hooke_integrator *it, int stage) {
   struct hooke_motion *m = it->motion;
   const double h = it->schedule.step;
   const int64_t n = m->n;
-  for (int a = 0; a < 3; a++) {
-    const int64_t q = a * n, v = (3 + a) * n;
-    hooke_acceleration(n, system->inverse_mass, system->has_gravity ? &system->gravity[a] : NULL, m->f[a]);
-    move(stage, n, h, m->v[a], own->start + q, own->sum + q, m->q[a]);
-    move(stage, n, h, m->f[a], own->start + v, own->sum + v, m->v[a]);
+  for (int64_t s = 0; s < system->span_count; s++) {
+    const int64_t from = system->span[s].from, count = system->span[s].count;
+    for (int a = 0; a < 3; a++) {
+      const int64_t q = a * n + from, v = (3 + a) * n + from;
+      double *f = m->f[a] + from;
+      hooke_acceleration(count, system->inverse_mass + from, system->has_gravity ? &system->gravity[a] : NULL,
+                         f);
+      move(stage, count, h, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
+      move(stage, count, h, f, own->start + v, own->sum + v, m->v[a] + from);
+    }
   }
 }
 

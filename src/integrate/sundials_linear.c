@@ -243,7 +243,10 @@ static int32_t create_own(hooke_integrator *it, const char *word, struct hooke_s
 int32_t hooke_sundials_linear_create(hooke_integrator *it) {
   struct hooke_sundials *own = it->own;
   const char *word = hooke_options_text(it->options, "linear_solver");
-  if (!it->rate && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0)
+  /* a space that holds every unknown is exact as it is */
+  const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
+  if (!it->rate && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
+      !(few && strcmp(word, "auto") == 0))
     return create_own(it, word, own);
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
   it->own_memory += HOOKE_KRYLOV_VECTORS * own->unknowns.size * (int64_t)sizeof(double);

@@ -103,11 +103,15 @@ static int32_t second_kick(hooke_integrator *it) {
     return status == HOOKE_OK ? solve(it) : status;
   }
   const int32_t status = hooke_integrator_forces_without(it, t, &hooke_force_drag);
-  for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
-    if (system->drag > 0.0)
-      hooke_kick_with_drag(m->n, half, system->drag, w, m->f[a], gravity(system, a), m->v[a]);
-    else
-      hooke_kick(m->n, half, w, m->f[a], gravity(system, a), m->v[a]);
+  for (int64_t s = 0; s < system->span_count && status == HOOKE_OK; s++) {
+    const int64_t from = system->span[s].from, n = system->span[s].count;
+    for (int a = 0; a < 3; a++) {
+      if (system->drag > 0.0)
+        hooke_kick_with_drag(n, half, system->drag, w + from, m->f[a] + from, gravity(system, a),
+                             m->v[a] + from);
+      else
+        hooke_kick(n, half, w + from, m->f[a] + from, gravity(system, a), m->v[a] + from);
+    }
   }
   own->kept = status == HOOKE_OK;
   return status;
@@ -121,9 +125,13 @@ static int32_t step(hooke_integrator *it) {
   if (own->start) hooke_motion_save(m, own->start);
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
-  for (int a = 0; a < 3; a++)
-    hooke_kick_and_drift(m->n, h / 2.0, h, system->inverse_mass, m->f[a], gravity(system, a), m->q[a],
-                         m->v[a]);
+  for (int64_t s = 0; s < system->span_count; s++) {
+    const int64_t from = system->span[s].from;
+    for (int a = 0; a < 3; a++) {
+      hooke_kick_and_drift(system->span[s].count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from,
+                           gravity(system, a), m->q[a] + from, m->v[a] + from);
+    }
+  }
   if (system->held_count > 0) hooke_motion_hold(system, m);
   status = second_kick(it);
   if (status != HOOKE_OK && own->start) hooke_motion_restore(m, own->start);

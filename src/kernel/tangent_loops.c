@@ -182,11 +182,11 @@ static void tangent_diagonal(const struct hooke_run *run, const struct hooke_tan
 
 static void tangent_damping(const struct hooke_run *run, const struct hooke_tangent *t,
                             const double *const x[3], double *const out[3]) {
-  const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  const int indexed = run->shape & HOOKE_RUN_INDEXED;
   for (ptrdiff_t k = 0; k < run->count; k++) {
     const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
     const ptrdiff_t s = run->first + k;
-    const double gamma = mixed ? run->gammas[k] : run->gamma;
+    const double gamma = hooke_run_material(run, k).gamma;
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
     const double along =
         gamma * (((x[0][i] - x[0][j]) * u[0] + (x[1][i] - x[1][j]) * u[1]) + (x[2][i] - x[2][j]) * u[2]);

@@ -11,6 +11,7 @@ enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
 /* What a run takes, of one variant. NaN where it does not apply. */
 struct hooke_needs_cost {
   double particles, springs, step_limit;
+  int64_t indexed; /* springs whose ends are looked up one by one */
   double step, rtol, atol, steps, force_evaluations, wall_seconds;
   double step_error; /* how far the step may put it off [m] */
 };

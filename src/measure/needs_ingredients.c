@@ -33,13 +33,23 @@ static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_
   return HOOKE_OK;
 }
 
+/* A group may be called as another ingredient is. */
+static int32_t is_taken(const char *name) {
+  static const char *const taken[] = {"damping", "drag", "gravity", "callback"};
+  for (size_t k = 0; k < sizeof taken / sizeof taken[0]; k++) {
+    if (strcmp(name, taken[k]) == 0) return 1;
+  }
+  return 0;
+}
+
 static int32_t list_groups(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hooke_group *group = &system->group[g];
     struct hooke_needs_row *row;
     if (group->count == 0) continue;
-    const int32_t status = group->name[0] ? add_row(needs, "springs", &row, "%s", group->name)
+    const int32_t status = group->name[0] ? add_row(needs, "springs", &row, "%s%s",
+                                                    is_taken(group->name) ? "springs " : "", group->name)
                                           : add_row(needs, "springs", &row, "springs[%lld]", (long long)g);
     if (status != HOOKE_OK) return status;
     row->variant.group[g] = 1;

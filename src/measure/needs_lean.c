@@ -60,11 +60,11 @@ static double work(const struct hooke_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
-/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out may
- * break up runs of equal ones. */
+/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out break
+ * up runs of others, whose ends are then looked up. */
 static int32_t may_save(const hooke_needs *needs, const struct hooke_needs_row *row) {
   if (strcmp(row->kind, "compression") == 0) return 0;
-  return strcmp(row->kind, "idle") != 0 || row->cost.wall_seconds < needs->full.wall_seconds;
+  return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
 }
 
 static int32_t comes_before(const struct hooke_needs_row *a, const struct hooke_needs_row *b) {

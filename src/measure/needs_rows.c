@@ -63,7 +63,8 @@ static int32_t is_known(const hooke_needs *needs, const struct hooke_needs_row *
 }
 
 static void name_idle(struct hooke_needs_row *row, double force, int64_t count) {
-  snprintf(row->without, HOOKE_NEEDS_NAME, "%lld springs that never pass %.3g N", (long long)count, force);
+  snprintf(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
+           count == 1 ? "spring that never passes" : "springs that never pass", force);
 }
 
 /* The boldest threshold that the want allows; without springs for any, the row goes. */

@@ -247,6 +247,7 @@ static void fill_cost(const struct search *search, double limit, struct hooke_ne
   cost->step_error = NAN;
   cost->step_limit = limit;
   cost->springs = (double)hooke_system_spring_count(system);
+  cost->indexed = system->springs.indexed_count;
   cost->particles = (double)hooke_system_particle_count(system);
 }
 

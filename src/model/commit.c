@@ -95,11 +95,8 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
-/* A callback force may look at any particle. */
-static int32_t count_idle(hooke_system *system) {
+static void mark_touched(const hooke_system *system, uint8_t *touched) {
   const struct hooke_springs *springs = &system->springs;
-  uint8_t *touched = hooke_new(system->particle_count, sizeof *touched);
-  if (touched == NULL) return HOOKE_NO_MEMORY;
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
       const struct hooke_spring spring = hooke_run_spring(&springs->run[r], k);
@@ -111,10 +108,55 @@ static int32_t count_idle(hooke_system *system) {
     for (int e = 0; e < 3; e++)
       touched[triple.particle[e]] = 1;
   }
-  for (int64_t p = 0; system->force == NULL && p < system->particle_count; p++)
-    system->idle_count += system->held[p] == HOOKE_HELD_PINNED && !touched[p];
-  hooke_free(touched);
-  return HOOKE_OK;
+}
+
+/* A net numbers particles its own way; it goes over all of them. */
+static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
+  return system->net.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
+}
+
+/* Spans, and the pinned particles in them, which are counted before there is a list. */
+static void add_tile(hooke_system *system, int64_t from, int64_t end) {
+  struct hooke_span *last = &system->span[system->span_count - 1];
+  if (system->span_count > 0 && last->from + last->count == from)
+    last->count += end - from;
+  else
+    system->span[system->span_count++] = (struct hooke_span){from, end - from};
+  for (int64_t p = from; p < end; p++) {
+    if (system->held[p] != HOOKE_HELD_PINNED) continue;
+    if (system->anchor) system->anchor[system->anchor_count] = (int32_t)p;
+    system->anchor_count++;
+  }
+}
+
+static void add_tiles(hooke_system *system, const uint8_t *idle) {
+  const int64_t n = system->particle_count;
+  system->span_count = system->anchor_count = 0;
+  for (int64_t from = 0; from < n; from += HOOKE_TILE) {
+    const int64_t end = from + HOOKE_TILE < n ? from + HOOKE_TILE : n;
+    if (is_stepped(system, idle, from, end)) add_tile(system, from, end);
+  }
+}
+
+/* What no step has to go over: tiles of pinned particles that nothing touches. A callback force may look at any. */
+static int32_t find_stepped(hooke_system *system) {
+  const int64_t n = system->particle_count;
+  uint8_t *idle = hooke_new(n, sizeof *idle);
+  system->span = hooke_new(n / HOOKE_TILE / 2 + 2, sizeof *system->span);
+  int32_t status = idle && system->span ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) {
+    mark_touched(system, idle);
+    for (int64_t p = 0; p < n; p++) {
+      idle[p] = !idle[p] && system->held[p] == HOOKE_HELD_PINNED && system->force == NULL;
+      system->idle_count += idle[p];
+    }
+    add_tiles(system, idle);
+    system->anchor = hooke_new(system->anchor_count, sizeof *system->anchor);
+    if (system->anchor == NULL) status = HOOKE_NO_MEMORY;
+  }
+  if (status == HOOKE_OK) add_tiles(system, idle);
+  hooke_free(idle);
+  return status;
 }
 
 static int32_t choose_forces(hooke_system *system) {
@@ -145,7 +187,11 @@ static void undo(hooke_system *system) {
   system->held_particle = NULL;
   system->force_row = NULL;
   system->held_count = 0;
-  system->idle_count = 0;
+  hooke_free(system->span);
+  hooke_free(system->anchor);
+  system->span = NULL;
+  system->anchor = NULL;
+  system->idle_count = system->span_count = system->anchor_count = 0;
   system->force_row_count = 0;
 }
 
@@ -165,7 +211,7 @@ int32_t hooke_system_commit(hooke_system *system) {
     status = hooke_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
-  if (status == HOOKE_OK) status = count_idle(system);
+  if (status == HOOKE_OK) status = find_stepped(system);
   if (status != HOOKE_OK) {
     undo(system);
     return status;

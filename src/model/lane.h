@@ -29,6 +29,7 @@ struct hooke_lanes {
 struct hooke_windows;
 
 struct hooke_motion;
+struct hooke_system;
 
 /* Sums over `count` particles from `from` on are in f; may move these particles. */
 typedef void hooke_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
@@ -43,8 +44,8 @@ struct hooke_windows *hooke_windows_create(const struct hooke_lanes *lanes);
 void hooke_windows_destroy(struct hooke_windows *windows);
 int64_t hooke_windows_memory(const struct hooke_windows *windows);
 
-/* One pass over all particles of `motion`; returns how many springs had a rest length but no direction. */
-int64_t hooke_lanes_pass(const struct hooke_lanes *lanes, struct hooke_motion *motion, hooke_tile *tile,
+/* One pass over the particles of `motion` that are stepped, by the lanes of the system; returns how many springs had a rest length but no direction. */
+int64_t hooke_lanes_pass(const struct hooke_system *system, struct hooke_motion *motion, hooke_tile *tile,
                          void *ctx);
 
 #endif

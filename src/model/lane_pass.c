@@ -149,10 +149,17 @@ static int64_t fill_tile(const struct hooke_lane *lane, struct window *window, c
   return lost;
 }
 
-int64_t hooke_lanes_pass(const struct hooke_lanes *lanes, struct hooke_motion *m, hooke_tile *tile,
-                         void *ctx) {
+/* 1 if a step goes over the tile; `span` moves on with the tiles. */
+static int32_t is_stepped(const hooke_system *system, int64_t from, int64_t *span) {
+  while (*span < system->span_count && system->span[*span].from + system->span[*span].count <= from)
+    (*span)++;
+  return *span < system->span_count && system->span[*span].from <= from;
+}
+
+int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *m, hooke_tile *tile, void *ctx) {
+  const struct hooke_lanes *lanes = &system->lanes;
   struct hooke_windows *windows = m->windows;
-  int64_t lost = 0;
+  int64_t lost = 0, span = 0;
   for (int32_t k = 0; k < lanes->count; k++)
     windows->window[k].next = windows->window[k].at = 0;
   for (int64_t from = 0; from < m->n; from += HOOKE_TILE) {
@@ -174,9 +181,11 @@ int64_t hooke_lanes_pass(const struct hooke_lanes *lanes, struct hooke_motion *m
       }
       active++;
     }
-    for (int a = 0; a < 3; a++)
-      windows->set->sum(end - from, active, upper[a], lower[a], windows->f[a]);
-    tile(from, end - from, windows->f, ctx);
+    if (is_stepped(system, from, &span)) {
+      for (int a = 0; a < 3; a++)
+        windows->set->sum(end - from, active, upper[a], lower[a], windows->f[a]);
+      tile(from, end - from, windows->f, ctx);
+    }
     for (int32_t k = 0; k < lanes->count; k++) {
       if (windows->window[k].at > 0) advance(&windows->window[k], end - from);
     }

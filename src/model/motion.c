@@ -29,7 +29,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
    * sets */
   const int64_t stride = (n + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
-  const int64_t still = 3 * system->held_count, driven = 6 * driven_count(system);
+  const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
   const int64_t numbers = components + rows + still + driven;
   double *block = hooke_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
@@ -46,11 +46,11 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   return HOOKE_OK;
 }
 
-/* Numbers here of held and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
+/* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
 static void number_held(const hooke_system *system, const int32_t *place, struct hooke_motion *motion) {
   int32_t *moved = motion->moved;
-  for (int64_t k = 0; k < system->held_count; k++)
-    motion->held[k] = place ? place[system->held_particle[k]] : system->held_particle[k];
+  for (int64_t k = 0; k < system->anchor_count; k++)
+    motion->anchor[k] = place ? place[system->anchor[k]] : system->anchor[k];
   for (int64_t d = 0; d < system->drive_count; d++) {
     for (int64_t k = 0; k < system->drive[d].count; k++) {
       const int32_t p = system->drive[d].particle[k];
@@ -60,11 +60,11 @@ static void number_held(const hooke_system *system, const int32_t *place, struct
 }
 
 static int32_t new_numbers(const hooke_system *system, struct hooke_motion *motion) {
-  const int64_t count = system->held_count + driven_count(system);
-  motion->held = hooke_new(count, sizeof *motion->held);
-  if (motion->held == NULL) return HOOKE_NO_MEMORY;
-  motion->moved = motion->held + system->held_count;
-  motion->memory += count * (int64_t)sizeof *motion->held;
+  const int64_t count = system->anchor_count + driven_count(system);
+  motion->anchor = hooke_new(count, sizeof *motion->anchor);
+  if (motion->anchor == NULL) return HOOKE_NO_MEMORY;
+  motion->moved = motion->anchor + system->anchor_count;
+  motion->memory += count * (int64_t)sizeof *motion->anchor;
   int32_t *place = NULL;
   if (motion->order && count > 0) {
     place = hooke_new(motion->n, sizeof *place);
@@ -109,7 +109,7 @@ void hooke_motion_destroy(struct hooke_motion *motion) {
   if (motion == NULL) return;
   hooke_windows_destroy(motion->windows);
   hooke_net_scratch_destroy(motion->net);
-  hooke_free(motion->held);
+  hooke_free(motion->anchor);
   hooke_free(motion->q[0]);
   hooke_free(motion);
 }
@@ -161,9 +161,8 @@ void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, 
                        const double *v) {
   load_rows(motion, q, motion->q);
   load_rows(motion, v, motion->v);
-  for (int64_t k = 0; k < system->held_count; k++) {
-    memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->held_particle[k], 3 * sizeof(double));
-  }
+  for (int64_t k = 0; k < system->anchor_count; k++)
+    memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->anchor[k], 3 * sizeof(double));
   motion->stop_value = 0;
 }
 
@@ -237,7 +236,7 @@ int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_mot
 
 void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion, hooke_tile *tile, void *ctx) {
   if (system->lanes.count > 0)
-    motion->coincident = hooke_lanes_pass(&system->lanes, motion, tile, ctx);
+    motion->coincident = hooke_lanes_pass(system, motion, tile, ctx);
   else
     motion->coincident = hooke_net_pass(&system->net, motion, tile, ctx);
 }
@@ -269,9 +268,8 @@ static void hold_driven(int64_t count, const int32_t *moved, const double *q, st
 }
 
 void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion) {
-  for (int64_t k = 0; k < system->held_count; k++) {
-    if (system->held[system->held_particle[k]] != HOOKE_HELD_PINNED) continue;
-    const int32_t p = motion->held[k];
+  for (int64_t k = 0; k < system->anchor_count; k++) {
+    const int32_t p = motion->anchor[k];
     for (int a = 0; a < 3; a++) {
       motion->q[a][p] = motion->still[3 * k + a];
       motion->v[a][p] = 0.0;

@@ -16,9 +16,10 @@ struct hooke_motion {
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
   const double *w;            /* inverse masses */
   double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
-  double *still;              /* positions of pinned particles, 3 a held particle */
+  double *still;              /* positions of anchored particles, 3 each */
   double *driven;             /* q and v of each drive in turn, 3 a particle each */
-  int32_t *held, *moved; /* numbers here of the system's held particles, and of those of its drives in turn */
+  int32_t *anchor,
+      *moved; /* numbers here of the anchored particles of the system, and of those of its drives in turn */
   struct hooke_windows *windows; /* of the pass over lanes; NULL without lanes */
   struct hooke_net_scratch *net; /* of the pass over a net; NULL without one */
   int64_t memory;                /* bytes */

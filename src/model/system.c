@@ -33,6 +33,8 @@ void hooke_system_destroy(hooke_system *system) {
   hooke_free(system->held);
   hooke_free(system->inverse_mass);
   hooke_free(system->held_particle);
+  hooke_free(system->span);
+  hooke_free(system->anchor);
   hooke_free(system->group);
   hooke_free(system->part);
   hooke_free(system->bending_group);

@@ -15,6 +15,11 @@ struct hooke_force_row;
 
 enum { HOOKE_HELD_PINNED = 1, HOOKE_HELD_DRIVEN = 2 };
 
+/* Whole tiles of particles (HOOKE_TILE), the last one cut at the end. */
+struct hooke_span {
+  int64_t from, count;
+};
+
 struct hooke_system {
   int32_t committed;
 
@@ -27,6 +32,11 @@ struct hooke_system {
   int64_t held_count; /* from commit on: pinned and driven particles, ascending */
   int32_t *held_particle;
   int64_t idle_count; /* from commit on: pinned particles that nothing touches */
+  int64_t span_count; /* from commit on: what is stepped, ascending */
+  struct hooke_span *span;
+  int64_t
+      anchor_count; /* from commit on: pinned particles in there, which are put back after a step; ascending */
+  int32_t *anchor;
 
   /* spring groups; from commit on in spring order */
   int64_t group_count, group_capacity;
