@@ -36,19 +36,21 @@ HOOKE_API void hooke_needs_destroy(hooke_needs *needs);
 
 HOOKE_API void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx);
 
-/* Fills the table, then leaves out together what is not needed, the smallest change first, as long as the change stays
- * within what is wanted; once. HOOKE_STOPPED keeps what is known so far; HOOKE_BAD_VALUE if no step that could be tried
- * holds the full system to a tenth of what is wanted; the failures of hooke_integrator_run(). */
+/* Fills the table, then leaves out together what is not needed and saves work, the smallest change first, as long as a run
+ * with the largest step that allows it stays within what is wanted, all errors together; once. HOOKE_STOPPED keeps what is
+ * known so far; HOOKE_BAD_VALUE if no step that could be tried holds the full system to a tenth of what is wanted; the
+ * failures of hooke_integrator_run(). */
 HOOKE_API int32_t hooke_needs_find(hooke_needs *needs);
 
 /* The reverse: each part at once, twice and four times its resolution; once. The same statuses. */
 HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
 
-/* "want" [m], "method_picked" (1: no method was given), "duration" [s], "judged_until" [s]: differences grow so fast beyond it
- * that no step would keep errors of the step small, and changes are those up to there. Of the full system: "wall_seconds" (stepping alone), "springs",
- * "step_limit" [s] (predicted with GSL, else hooke_step_bound(); infinity: nothing limits it), "step" [s], "rtol", "steps",
- * "force_evaluations", "step_error" [m] (how far the step may put it off), "particles". "runs": runs made so far. The same words after "lean_" for the lean
- * system, and "lean_error": the run as recommended, against the full system [m]. NaN where it does not apply. */
+/* "want" [m]; "method_picked" (1: no method was given); "duration" [s]; "judged_until" [s]: beyond it differences grow so fast
+ * that no step would keep its error small, and changes are those up to there; "runs": made so far. Of the full system:
+ * "wall_seconds" (stepping alone), "springs", "particles", "step_limit" [s] (predicted with GSL, else hooke_step_bound();
+ * infinity: nothing limits it), "step" [s], "rtol", "atol" [m], "steps", "force_evaluations", "step_error" [m] (how far the
+ * step may put it off). The same words after "lean_" for the lean system, and "lean_error" [m]: of the run that is
+ * recommended, against the full system. NaN where it does not apply. */
 HOOKE_API double hooke_needs_figure(const hooke_needs *needs, const char *what);
 /* "method". NULL for another word. */
 HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *what);

@@ -123,7 +123,8 @@ HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
 /* Springs that commit has dropped, since they have neither stiffness nor damping; 0 before. */
 HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
-/* Pinned particles that no spring, no bending and no callback force touches; 0 before commit. */
+/* Pinned particles that no spring, no bending and no callback force touches; 0 before commit. Steps leave out blocks of 256
+ * particles that hold nothing else, but where springs in no order have their particles numbered anew. */
 HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
 /* Name of group `group`, "" if it has none, NULL if there is no such group. */

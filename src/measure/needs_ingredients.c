@@ -71,13 +71,6 @@ static int32_t list_bending(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-static int32_t is_damped(const hooke_system *system) {
-  int32_t damped = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    damped |= (system->springs.run[r].shape & HOOKE_RUN_DAMPED) != 0;
-  return damped;
-}
-
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++)
@@ -89,7 +82,7 @@ static int32_t list_whole_forces(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   struct hooke_needs_row *row;
   int32_t status = HOOKE_OK;
-  if (is_damped(system)) {
+  if (hooke_springs_are_damped(&system->springs)) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
@@ -112,29 +105,13 @@ static int32_t list_whole_forces(hooke_needs *needs) {
   return status;
 }
 
-static void mark_touched(const hooke_system *system, uint8_t *touched) {
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
-      touched[spring.head] = touched[spring.tail] = 1;
-    }
-  }
-  struct hooke_triples at = {.bending = &system->bending};
-  struct hooke_triple triple;
-  while (hooke_next_triple(&at, &triple)) {
-    for (int e = 0; e < 3; e++)
-      touched[triple.particle[e]] = 1;
-  }
-  for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
-    memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
-}
-
 static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
   const hooke_system *system = needs->system;
   uint8_t *touched = hooke_new(system->particle_count, 1);
   if (touched == NULL) return HOOKE_NO_MEMORY;
-  mark_touched(system, touched);
+  hooke_system_mark_touched(system, touched);
+  for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
+    memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
   int64_t loose = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
     loose += !touched[p] && !watched[p];

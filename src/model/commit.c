@@ -95,7 +95,7 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
-static void mark_touched(const hooke_system *system, uint8_t *touched) {
+void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   const struct hooke_springs *springs = &system->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
@@ -145,7 +145,7 @@ static int32_t find_stepped(hooke_system *system) {
   system->span = hooke_new(n / HOOKE_TILE / 2 + 2, sizeof *system->span);
   int32_t status = idle && system->span ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
-    mark_touched(system, idle);
+    hooke_system_mark_touched(system, idle);
     for (int64_t p = 0; p < n; p++) {
       idle[p] = !idle[p] && system->held[p] == HOOKE_HELD_PINNED && system->force == NULL;
       system->idle_count += idle[p];

@@ -78,6 +78,9 @@ int32_t hooke_system_require_committed(const hooke_system *system);
 int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
                                      const int64_t *particles, int32_t refused);
 
+/* Sets touched[p] to 1 for every particle that a spring or a triple is at. */
+void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched);
+
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
  * the same as hooke_system_add_springs(), and so with triples. hooke_system_next_part() counts parts: it returns 0, 1, ... */
 int32_t hooke_system_add_part_springs(hooke_system *system, const char *name, int64_t count,
