@@ -30,7 +30,8 @@ struct search {
   double ratio; /* atol / rtol */
   double value; /* of the coarser of two runs */
   double first_stable;
-  double error; /* of the last pair; how far it agreed; how often in a row that did not improve */
+  int32_t has_limit; /* 0: nothing is known of a stable step, as in a build without GSL */
+  double error;      /* of the last pair; how far it agreed; how often in a row that did not improve */
   int64_t frames;
   int32_t stalls;
   struct hooke_needs_path path[2];
@@ -91,7 +92,8 @@ static int32_t has_finished(const struct search *search) {
 
 /* 1 while steps may be so coarse that the whole motion is wrong, and halving them still shows nothing. */
 static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
-  if ((double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count) return 0;
+  if (search->has_limit && (double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count)
+    return 0;
   return search->adaptive ? search->value < 8.0 : search->value < COARSE * search->first_stable;
 }
 
@@ -165,6 +167,7 @@ static double step_limit(const hooke_system *system, const char *method) {
 
 static void begin_search(struct search *search, double limit) {
   search->frames = search->stalls = 0;
+  search->has_limit = search->adaptive || !isnan(limit);
   const hooke_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
   search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");

@@ -79,7 +79,9 @@ static void test_same_bits(void **unused) {
       (struct random_scene_request){
           .seed = 20240607, .particles = PARTICLES, .springs = SPRINGS, .features = SCENE_EVERYTHING},
       &scene);
-  assert_int_equal(hooke_system_spring_count(scene.system), SPRINGS);
+  /* but for the few that have no strength */
+  assert_int_equal(hooke_system_spring_count(scene.system), scene.canonical.spring_count);
+  check_between((double)scene.canonical.spring_count, 0.95 * SPRINGS, SPRINGS);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
