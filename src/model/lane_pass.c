@@ -149,20 +149,25 @@ static int64_t fill_tile(const struct hooke_lane *lane, struct window *window, c
   return lost;
 }
 
-/* 1 if a step goes over the tile; `span` moves on with the tiles. */
-static int32_t is_stepped(const hooke_system *system, int64_t from, int64_t *span) {
+/* The first tile from `from` on that a step goes over, m->n past the last; `span` moves on with the tiles. */
+static int64_t next_stepped(const hooke_system *system, int64_t from, int64_t *span) {
   while (*span < system->span_count && system->span[*span].from + system->span[*span].count <= from)
     (*span)++;
-  return *span < system->span_count && system->span[*span].from <= from;
+  if (*span == system->span_count) return system->particle_count;
+  return system->span[*span].from > from ? system->span[*span].from : from;
 }
 
 int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *m, hooke_tile *tile, void *ctx) {
   const struct hooke_lanes *lanes = &system->lanes;
   struct hooke_windows *windows = m->windows;
-  int64_t lost = 0, span = 0;
+  int64_t lost = 0, span = 0, begun = 0;
   for (int32_t k = 0; k < lanes->count; k++)
     windows->window[k].next = windows->window[k].at = 0;
   for (int64_t from = 0; from < m->n; from += HOOKE_TILE) {
+    const int64_t stepped = next_stepped(system, from, &span);
+    if (stepped > from && (!begun || stepped == m->n))
+      from = stepped; /* no spring reaches over what is left out */
+    if (from >= m->n) break;
     const int64_t end = from + HOOKE_TILE < m->n ? from + HOOKE_TILE : m->n;
     const double *upper[3][HOOKE_MOST_LANES], *lower[3][HOOKE_MOST_LANES];
     int32_t active = 0;
@@ -173,6 +178,7 @@ int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *m, hoo
       if (window->at == 0) {
         clear(window, 0, window->reach);
         window->at = window->reach;
+        begun = 1;
       }
       lost += fill_tile(lane, window, m, from, end);
       for (int a = 0; a < 3; a++) {
@@ -181,7 +187,7 @@ int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *m, hoo
       }
       active++;
     }
-    if (is_stepped(system, from, &span)) {
+    if (stepped <= from) {
       for (int a = 0; a < 3; a++)
         windows->set->sum(end - from, active, upper[a], lower[a], windows->f[a]);
       tile(from, end - from, windows->f, ctx);
