@@ -38,15 +38,10 @@ int32_t hooke_needs_options_create(hooke_options **options) {
 /* ---- making ---- */
 
 static int32_t read_times(hooke_needs *needs) {
-  needs->duration = hooke_options_number(needs->run, "duration");
-  needs->every = hooke_options_number(needs->run, "every");
-  if (isnan(needs->duration)) {
-    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
-  }
-  if (isnan(needs->every)) needs->every = needs->duration / 100.0;
+  const int32_t status = hooke_step_times(needs->run, &needs->duration, &needs->every);
+  if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = 1 + (int64_t)floor(needs->duration / needs->every * (1.0 + 1e-9));
-  const int32_t status = hooke_step_unit(needs->duration, needs->every, &needs->unit);
-  return status == HOOKE_OK ? hooke_options_set_number(needs->run, "every", needs->every) : status;
+  return hooke_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
 static int32_t read_method(hooke_needs *needs) {
@@ -158,7 +153,7 @@ int32_t hooke_needs_run_full(hooke_needs *needs) {
   needs->pieces_done++;
   const struct hooke_needs_trial trial = {needs->system, NULL};
   needs->under_way = "the full scene";
-  if (status == HOOKE_OK) status = hooke_needs_measure(needs, &trial, &needs->full, NULL, &needs->path);
+  if (status == HOOKE_OK) status = hooke_needs_measure(needs, &trial, &needs->full, &needs->path);
   needs->pieces_done++;
   const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))

@@ -102,13 +102,12 @@ struct hooke_needs_trial {
   const hooke_system *system;
   const struct hooke_variant_map *map;
 };
-/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `coarse` (may be NULL)
- * is the path of that run, `fine` that of the one with half the step. Where differences grow so fast that no step is small
- * enough, step_error is that of the best; the full system then says how many frames are judged. It is NaN, and there are no
- * paths, if no run came to its end. HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
+/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is the path of the
+ * run with half the step. Where differences grow so fast that no step is small enough, step_error is that of the best; the
+ * full system then says how many frames are judged. It is NaN, and there is no path, if no run came to its end.
+ * HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                            struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
-                            struct hooke_needs_path *fine);
+                            struct hooke_needs_cost *cost, struct hooke_needs_path *fine);
 /* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together: the
  * run to recommend. `from` (NULL: the step limit) says where to begin. `error` is NaN, and there is no path, if none is not
  * much smaller than that of the full system. */

@@ -29,7 +29,7 @@ static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hoo
   }
   if (status != HOOKE_OK) return status;
   const struct hooke_needs_trial trial = {made, &map};
-  status = hooke_needs_measure(needs, &trial, cost, NULL, path);
+  status = hooke_needs_measure(needs, &trial, cost, path);
   if (status == HOOKE_OK && path->position == NULL)
     snprintf(note, HOOKE_NEEDS_NOTE,
              "%g times finer, it does not run to its end with any step that was tried", scale);

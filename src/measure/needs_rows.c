@@ -37,7 +37,7 @@ int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row) {
   int32_t status = hooke_variant_make(needs->system, &row->variant, &made, &map);
   if (status != HOOKE_OK) return note_failure(row, status);
   const struct hooke_needs_trial trial = {made, &map};
-  status = hooke_needs_measure(needs, &trial, &row->cost, NULL, &fine);
+  status = hooke_needs_measure(needs, &trial, &row->cost, &fine);
   if (status == HOOKE_OK && fine.position)
     judge(needs, &fine, row);
   else if (status == HOOKE_OK)

@@ -122,7 +122,7 @@ static void swap_runs(struct search *search) {
  * of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const hooke_needs *needs = search->recorder.needs;
-  if (search->recorder.trial->map == NULL || needs->path.position == NULL) return 0;
+  if (search->recorder.trial->map == NULL) return 0;
   const double distance = hooke_needs_distance(needs, &needs->path, &search->path[1]);
   if (!(distance - error > needs->want)) return 0;
   return error <= CERTAIN * distance || !is_coarser_than_full(search);
@@ -201,7 +201,6 @@ static int32_t find_time(struct search *search, struct hooke_needs_cost *cost, i
 }
 
 static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to) {
-  if (to == NULL) return;
   hooke_needs_path_release(to);
   *to = *from;
   from->position = NULL;
@@ -255,8 +254,7 @@ static void fill_cost(const struct search *search, double limit, struct hooke_ne
 }
 
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                            struct hooke_needs_cost *cost, struct hooke_needs_path *coarse,
-                            struct hooke_needs_path *fine) {
+                            struct hooke_needs_cost *cost, struct hooke_needs_path *fine) {
   const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
@@ -266,10 +264,7 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
   fill_cost(&search, limit, cost);
   if (finished) cost->step_error = search.error;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
-  if (status == HOOKE_OK && finished) {
-    hand_over(&search.path[0], coarse);
-    if (fine && fine->position == NULL) hand_over(&search.path[1], fine);
-  }
+  if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.path[1], fine);
   end(&search);
   return status;
 }

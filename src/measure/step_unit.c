@@ -17,3 +17,13 @@ int32_t hooke_step_unit(double duration, double every, double *unit) {
                     "%.17g s and duration %.17g s have no step in common; take a part of the duration", every,
                     duration);
 }
+
+int32_t hooke_step_times(hooke_options *run, double *duration, double *every) {
+  *duration = hooke_options_number(run, "duration");
+  *every = hooke_options_number(run, "every");
+  if (isnan(*duration)) {
+    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  }
+  if (isnan(*every)) *every = *duration / 100.0;
+  return hooke_options_set_number(run, "every", *every);
+}

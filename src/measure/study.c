@@ -6,6 +6,7 @@
 #include "core/option.h"
 #include "core/status.h"
 #include "measure/method_list.h"
+#include "measure/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -76,15 +77,9 @@ static int32_t add_method(const char *method, void *ctx) {
 }
 
 static int32_t read_times(hooke_study *study) {
-  study->duration = hooke_options_number(study->run, "duration");
-  study->every = hooke_options_number(study->run, "every");
-  if (isnan(study->duration)) {
-    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
-  }
-  if (isnan(study->every)) study->every = study->duration / 100.0;
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
-  return hooke_options_set_number(study->run, "every", study->every);
+  return hooke_step_times(study->run, &study->duration, &study->every);
 }
 
 int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,

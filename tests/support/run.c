@@ -78,3 +78,16 @@ double largest(int64_t count, const double *a) {
   }
   return most;
 }
+
+double bound_at_start(const hooke_system *system, const char *method) {
+  hooke_state *state = start_state(system);
+  double bound = NAN;
+  const int32_t status = hooke_step_bound(system, method, hooke_state_position(state), &bound);
+  hooke_state_destroy(state);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  return bound;
+}
