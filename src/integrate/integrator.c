@@ -53,6 +53,13 @@ static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **o
   return status;
 }
 
+static int32_t gather_crew(hooke_integrator *it) {
+  const int32_t members =
+      hooke_motion_members(it->system, (int32_t)hooke_options_number(it->options, "threads"));
+  if (members > 1) it->crew = hooke_crew_create(members);
+  return members > 1 && it->crew == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
+}
+
 int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                 hooke_integrator **out) {
   hooke_integrator *it = NULL;
@@ -65,7 +72,8 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (!it->method->second_order) {
     status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
-  if (status == HOOKE_OK) status = hooke_motion_create(system, by_tiles, &it->motion);
+  if (status == HOOKE_OK) status = gather_crew(it);
+  if (status == HOOKE_OK) status = hooke_motion_create(system, by_tiles, it->crew, &it->motion);
   if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, !by_tiles, &it->recent);
   return finish(it, status, out);
 }
@@ -97,6 +105,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
   if (it->own && it->method->destroy) it->method->destroy(it);
   hooke_motion_destroy(it->motion);
+  hooke_crew_destroy(it->crew);
   hooke_recent_release(&it->recent);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);

@@ -41,6 +41,7 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
+  struct hooke_crew *crew; /* NULL: one thread */
   struct hooke_motion *motion;
   /* first-order problem */
   hooke_rate *rate;

@@ -21,7 +21,7 @@ const struct hooke_force_row *hooke_force_table(int32_t k) {
 static int32_t forces_at(const hooke_system *system, double t, const double *q, const double *v,
                          struct hooke_motion **motion) {
   int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = hooke_motion_create(system, 0, motion);
+  if (status == HOOKE_OK) status = hooke_motion_create(system, 0, NULL, motion);
   if (status != HOOKE_OK) return status;
   hooke_motion_load(system, *motion, q, v);
   status = hooke_motion_forces(system, *motion, t);

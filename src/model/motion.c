@@ -6,6 +6,18 @@
 
 #include <string.h>
 
+/* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and shares of
+ * what all members of a net do at its borders. */
+enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
+
+int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
+  int64_t members = 1;
+  if (system->net.particles > 0)
+    members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * system->net.pairs);
+  if (members > most) members = most;
+  return members > 1 ? (int32_t)members : 1;
+}
+
 static int64_t driven_count(const hooke_system *system) {
   int64_t count = 0;
   for (int64_t k = 0; k < system->drive_count; k++)
@@ -83,16 +95,18 @@ static int32_t new_scratch(const hooke_system *system, struct hooke_motion *moti
     if (motion->windows == NULL) return HOOKE_NO_MEMORY;
   }
   if (system->net.particles > 0) {
-    motion->net = hooke_net_scratch_create(&system->net);
+    motion->net = hooke_net_scratch_create(&system->net, hooke_crew_members(motion->crew));
     if (motion->net == NULL) return HOOKE_NO_MEMORY;
   }
   motion->memory += hooke_windows_memory(motion->windows) + hooke_net_scratch_memory(motion->net);
   return HOOKE_OK;
 }
 
-int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_motion **out) {
+int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_crew *crew,
+                            struct hooke_motion **out) {
   struct hooke_motion *motion = hooke_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
+  motion->crew = crew;
   motion->order = by_tiles ? system->net.order : NULL;
   motion->w = motion->order ? system->net.inverse_mass : system->inverse_mass;
   int32_t status = new_arrays(system, by_tiles, motion);

@@ -4,6 +4,7 @@
 #ifndef HOOKE_MODEL_MOTION_H
 #define HOOKE_MODEL_MOTION_H
 
+#include "core/crew.h"
 #include "model/system.h"
 
 struct hooke_force_row;
@@ -12,6 +13,7 @@ struct hooke_net_scratch;
 
 struct hooke_motion {
   int64_t n;
+  struct hooke_crew *crew;    /* that goes over tiles; NULL: the caller alone */
   double *q[3], *v[3], *f[3]; /* n each, in one block; f NULL if particles are moved by tiles */
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
   const double *w;            /* inverse masses */
@@ -30,8 +32,13 @@ struct hooke_motion {
 /* 1 if the forces on a tile of particles can be known before the rest of the motion is. */
 int32_t hooke_goes_by_tiles(const hooke_system *system);
 
-/* With `by_tiles` the motion may be moved by hooke_motion_pass() alone; only for systems that go by tiles. */
-int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_motion **motion);
+/* How many threads of up to `most` the passes over the particles of a system are worth. */
+int32_t hooke_motion_members(const hooke_system *system, int32_t most);
+
+/* With `by_tiles` the motion may be moved by hooke_motion_pass() alone; only for systems that go by tiles. The crew (NULL:
+ * none) has to outlive the motion. */
+int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_crew *crew,
+                            struct hooke_motion **motion);
 void hooke_motion_destroy(struct hooke_motion *motion);
 
 /* From and to rows of x y z. */

@@ -63,14 +63,14 @@ int32_t hooke_net_number(int64_t particles, int64_t springs, const int32_t *head
 /* Classes of the springs of all runs, in net->class; class_of has one for each run. */
 void hooke_net_classify(const struct hooke_springs *springs, struct hooke_net *net, int32_t *class_of);
 
-/* Window and ring of one pass at a time. NULL without memory. */
+/* Windows and rings of one pass at a time by so many members of a crew. NULL without memory. */
 struct hooke_net_scratch;
-struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net);
+struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net, int32_t members);
 void hooke_net_scratch_destroy(struct hooke_net_scratch *scratch);
 int64_t hooke_net_scratch_memory(const struct hooke_net_scratch *scratch);
 
 /* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a rest length
- * but no direction. */
+ * but no direction. Members of its crew go over tiles of their own at the same time, each in ascending order. */
 int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *motion, hooke_tile *tile, void *ctx);
 
 #endif

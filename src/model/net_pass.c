@@ -1,64 +1,46 @@
 /* The pass over tiles: fills the window, then the ring, sums, hands the tile on. */
-#include "model/net.h"
+#include "model/net_share.h"
 
-#include "core/memory.h"
 #include "model/motion.h"
 
-struct hooke_net_scratch {
-  double *rows, *pairs, *f[3]; /* f: HOOKE_TILE each */
-  const struct hooke_net_loops *loops;
-  int64_t memory;
+#include <string.h>
+
+struct pass {
+  const struct hooke_net *net;
+  struct hooke_motion *motion;
+  hooke_tile *tile;
+  void *ctx;
 };
 
-struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net) {
-  const int64_t numbers = HOOKE_NET_ROW * (net->rows + net->pairs) + 3 * HOOKE_TILE;
-  struct hooke_net_scratch *scratch = hooke_new(1, sizeof *scratch);
-  double *block = hooke_new(numbers, sizeof(double));
-  if (scratch == NULL || block == NULL) {
-    hooke_free(scratch);
-    hooke_free(block);
-    return NULL;
+static int64_t least(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* Rows of particles `from` .. `to` - 1, as they are now. */
+static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double *rows) {
+  const struct hooke_motion *m = pass->motion;
+  const int32_t *order = m->order ? NULL : pass->net->order;
+  const double *q[3], *v[3];
+  for (int a = 0; a < 3; a++) {
+    q[a] = order ? m->q[a] : m->q[a] + from;
+    v[a] = order ? m->v[a] : m->v[a] + from;
   }
-  scratch->rows = block;
-  scratch->pairs = block + HOOKE_NET_ROW * net->rows;
-  for (int a = 0; a < 3; a++)
-    scratch->f[a] = scratch->pairs + HOOKE_NET_ROW * net->pairs + a * HOOKE_TILE;
-  scratch->loops = hooke_spring_set(0)->net;
-  scratch->memory = (int64_t)sizeof *scratch + numbers * (int64_t)sizeof(double);
-  return scratch;
+  hooke_net_rows((ptrdiff_t)(to - from), order ? order + from : NULL, q, m->net->damped ? v : NULL, rows);
 }
 
-void hooke_net_scratch_destroy(struct hooke_net_scratch *scratch) {
-  if (scratch == NULL) return;
-  hooke_free(scratch->rows);
-  hooke_free(scratch);
-}
-
-int64_t hooke_net_scratch_memory(const struct hooke_net_scratch *scratch) {
-  return scratch ? scratch->memory : 0;
-}
-
-static int is_damped(const struct hooke_net *net) {
-  int damped = 0;
-  for (int32_t c = 0; c < net->classes; c++)
-    damped |= net->class[c].shape & HOOKE_NET_DAMPED;
-  return damped;
-}
-
-/* Rows of particles `from` .. `to` - 1, in the ring of rows. */
-static void fill_rows(const struct hooke_net *net, const struct hooke_motion *m, int64_t from, int64_t to) {
-  const int damped = is_damped(net);
-  const int32_t *order = m->order ? NULL : net->order;
-  while (from < to) {
-    const int64_t at = from % net->rows, room = net->rows - at, count = to - from < room ? to - from : room;
-    const double *q[3], *v[3];
-    for (int a = 0; a < 3; a++) {
-      q[a] = order ? m->q[a] : m->q[a] + from;
-      v[a] = order ? m->v[a] : m->v[a] + from;
-    }
-    hooke_net_rows((ptrdiff_t)count, order ? order + from : NULL, q, damped ? v : NULL,
-                   m->net->rows + HOOKE_NET_ROW * at);
-    from += count;
+/* The window reaches to particle `to` - 1; those from `saved` on are taken from what was saved. */
+static void fill_rows(const struct pass *pass, struct hooke_net_share *share, int64_t to, int64_t saved) {
+  const struct hooke_net *net = pass->net;
+  while (share->seen < to) {
+    const int64_t from = share->seen, at = from % net->rows, end = least(to, from + net->rows - at);
+    double *rows = share->rows + HOOKE_NET_ROW * at;
+    const int64_t cut = from < saved ? least(end, saved) : end;
+    if (from < saved)
+      copy_rows(pass, from, cut, rows);
+    else
+      memcpy(rows, share->saved + HOOKE_NET_ROW * (from - saved),
+             (size_t)(cut - from) * HOOKE_NET_ROW * sizeof *rows);
+    share->seen = cut;
   }
 }
 
@@ -76,40 +58,65 @@ static struct hooke_net_springs springs_at(const struct hooke_net *net, const st
   return springs;
 }
 
-/* Springs `from` .. `to` - 1, of one class and of one tile, into the ring. */
-static int64_t fill_class(const struct hooke_net *net, const struct hooke_net_scratch *scratch, int64_t tile,
-                          int32_t c, int64_t from, int64_t to) {
+/* The next `count` springs, of one class and of one tile, into the ring. */
+static void fill_class(const struct pass *pass, struct hooke_net_share *share, int64_t tile, int32_t c,
+                       int64_t count) {
+  const struct hooke_net *net = pass->net;
   const struct hooke_net_class *class = &net->class[c];
-  const double *low = scratch->rows + HOOKE_NET_ROW * (tile * HOOKE_TILE % net->rows);
-  hooke_net_fill *fill = scratch->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
-  int64_t lost = 0;
-  while (from < to) {
-    const int64_t at = from % net->pairs, room = net->pairs - at;
-    int64_t count = to - from < room ? to - from : room;
-    if (count > HOOKE_NET_BATCH) count = HOOKE_NET_BATCH;
-    const struct hooke_net_springs springs = springs_at(net, class, from);
-    lost += fill(&springs, (ptrdiff_t)count, low, scratch->rows, scratch->pairs + HOOKE_NET_ROW * at);
-    from += count;
+  const double *low = share->rows + HOOKE_NET_ROW * (tile * HOOKE_TILE % net->rows);
+  hooke_net_fill *fill = pass->motion->net->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
+  const int64_t end = share->done + count;
+  while (share->done < end) {
+    const int64_t at = share->done % net->pairs,
+                  some = least(least(end - share->done, net->pairs - at), HOOKE_NET_BATCH);
+    const struct hooke_net_springs springs = springs_at(net, class, share->done);
+    share->lost += fill(&springs, (ptrdiff_t)some, low, share->rows, share->pairs + HOOKE_NET_ROW * at);
+    share->done += some;
   }
-  return lost;
 }
 
-int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *m, hooke_tile *tile, void *ctx) {
-  struct hooke_net_scratch *scratch = m->net;
-  const void *half = net->half;
-  int64_t lost = 0, at = 0, seen = 0;
-  for (int64_t t = 0; t < net->tiles; t++) {
-    const int64_t from = t * HOOKE_TILE,
-                  end = from + HOOKE_TILE < net->particles ? from + HOOKE_TILE : net->particles;
-    fill_rows(net, m, seen, net->tile[t].reach);
-    seen = net->tile[t].reach;
-    for (int32_t c = 0; c < net->classes; c++) {
-      const int64_t count = net->batch[t * net->classes + c];
-      lost += fill_class(net, scratch, t, c, at, at + count);
-      at += count;
-    }
-    half = scratch->loops->sum[net->wide](end - from, net->degree + from, half, scratch->pairs, scratch->f);
-    tile(from, end - from, scratch->f, ctx);
+static void fill_tile(const struct pass *pass, struct hooke_net_share *share, int64_t tile, int64_t saved) {
+  const struct hooke_net *net = pass->net;
+  fill_rows(pass, share, net->tile[tile].reach, saved);
+  for (int32_t c = 0; c < net->classes; c++)
+    fill_class(pass, share, tile, c, net->batch[tile * net->classes + c]);
+}
+
+/* What has to be read before anyone moves. */
+static void prepare(const struct pass *pass, struct hooke_net_share *share) {
+  const struct hooke_net *net = pass->net;
+  share->seen = share->begin * HOOKE_TILE;
+  share->done = share->begin > 0 ? net->tile[share->begin - 1].end : 0;
+  for (int64_t t = share->begin; t < share->first; t++)
+    fill_tile(pass, share, t, net->particles);
+  share->lost = 0; /* others count these springs */
+  const int64_t from = share->end * HOOKE_TILE;
+  if (from < share->saved_end) copy_rows(pass, from, share->saved_end, share->saved);
+}
+
+static void go_over(int32_t member, int32_t members, void *ctx) {
+  (void)members;
+  const struct pass *pass = ctx;
+  const struct hooke_net *net = pass->net;
+  struct hooke_motion *m = pass->motion;
+  struct hooke_net_share *share = &m->net->share[member];
+  const void *half = share->half;
+  prepare(pass, share);
+  hooke_crew_meet(m->crew);
+  for (int64_t t = share->first; t < share->end; t++) {
+    const int64_t from = t * HOOKE_TILE, end = least(from + HOOKE_TILE, net->particles);
+    fill_tile(pass, share, t, share->end * HOOKE_TILE);
+    half = m->net->loops->sum[net->wide](end - from, net->degree + from, half, share->pairs, share->f);
+    pass->tile(from, end - from, share->f, pass->ctx);
   }
+}
+
+int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *motion, hooke_tile *tile,
+                       void *ctx) {
+  struct pass pass = {net, motion, tile, ctx};
+  int64_t lost = 0;
+  hooke_crew_run(motion->crew, go_over, &pass);
+  for (int32_t m = 0; m < motion->net->members; m++)
+    lost += motion->net->share[m].lost;
   return lost;
 }
