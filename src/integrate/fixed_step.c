@@ -22,46 +22,24 @@ int32_t hooke_integrator_forces_without(hooke_integrator *it, double t,
   return keep_stop_value(it, hooke_motion_forces_without(it->system, it->motion, t, left_out));
 }
 
-/* Drag on a tile, as its row in the table of forces adds it; held particles are put back after a step. */
-static void brake(double drag, int64_t from, int64_t count, const struct hooke_motion *m,
-                  double *const f[3]) {
-  for (int a = 0; a < 3; a++) {
-    for (int64_t k = 0; k < count; k++)
-      f[a][k] -= drag * m->v[a][from + k];
-  }
-}
-
-struct move {
-  hooke_integrator *integrator;
-  hooke_step_loop *loop;
-};
-
-static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
-  const struct move *move = ctx;
-  const hooke_system *system = move->integrator->system;
-  const struct hooke_motion *m = move->integrator->motion;
-  if (system->drag > 0.0) brake(system->drag, from, count, m, f);
-  for (int a = 0; a < 3; a++) {
-    move->loop(count, move->integrator->schedule.step, m->w + from, f[a],
-               system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
-  }
-}
-
-int32_t hooke_integrator_move(hooke_integrator *it, hooke_step_loop *loop) {
-  struct move move = {it, loop};
-  if (it->motion->f[0] == NULL) {
+int32_t hooke_integrator_move(hooke_integrator *it, int32_t kind) {
+  const hooke_system *system = it->system;
+  struct hooke_motion *m = it->motion;
+  const double step = it->schedule.step;
+  if (m->f[0] == NULL) {
+    struct hooke_move move = {kind, system->has_gravity, step, system->drag, {0.0}};
+    memcpy(move.gravity, system->gravity, sizeof move.gravity);
     it->count.force_evaluations++;
-    hooke_motion_pass(it->system, it->motion, move_tile, &move);
+    hooke_motion_pass(system, m, &move);
     return HOOKE_OK;
   }
   const int32_t status = hooke_integrator_forces(it, it->t);
   if (status != HOOKE_OK) return status;
-  const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
+  hooke_step_loop *loop = hooke_step_loop_of(kind);
   for (int64_t s = 0; s < system->span_count; s++) {
     const int64_t from = system->span[s].from;
     for (int a = 0; a < 3; a++) {
-      loop(system->span[s].count, it->schedule.step, system->inverse_mass + from, m->f[a] + from,
+      loop(system->span[s].count, step, system->inverse_mass + from, m->f[a] + from,
            system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
     }
   }

@@ -11,7 +11,7 @@ static int32_t step_rate(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
-  return hooke_integrator_move(it, hooke_spring_set(0)->drift_then_kick);
+  return hooke_integrator_move(it, HOOKE_DRIFT_THEN_KICK);
 }
 
 const struct hooke_method hooke_forward_euler = {.name = "forward-euler",

@@ -79,9 +79,9 @@ int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hooke_integrator_forces_without(hooke_integrator *integrator, double t,
                                         const struct hooke_force_row *left_out);
-/* Forces at the present time, and every particle moved under them by a loop of the kernel: in one pass over memory where
- * the forces allow it. */
-int32_t hooke_integrator_move(hooke_integrator *integrator, hooke_step_loop *loop);
+/* Forces at the present time, and every particle moved under them in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or
+ * HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
+int32_t hooke_integrator_move(hooke_integrator *integrator, int32_t kind);
 /* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
 int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);

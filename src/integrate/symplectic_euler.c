@@ -3,7 +3,7 @@
 #include "integrate/integrator.h"
 
 static int32_t step(hooke_integrator *it) {
-  return hooke_integrator_move(it, hooke_spring_set(0)->kick_then_drift);
+  return hooke_integrator_move(it, HOOKE_KICK_THEN_DRIFT);
 }
 
 const struct hooke_method hooke_symplectic_euler = {.name = "symplectic-euler",

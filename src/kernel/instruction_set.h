@@ -3,6 +3,7 @@
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
 #include "kernel/front_loops.h"
+#include "kernel/lane_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
 #include "kernel/vector_loops.h"
@@ -19,6 +20,7 @@
 #endif
 
 #define HOOKE_SPRING_SET    HOOKE_OF_ISA(hooke_spring_set_)
+#define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hooke_lane_loop_)
 #define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hooke_net_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hooke_bending_loops_)
 #define HOOKE_FRONT_SET     HOOKE_OF_ISA(hooke_front_set_)
@@ -26,6 +28,7 @@
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hooke_vector_set_)
 
 extern const struct hooke_spring_set HOOKE_SPRING_SET;
+hooke_lane_loop HOOKE_LANE_LOOP;
 extern const struct hooke_net_loops HOOKE_NET_LOOPS;
 extern hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 extern const struct hooke_front_set HOOKE_FRONT_SET;

@@ -27,6 +27,11 @@ const struct hooke_spring_set *hooke_spring_set(int32_t set) {
   return set >= 0 && set < count ? found[set] : NULL;
 }
 
+hooke_step_loop *hooke_step_loop_of(int32_t move) {
+  const struct hooke_spring_set *set = hooke_spring_set(0);
+  return move == HOOKE_KICK_THEN_DRIFT ? set->kick_then_drift : set->drift_then_kick;
+}
+
 const char *hooke_kernel_instructions(void) {
   return hooke_spring_set(0)->name;
 }

@@ -126,50 +126,6 @@ HOOKE_INLINE int64_t indexed_loop(const struct hooke_run *run, const struct hook
   return lost;
 }
 
-/* ---- lanes: forces of springs into windows, and their sums at particles ---- */
-
-HOOKE_INLINE int64_t fill_window(const struct hooke_run *run, const struct hooke_fields *at, int64_t done,
-                                 ptrdiff_t count, double *const b[3], const int damped, const int mixed,
-                                 const int pull) {
-  struct springs springs = springs_from(run, done, mixed);
-  /* ends that change places change the sign of d, and of nothing else */
-  if (springs.offset < 0) springs.offset = -springs.offset;
-  return fill_block(b[0], b[1], b[2], at->q[0], at->q[1], at->q[2], at->v[0], at->v[1], at->v[2], springs,
-                    count, 0, damped, mixed, pull);
-}
-
-enum { LANES_AT_ONCE = 6 };
-
-HOOKE_INLINE void sum_lanes(ptrdiff_t count, const int lanes, const int first, const double *const *upper,
-                            const double *const *lower, double *restrict f) {
-  const double *u[LANES_AT_ONCE], *l[LANES_AT_ONCE];
-  for (int j = 0; j < lanes; j++) {
-    u[j] = upper[j];
-    l[j] = lower[j];
-  }
-  HOOKE_VECTORISE
-  for (ptrdiff_t k = 0; k < count; k++) {
-    double sum = first ? 0.0 : f[k];
-    for (int j = 0; j < lanes; j++)
-      sum = (sum + u[j][k]) - l[j][k];
-    f[k] = sum;
-  }
-}
-
-#define SUM(lanes, first)                                                                                    \
-  case lanes:                                                                                                \
-    sum_lanes(count, lanes, first, upper, lower, f);                                                         \
-    break;
-
-static void sum(ptrdiff_t count, int32_t lanes, const double *const *upper, const double *const *lower,
-                double *f) {
-  switch (lanes < LANES_AT_ONCE ? lanes : LANES_AT_ONCE) {
-    SUM(0, 1) SUM(1, 1) SUM(2, 1) SUM(3, 1) SUM(4, 1) SUM(5, 1) SUM(6, 1)
-  }
-  for (int32_t done = LANES_AT_ONCE; done < lanes; done++)
-    sum_lanes(count, 1, 0, upper + done, lower + done, f);
-}
-
 /* ---- steps ---- */
 
 static void kick_then_drift(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
@@ -209,10 +165,6 @@ static void drift_then_kick(ptrdiff_t count, double h, const double *restrict w,
   static int64_t NAME(indexed, damped, mixed, pull)(const struct hooke_run *run,                             \
                                                     const struct hooke_fields *f) {                          \
     return indexed_loop(run, f, damped, mixed, pull);                                                        \
-  }                                                                                                          \
-  static int64_t NAME(fill, damped, mixed, pull)(const struct hooke_run *run, const struct hooke_fields *at, \
-                                                 int64_t done, ptrdiff_t count, double *const b[3]) {        \
-    return fill_window(run, at, done, count, b, damped, mixed, pull);                                        \
   }
 LOOPS(0, 0, 0)
 LOOPS(0, 0, 1)
@@ -238,8 +190,7 @@ LOOPS(1, 1, 1)
 const struct hooke_spring_set HOOKE_SPRING_SET = {
     .name = TEXT(HOOKE_ISA),
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
-    .fill = {BY_SHAPE(fill, 0)},
-    .sum = sum,
+    .lanes = HOOKE_LANE_LOOP,
     .net = &HOOKE_NET_LOOPS,
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,

@@ -7,6 +7,7 @@
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
 #include "kernel/bending_loops.h"
+#include "kernel/lane_loops.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -64,17 +65,6 @@ static inline struct hooke_material hooke_run_material(const struct hooke_run *r
   return (struct hooke_material){run->kappa, run->gamma, length};
 }
 
-/* b = s d, with F = -s d on the end of the lower number and s d on the other, for springs done .. done + count - 1 of a
- * run of constant offset; `at` begins at the lower end of the first of them. `count` may go on past the run where its
- * material is shared: what is computed there is not a spring. Returns how many had a rest length but no direction. */
-typedef int64_t hooke_spring_fill(const struct hooke_run *run, const struct hooke_fields *at, int64_t done,
-                                  ptrdiff_t count, double *const b[3]);
-
-/* f[k] = sum over lanes, in their order, of upper[lane][k] - lower[lane][k], each added on its own: what springs that end at
- * particle k do, and then those that begin there. */
-typedef void hooke_lane_sum(ptrdiff_t count, int32_t lanes, const double *const *upper,
-                            const double *const *lower, double *f);
-
 /* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g. Symplectic
  * Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g is NULL, a = w f. */
 typedef void hooke_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
@@ -85,8 +75,7 @@ typedef void hooke_step_loop(ptrdiff_t count, double h, const double *w, const d
 struct hooke_spring_set {
   const char *name;
   hooke_spring_loop *loop[HOOKE_RUN_SHAPES];
-  hooke_spring_fill *fill[HOOKE_RUN_SHAPES]; /* NULL for indexed runs */
-  hooke_lane_sum *sum;
+  hooke_lane_loop *lanes;
   hooke_step_loop *kick_then_drift, *drift_then_kick;
   hooke_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hooke_net_loops *net;
@@ -95,6 +84,9 @@ struct hooke_spring_set {
   const struct hooke_front_set *front;
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
+
+/* The loop of this machine's set for HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK. */
+hooke_step_loop *hooke_step_loop_of(int32_t move);
 
 /* Name of the set that is used on this machine. */
 const char *hooke_kernel_instructions(void);

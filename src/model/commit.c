@@ -83,7 +83,7 @@ static int32_t fill_particles(hooke_system *system) {
   int64_t held = 0;
   for (int64_t p = 0; p < n; p++)
     held += system->held[p] != 0;
-  system->inverse_mass = hooke_new(n, sizeof(double));
+  system->inverse_mass = hooke_new(n + HOOKE_LANE_UNIT, sizeof(double)); /* loops go by whole units */
   system->held_particle = hooke_new(held, sizeof(int32_t));
   if (system->inverse_mass == NULL || system->held_particle == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < n; p++) {

@@ -11,27 +11,10 @@ static int32_t present(const hooke_system *system) {
   return system->springs.count > 0;
 }
 
-struct keep {
-  struct hooke_motion *motion;
-  const int32_t *order; /* of tiles; NULL: the motion's */
-};
-
-/* Forces are zero before springs are added, so sums are the forces. */
-static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
-  const struct keep *keep = ctx;
-  for (int a = 0; a < 3; a++) {
-    double *kept = keep->motion->f[a];
-    if (keep->order == NULL) memcpy(kept + from, f[a], (size_t)count * sizeof(double));
-    for (int64_t k = 0; k < count && keep->order; k++)
-      kept[keep->order[from + k]] = f[a][k];
-  }
-}
-
 static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
   (void)t;
   if (system->lanes.count > 0 || system->net.particles > 0) {
-    struct keep keep = {motion, system->net.order};
-    hooke_motion_pass(system, motion, keep_tile, &keep);
+    hooke_motion_pass(system, motion, &(const struct hooke_move){.kind = HOOKE_MOVE_KEEP});
     return HOOKE_OK;
   }
   struct hooke_fields fields;

@@ -1,200 +1,235 @@
-/* The pass over tiles: fills windows, sums, hands the tile on. */
-#include "model/lane.h"
-
+/* The pass over lanes, by one thread or by a crew. Each member has the particles of a range. What others will have moved
+ * when it comes to it, it computes or copies before anyone moves: the springs that begin below its range and end in it, and the
+ * particles above its range where its own springs end. */
 #include "core/memory.h"
-#include "kernel/spring_body.h"
 #include "model/motion.h"
 
 #include <string.h>
 
-/* Between springs of one lane and material, a gap as small as this is computed as if it had springs and then cleared:
- * shorter than a vector of its own. */
-enum { SMALL_GAP = 16, TILES_A_WINDOW = 4 };
-
-/* Forces of the springs of one lane, b[a][at + l - from] for spring l of the tile that begins at particle `from`. */
-struct window {
-  double *b[3];
-  int64_t reach, room, at; /* reach: the offset, in whole vectors */
-  int64_t next;            /* first run that is not done with */
+struct share {
+  struct hooke_lane_pass pass;    /* lanes that the loop is at */
+  double *ring[HOOKE_MOST_LANES]; /* of every lane */
+  uint8_t open[HOOKE_MOST_LANES]; /* 0: has springs of another place, or none yet */
+  double *border; /* q and v, x y z apart, of `reach` particles at the end of the range, and of those after */
+  int64_t from, to; /* the range */
+  int64_t at, lost; /* the first particle that the loop has not come to */
 };
 
-struct hooke_windows {
-  struct window window[HOOKE_MOST_LANES];
-  double *block, *f[3]; /* f: HOOKE_TILE each */
-  const struct hooke_spring_set *set;
-  int64_t memory;
+struct hooke_rings {
+  int32_t members;
+  int64_t reach, border_stride, memory;
+  double *block;
+  struct share *share;
 };
 
-static int64_t whole(int64_t count, int64_t unit) {
-  return (count + unit - 1) / unit * unit;
+struct task {
+  const hooke_system *system;
+  struct hooke_motion *motion;
+  const struct hooke_move *move;
+};
+
+static int64_t larger(int64_t a, int64_t b) {
+  return a > b ? a : b;
 }
 
-struct hooke_windows *hooke_windows_create(const struct hooke_lanes *lanes) {
-  struct hooke_windows *windows = hooke_new(1, sizeof *windows);
-  if (windows == NULL) return NULL;
-  int64_t numbers = 3 * HOOKE_TILE + 8;
-  for (int32_t k = 0; k < lanes->count; k++) {
-    struct window *window = &windows->window[k];
-    window->reach = whole(lanes->lane[k].offset, 8);
-    const int64_t tiles = whole(window->reach, HOOKE_TILE), least = TILES_A_WINDOW * HOOKE_TILE;
-    window->room = window->reach + (tiles > least ? tiles : least);
-    numbers += 3 * window->room;
-  }
-  windows->block = hooke_new(numbers, sizeof(double));
-  if (windows->block == NULL) {
-    hooke_free(windows);
+static int64_t lesser(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+static int64_t whole_units(int64_t count) {
+  return (count + HOOKE_LANE_UNIT - 1) / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
+}
+
+static int64_t ring_room(const struct hooke_lane *lane) {
+  int64_t room = HOOKE_LANE_UNIT;
+  while (room < lane->offset + HOOKE_RING_SLACK)
+    room *= 2;
+  return room;
+}
+
+static int64_t ring_size(const struct hooke_lane *lane) {
+  return 3 * hooke_ring_stride(ring_room(lane) - 1);
+}
+
+struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t members) {
+  struct hooke_rings *rings = hooke_new(1, sizeof *rings);
+  if (rings == NULL) return NULL;
+  int64_t numbers = 0;
+  for (int32_t k = 0; k < lanes->count; k++)
+    numbers += ring_size(&lanes->lane[k]);
+  rings->members = members;
+  rings->reach = lanes->reach;
+  rings->border_stride = 2 * lanes->reach + HOOKE_LANE_UNIT;
+  numbers += members > 1 ? 6 * rings->border_stride : 0;
+  rings->share = hooke_new(members, sizeof *rings->share);
+  rings->block = hooke_new(members * numbers + HOOKE_LANE_UNIT, sizeof(double));
+  rings->memory = (int64_t)sizeof *rings + members * (int64_t)sizeof *rings->share +
+                  (members * numbers + HOOKE_LANE_UNIT) * (int64_t)sizeof(double);
+  if (rings->share == NULL || rings->block == NULL) {
+    hooke_rings_destroy(rings);
     return NULL;
   }
-  windows->set = hooke_spring_set(0);
-  windows->memory = (int64_t)sizeof *windows + numbers * (int64_t)sizeof(double);
-  double *next = windows->block + (8 - ((uintptr_t)windows->block / sizeof(double)) % 8) % 8;
-  for (int a = 0; a < 3; a++, next += HOOKE_TILE)
-    windows->f[a] = next;
+  const uintptr_t line = HOOKE_LANE_UNIT * sizeof(double);
+  double *next = rings->block + (line - (uintptr_t)rings->block % line) % line / sizeof(double);
+  for (int32_t m = 0; m < members; m++) {
+    for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
+      rings->share[m].ring[k] = next;
+    rings->share[m].border = next;
+    next += members > 1 ? 6 * rings->border_stride : 0;
+  }
+  return rings;
+}
+
+void hooke_rings_destroy(struct hooke_rings *rings) {
+  if (rings == NULL) return;
+  hooke_free(rings->share);
+  hooke_free(rings->block);
+  hooke_free(rings);
+}
+
+int64_t hooke_rings_memory(const struct hooke_rings *rings) {
+  return rings ? rings->memory : 0;
+}
+
+static struct hooke_lane_view view_of(const struct hooke_lane *lane, double *ring) {
+  const int64_t base = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
+  return (struct hooke_lane_view){.shape = lane->shape,
+                                  .present = lane->present,
+                                  .offset = lane->offset,
+                                  .mask = ring_room(lane) - 1,
+                                  .ring = ring,
+                                  .kappa = lane->kappa,
+                                  .gamma = lane->gamma,
+                                  .rest_length = lane->rest_length,
+                                  .kappas = lane->kappas,
+                                  .gammas = lane->gammas,
+                                  .rest_lengths = lane->rest_lengths,
+                                  .base = base,
+                                  .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
+}
+
+/* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the particle up to
+ * which these are all, `to` at most. */
+static int64_t set_lanes(const struct hooke_lanes *lanes, struct share *share, int64_t from, int64_t to) {
+  share->pass.count = 0;
   for (int32_t k = 0; k < lanes->count; k++) {
-    for (int a = 0; a < 3; a++, next += windows->window[k].room)
-      windows->window[k].b[a] = next;
+    const struct hooke_lane *lane = &lanes->lane[k];
+    const int64_t begin = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT,
+                  end = whole_units(lane->last + lane->offset + 1);
+    if (from < begin) to = lesser(to, begin);
+    if (from < begin || from >= end) continue;
+    to = lesser(to, end);
+    if (!share->open[k]) memset(share->ring[k], 0, (size_t)ring_size(lane) * sizeof(double));
+    share->open[k] = 1;
+    share->pass.lane[share->pass.count++] = view_of(lane, share->ring[k]);
   }
-  return windows;
+  return to;
 }
 
-void hooke_windows_destroy(struct hooke_windows *windows) {
-  if (windows == NULL) return;
-  hooke_free(windows->block);
-  hooke_free(windows);
+static void advance(const struct task *task, struct share *share, int32_t kind, int64_t to) {
+  share->pass.move.kind = kind;
+  for (int64_t from = share->at; from < to; from = share->at) {
+    share->at = set_lanes(&task->system->lanes, share, from, to);
+    share->lost += hooke_spring_set(0)->lanes(&share->pass, from, share->at);
+  }
 }
 
-int64_t hooke_windows_memory(const struct hooke_windows *windows) {
-  return windows ? windows->memory : 0;
+/* Over particles that are not stepped, where no springs begin; none at all if the springs from below do not reach over them. */
+static void skip(const struct task *task, struct share *share, int64_t to) {
+  if (to - share->at >= task->motion->rings->reach) {
+    memset(share->open, 0, sizeof share->open);
+    share->at = to;
+  }
+  advance(task, share, HOOKE_MOVE_NOTHING, to);
 }
 
-static void clear(struct window *window, int64_t from, int64_t to) {
-  for (int a = 0; a < 3 && to > from; a++)
-    memset(window->b[a] + from, 0, (size_t)(to - from) * sizeof(double));
+/* All that is stepped from where the share is up to `to`. */
+static void go_on(const struct task *task, struct share *share, int32_t kind, int64_t to) {
+  const hooke_system *system = task->system;
+  for (int64_t s = 0; s < system->span_count && share->at < to; s++) {
+    const int64_t from = larger(system->span[s].from, share->at),
+                  end = lesser(whole_units(system->span[s].from + system->span[s].count), to);
+    if (from >= end) continue;
+    skip(task, share, from);
+    advance(task, share, kind, end);
+  }
 }
 
-/* Makes room for the tile after this one. */
-static void advance(struct window *window, int64_t count) {
-  window->at += count;
-  if (window->at + HOOKE_TILE <= window->room) return;
+/* Components of q and v of `count` particles. */
+static void copy(double *const q, double *const v, ptrdiff_t stride, double *const to_q, double *const to_v,
+                 ptrdiff_t to_stride, int64_t count) {
   for (int a = 0; a < 3; a++) {
-    memmove(window->b[a], window->b[a] + window->at - window->reach, (size_t)window->reach * sizeof(double));
+    memcpy(to_q + a * to_stride, q + a * stride, (size_t)count * sizeof(double));
+    memcpy(to_v + a * to_stride, v + a * stride, (size_t)count * sizeof(double));
   }
-  window->at = window->reach;
 }
 
-static int may_join(const struct hooke_run *run, const struct hooke_run *next) {
-  return run->shape == next->shape && !(run->shape & HOOKE_RUN_MIXED) &&
-         hooke_run_low(next) - hooke_run_high(run) <= SMALL_GAP && run->kappa == next->kappa &&
-         run->gamma == next->gamma && run->rest_length == next->rest_length;
+static void begin(const struct task *task, struct share *share, int32_t member, int32_t members) {
+  const struct hooke_motion *m = task->motion;
+  share->from = hooke_crew_share(m->n, HOOKE_TILE, member, members);
+  share->to = whole_units(hooke_crew_share(m->n, HOOKE_TILE, member + 1, members));
+  share->pass.stride = m->q[1] - m->q[0];
+  share->pass.q = m->q[0];
+  share->pass.v = m->v[0];
+  share->pass.f = m->f[0];
+  share->pass.w = m->w;
+  share->pass.move = *task->move;
+  memset(share->open, 0, sizeof share->open);
+  share->at = larger(0, share->from - m->rings->reach);
+  share->lost = 0;
 }
 
-/* Springs of one run within [from, to) that have a rest length but no direction. */
-static int64_t count_lost(const struct hooke_run *run, const struct hooke_motion *m, int64_t from,
-                          int64_t to) {
-  const int64_t low = hooke_run_low(run) > from ? hooke_run_low(run) : from,
-                high = hooke_run_high(run) < to ? hooke_run_high(run) : to;
+/* What has to be read before anyone moves. */
+static void prepare(const struct task *task, struct share *share) {
+  const struct hooke_motion *m = task->motion;
+  const int64_t stride = m->rings->border_stride, reach = m->rings->reach;
+  go_on(task, share, HOOKE_MOVE_NOTHING, share->from);
+  share->lost = 0; /* others count these springs */
+  if (share->to < m->n) {
+    double *q = share->border + reach;
+    copy(m->q[0] + share->to, m->v[0] + share->to, share->pass.stride, q, q + 3 * stride, stride,
+         reach + HOOKE_LANE_UNIT);
+  }
+}
+
+/* The last particles of the range, together with those that others move meanwhile. */
+static void finish(const struct task *task, struct share *share) {
+  const struct hooke_motion *m = task->motion;
+  const int64_t stride = m->rings->border_stride, from = larger(share->from, share->to - m->rings->reach),
+                count = share->to - from;
+  double *q = share->border + m->rings->reach - count, *v = q + 3 * stride;
+  copy(m->q[0] + from, m->v[0] + from, share->pass.stride, q, v, stride, count);
+  share->pass.q = q - from;
+  share->pass.v = v - from;
+  share->pass.stride = stride;
+  go_on(task, share, task->move->kind, share->to);
+  copy(q, v, stride, m->q[0] + from, m->v[0] + from, m->q[1] - m->q[0], count);
+}
+
+static void go_over(int32_t member, int32_t members, void *ctx) {
+  const struct task *task = ctx;
+  const struct hooke_motion *m = task->motion;
+  struct share *share = &m->rings->share[member];
+  begin(task, share, member, members);
+  if (members > 1) {
+    prepare(task, share);
+    hooke_crew_meet(m->crew);
+  }
+  if (share->to >= m->n || task->move->kind == HOOKE_MOVE_KEEP) {
+    go_on(task, share, task->move->kind, share->to);
+    return;
+  }
+  go_on(task, share, task->move->kind, share->to - m->rings->reach);
+  skip(task, share, share->to - m->rings->reach);
+  finish(task, share);
+}
+
+int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *motion,
+                         const struct hooke_move *move) {
+  struct task task = {system, motion, move};
   int64_t lost = 0;
-  for (int64_t l = low; l < high; l++) {
-    const struct hooke_spring s = hooke_run_spring(run, l - hooke_run_low(run));
-    const double r = hooke_spring_length(m->q[0][s.head] - m->q[0][s.tail], m->q[1][s.head] - m->q[1][s.tail],
-                                         m->q[2][s.head] - m->q[2][s.tail]);
-    lost += r == 0.0 && s.rest_length != 0.0;
-  }
-  return lost;
-}
-
-/* Runs `first` .. `last` of a lane as one, from particle `from` to `to`. */
-static int64_t fill(const struct hooke_lane *lane, int64_t first, int64_t last, struct window *window,
-                    const struct hooke_motion *m, int64_t tile, int64_t from, int64_t to) {
-  const struct hooke_run *run = lane->run[first];
-  struct hooke_fields at;
-  double *b[3];
-  for (int a = 0; a < 3; a++) {
-    at.q[a] = m->q[a] + from;
-    at.v[a] = m->v[a] + from;
-    b[a] = window->b[a] + window->at + (from - tile);
-  }
-  int64_t lost = m->windows->set->fill[run->shape](run, &at, from - hooke_run_low(run), to - from, b);
-  if (first == last) return lost;
-  for (int64_t r = first; r < last; r++) {
-    const int64_t gap = hooke_run_high(lane->run[r]) > from ? hooke_run_high(lane->run[r]) : from;
-    const int64_t end = hooke_run_low(lane->run[r + 1]) < to ? hooke_run_low(lane->run[r + 1]) : to;
-    clear(window, window->at + gap - tile, window->at + end - tile);
-  }
-  if (lost == 0) return 0;
-  lost = 0;
-  for (int64_t r = first; r <= last; r++)
-    lost += count_lost(lane->run[r], m, from, to);
-  return lost;
-}
-
-/* The part of a lane that begins in the tile. */
-static int64_t fill_tile(const struct hooke_lane *lane, struct window *window, const struct hooke_motion *m,
-                         int64_t tile, int64_t end) {
-  int64_t lost = 0, done = tile;
-  while (window->next < lane->run_count && hooke_run_low(lane->run[window->next]) < end) {
-    const int64_t first = window->next, low = hooke_run_low(lane->run[first]), from = low > tile ? low : tile;
-    int64_t last = first;
-    while (last + 1 < lane->run_count && hooke_run_low(lane->run[last + 1]) < end &&
-           may_join(lane->run[last], lane->run[last + 1]))
-      last++;
-    const int64_t high = hooke_run_high(lane->run[last]), to = high < end ? high : end;
-    clear(window, window->at + done - tile, window->at + from - tile);
-    lost += fill(lane, first, last, window, m, tile, from, to);
-    done = to;
-    window->next = high <= end ? last + 1 : last;
-    if (high > end) break;
-  }
-  clear(window, window->at + done - tile, window->at + end - tile);
-  return lost;
-}
-
-/* The first tile from `from` on that a step goes over, m->n past the last; `span` moves on with the tiles. */
-static int64_t next_stepped(const hooke_system *system, int64_t from, int64_t *span) {
-  while (*span < system->span_count && system->span[*span].from + system->span[*span].count <= from)
-    (*span)++;
-  if (*span == system->span_count) return system->particle_count;
-  return system->span[*span].from > from ? system->span[*span].from : from;
-}
-
-int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *m, hooke_tile *tile, void *ctx) {
-  const struct hooke_lanes *lanes = &system->lanes;
-  struct hooke_windows *windows = m->windows;
-  int64_t lost = 0, span = 0, begun = 0;
-  for (int32_t k = 0; k < lanes->count; k++)
-    windows->window[k].next = windows->window[k].at = 0;
-  for (int64_t from = 0; from < m->n; from += HOOKE_TILE) {
-    const int64_t stepped = next_stepped(system, from, &span);
-    if (stepped > from && (!begun || stepped == m->n))
-      from = stepped; /* no spring reaches over what is left out */
-    if (from >= m->n) break;
-    const int64_t end = from + HOOKE_TILE < m->n ? from + HOOKE_TILE : m->n;
-    const double *upper[3][HOOKE_MOST_LANES], *lower[3][HOOKE_MOST_LANES];
-    int32_t active = 0;
-    for (int32_t k = 0; k < lanes->count; k++) {
-      const struct hooke_lane *lane = &lanes->lane[k];
-      struct window *window = &windows->window[k];
-      if (lane->first >= end || lane->last + lane->offset < from) continue;
-      if (window->at == 0) {
-        clear(window, 0, window->reach);
-        window->at = window->reach;
-        begun = 1;
-      }
-      lost += fill_tile(lane, window, m, from, end);
-      for (int a = 0; a < 3; a++) {
-        lower[a][active] = window->b[a] + window->at;
-        upper[a][active] = lower[a][active] - lane->offset;
-      }
-      active++;
-    }
-    if (stepped <= from) {
-      for (int a = 0; a < 3; a++)
-        windows->set->sum(end - from, active, upper[a], lower[a], windows->f[a]);
-      tile(from, end - from, windows->f, ctx);
-    }
-    for (int32_t k = 0; k < lanes->count; k++) {
-      if (windows->window[k].at > 0) advance(&windows->window[k], end - from);
-    }
-  }
+  hooke_crew_run(motion->crew, go_over, &task);
+  for (int32_t m = 0; m < hooke_crew_members(motion->crew); m++)
+    lost += motion->rings->share[m].lost;
   return lost;
 }

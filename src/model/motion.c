@@ -7,13 +7,15 @@
 #include <string.h>
 
 /* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and shares of
- * what all members of a net do at its borders. */
+ * what all members do at their borders. */
 enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
+  const int64_t border =
+      system->net.particles > 0 ? system->net.pairs : system->lanes.count * system->lanes.reach;
   int64_t members = 1;
-  if (system->net.particles > 0)
-    members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * system->net.pairs);
+  if (system->net.particles > 0 || system->lanes.count > 0)
+    members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
   if (members > most) members = most;
   return members > 1 ? (int32_t)members : 1;
 }
@@ -38,8 +40,9 @@ int32_t hooke_goes_by_tiles(const hooke_system *system) {
 static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hooke_motion *motion) {
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
-   * sets */
-  const int64_t stride = (n + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
+   * sets. Loops over lanes look beyond the last particle. */
+  const int64_t beyond = system->lanes.count > 0 ? system->lanes.reach + HOOKE_LANE_UNIT : 0;
+  const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
   const int64_t numbers = components + rows + still + driven;
@@ -91,14 +94,14 @@ static int32_t new_numbers(const hooke_system *system, struct hooke_motion *moti
 
 static int32_t new_scratch(const hooke_system *system, struct hooke_motion *motion) {
   if (system->lanes.count > 0) {
-    motion->windows = hooke_windows_create(&system->lanes);
-    if (motion->windows == NULL) return HOOKE_NO_MEMORY;
+    motion->rings = hooke_rings_create(&system->lanes, hooke_crew_members(motion->crew));
+    if (motion->rings == NULL) return HOOKE_NO_MEMORY;
   }
   if (system->net.particles > 0) {
     motion->net = hooke_net_scratch_create(&system->net, hooke_crew_members(motion->crew));
     if (motion->net == NULL) return HOOKE_NO_MEMORY;
   }
-  motion->memory += hooke_windows_memory(motion->windows) + hooke_net_scratch_memory(motion->net);
+  motion->memory += hooke_rings_memory(motion->rings) + hooke_net_scratch_memory(motion->net);
   return HOOKE_OK;
 }
 
@@ -121,7 +124,7 @@ int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct
 
 void hooke_motion_destroy(struct hooke_motion *motion) {
   if (motion == NULL) return;
-  hooke_windows_destroy(motion->windows);
+  hooke_rings_destroy(motion->rings);
   hooke_net_scratch_destroy(motion->net);
   hooke_free(motion->anchor);
   hooke_free(motion->q[0]);
@@ -246,13 +249,6 @@ int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_mot
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
-}
-
-void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion, hooke_tile *tile, void *ctx) {
-  if (system->lanes.count > 0)
-    motion->coincident = hooke_lanes_pass(system, motion, tile, ctx);
-  else
-    motion->coincident = hooke_net_pass(&system->net, motion, tile, ctx);
 }
 
 int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t) {

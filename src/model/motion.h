@@ -8,7 +8,7 @@
 #include "model/system.h"
 
 struct hooke_force_row;
-struct hooke_windows;
+struct hooke_rings;
 struct hooke_net_scratch;
 
 struct hooke_motion {
@@ -22,7 +22,7 @@ struct hooke_motion {
   double *driven;             /* q and v of each drive in turn, 3 a particle each */
   int32_t *anchor,
       *moved; /* numbers here of the anchored particles of the system, and of those of its drives in turn */
-  struct hooke_windows *windows; /* of the pass over lanes; NULL without lanes */
+  struct hooke_rings *rings;     /* of the pass over lanes; NULL without lanes */
   struct hooke_net_scratch *net; /* of the pass over a net; NULL without one */
   int64_t memory;                /* bytes */
   int64_t coincident;            /* springs without direction in the last force evaluation */
@@ -62,8 +62,10 @@ int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *mot
 int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
                                     const struct hooke_force_row *left_out);
 
-/* Sums the springs at all particles, tile by tile; only for systems with lanes or a net. */
-void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion, hooke_tile *tile, void *ctx);
+/* Sums the springs at all particles in one pass over memory, and does with the sums what `move` says; only for systems with
+ * lanes or a net, and to move particles only for motions that go by tiles. */
+void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion,
+                       const struct hooke_move *move);
 
 /* Asks the drives where their particles are at time t; HOOKE_STOPPED if a callback asked for it. */
 int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t);

@@ -69,6 +69,11 @@ struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net, 
 void hooke_net_scratch_destroy(struct hooke_net_scratch *scratch);
 int64_t hooke_net_scratch_memory(const struct hooke_net_scratch *scratch);
 
+/* Sums over `count` particles from `from` on are in f; may move these particles. */
+typedef void hooke_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
+
+struct hooke_motion;
+
 /* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a rest length
  * but no direction. Members of its crew go over tiles of their own at the same time, each in ascending order. */
 int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *motion, hooke_tile *tile, void *ctx);

@@ -110,7 +110,7 @@ const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs) +
+  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs) + system->lanes.memory +
                   hooke_net_memory(&system->net) + hooke_bending_memory(&system->bending);
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +

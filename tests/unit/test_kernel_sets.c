@@ -99,72 +99,185 @@ static void compare_sets(struct random_source *source, int32_t shape, int64_t co
   }
 }
 
-/* The same springs through a window: what ends at a particle is added, then what begins there is subtracted. */
-static void compare_windows(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
-  double expected[3][PARTICLES], found[3][PARTICLES], window[3][LONGEST];
-  draw(source, shape, count, trial);
-  memset(trial->f, 0, sizeof trial->f);
-  memset(expected, 0, sizeof expected);
-  const int64_t lost = plain(trial, expected);
-  const struct hooke_run *run = &trial->run;
-  const int64_t low = run->offset > 0 ? run->start : run->start + run->offset, o = labs((long)run->offset);
-  const struct hooke_fields at = {{trial->q[0] + low, trial->q[1] + low, trial->q[2] + low},
-                                  {trial->v[0] + low, trial->v[1] + low, trial->v[2] + low},
-                                  {NULL, NULL, NULL}};
-  double *const b[3] = {window[0], window[1], window[2]};
-  const struct hooke_spring_set *set;
-  for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
-    memset(found, 0, sizeof found);
-    assert_int_equal(set->fill[shape](run, &at, 0, (ptrdiff_t)count, b), lost);
+/* ---- lanes ---- */
+
+enum {
+  UNITS = 40,
+  LANE_PARTICLES = UNITS * HOOKE_LANE_UNIT,
+  FARTHEST = 100,
+  ROOM = LANE_PARTICLES + FARTHEST + 32
+};
+
+/* Springs of some lanes at random, and the rings that they go through. */
+struct lane_trial {
+  struct hooke_lane_pass pass;
+  double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM], material[HOOKE_MOST_LANES][3][LANE_PARTICLES];
+  uint8_t present[HOOKE_MOST_LANES][UNITS];
+  _Alignas(64) double ring[HOOKE_MOST_LANES][3 * (256 + 3 * HOOKE_LANE_UNIT)];
+};
+
+static void draw_lane(struct random_source *source, int32_t k, int32_t shape, struct lane_trial *trial) {
+  struct hooke_lane_view *lane = &trial->pass.lane[k];
+  *lane = (struct hooke_lane_view){
+      .shape = shape,
+      .present = trial->present[k],
+      .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
+      .mask = 63,
+      .ring = trial->ring[k],
+      .kappa = random_between(source, 1.0, 9.0),
+      .gamma = random_between(source, 0.1, 2.0),
+      .rest_length = random_whole(source, 0, 3) ? random_between(source, 0.1, 2.0) : 0.0,
+      .kappas = trial->material[k][0],
+      .gammas = trial->material[k][1],
+      .rest_lengths = trial->material[k][2],
+      .most = LANE_PARTICLES - HOOKE_LANE_UNIT};
+  while (lane->mask + 1 < lane->offset + HOOKE_RING_SLACK)
+    lane->mask = 2 * lane->mask + 1;
+  memset(trial->ring[k], 0, sizeof trial->ring[k]);
+  memset(trial->present[k], 0, sizeof trial->present[k]);
+  for (int64_t l = 0; l + lane->offset < LANE_PARTICLES; l++) {
+    if (random_whole(source, 0, 9)) trial->present[k][l / 8] |= (uint8_t)(1 << l % 8);
+  }
+  for (int a = 0; a < 3; a++) {
+    for (int l = 0; l < LANE_PARTICLES; l++)
+      trial->material[k][a][l] = random_between(source, 0.1, 2.0);
+  }
+}
+
+static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
+  const int32_t shape = HOOKE_RUN_DAMPED * (int32_t)random_whole(source, 0, 1);
+  struct hooke_lane_pass *pass = &trial->pass;
+  *pass = (struct hooke_lane_pass){.count = (int32_t)random_whole(source, 1, 12),
+                                   .stride = ROOM,
+                                   .q = trial->q[0],
+                                   .v = trial->v[0],
+                                   .f = trial->f[0],
+                                   .w = trial->w};
+  for (int p = 0; p < ROOM; p++) {
+    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
     for (int a = 0; a < 3; a++) {
-      for (int64_t l = 0; l < count; l++)
-        found[a][low + l + o] += window[a][l];
-      for (int64_t l = 0; l < count; l++)
-        found[a][low + l] -= window[a][l];
-      check_same_bits(PARTICLES, found[a], expected[a]);
+      trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
+      trial->v[a][p] = random_between(source, -1.0, 1.0);
+    }
+    trial->w[p] = random_between(source, 0.5, 2.0);
+  }
+  for (int32_t k = 0; k < pass->count; k++) {
+    const int32_t other = 2 * (int32_t)random_whole(source, 0, HOOKE_RUN_SHAPES / 2 - 1);
+    draw_lane(source, k, random_whole(source, 0, 1) ? shape : other, trial);
+  }
+  pass->move = (struct hooke_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 3),
+                                   .heavy = (int32_t)random_whole(source, 0, 1),
+                                   .step = 0.01,
+                                   .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
+                                   .gravity = {0.0, -9.81, 0.1}};
+}
+
+/* The forces by springs one at a time: those that end at a particle, lane by lane, each before the one that begins there. */
+static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
+  int64_t lost = 0;
+  for (int32_t k = 0; k < trial->pass.count; k++) {
+    const struct hooke_lane_view *lane = &trial->pass.lane[k];
+    static struct trial one;
+    one.run = (struct hooke_run){
+        .count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
+    double b[3][ROOM] = {{0}};
+    for (int64_t l = 0; l < LANE_PARTICLES; l++) {
+      if (!(trial->present[k][l / 8] >> l % 8 & 1)) continue;
+      static double f[3][PARTICLES];
+      const int mixed = lane->shape & HOOKE_RUN_MIXED;
+      one.run.kappa = mixed ? lane->kappas[l] : lane->kappa;
+      one.run.gamma = mixed ? lane->gammas[l] : lane->gamma;
+      one.run.rest_length = mixed ? lane->rest_lengths[l] : lane->rest_length;
+      for (int a = 0; a < 3; a++) {
+        one.q[a][0] = trial->q[a][l], one.q[a][lane->offset] = trial->q[a][l + lane->offset];
+        one.v[a][0] = trial->v[a][l], one.v[a][lane->offset] = trial->v[a][l + lane->offset];
+        f[a][0] = f[a][lane->offset] = 0.0;
+      }
+      lost += plain(&one, f);
+      for (int a = 0; a < 3; a++)
+        b[a][l] = f[a][lane->offset];
+    }
+    for (int64_t p = 0; p < LANE_PARTICLES; p++) {
+      for (int a = 0; a < 3; a++)
+        sum[a][p] = (sum[a][p] + (p < lane->offset ? 0.0 : b[a][p - lane->offset])) - b[a][p];
+    }
+  }
+  return lost;
+}
+
+static void move_plainly(struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
+  const struct hooke_move *move = &trial->pass.move;
+  for (int a = 0; a < 3; a++) {
+    for (int p = 0; p < LANE_PARTICLES; p++) {
+      double *q = &trial->q[a][p], *v = &trial->v[a][p], f = sum[a][p], u = *v;
+      if (move->kind == HOOKE_MOVE_KEEP) trial->f[a][p] = f;
+      if (move->kind == HOOKE_MOVE_KEEP || move->kind == HOOKE_MOVE_NOTHING) continue;
+      if (move->drag > 0.0) f -= move->drag * u;
+      *v += move->step * (move->heavy ? trial->w[p] * f + move->gravity[a] : trial->w[p] * f);
+      *q += move->step * (move->kind == HOOKE_KICK_THEN_DRIFT ? *v : u);
     }
   }
 }
 
-static void test_windows_agree(void **unused) {
+/* Every set, and in ranges as they come, against the plain loop. */
+static void compare_lanes(struct random_source *source, struct lane_trial *trial,
+                          struct lane_trial *expected) {
+  static double sum[3][LANE_PARTICLES];
+  draw_lanes(source, trial);
+  *expected = *trial;
+  memset(sum, 0, sizeof sum);
+  const int64_t lost = sum_plainly(expected, sum);
+  move_plainly(expected, sum);
+  const struct hooke_spring_set *set;
+  struct lane_trial *found = new_block(1, (int64_t)sizeof *found + 64);
+  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+    int64_t at = 0, found_lost = 0;
+    *found = *trial;
+    found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
+    for (int32_t k = 0; k < found->pass.count; k++)
+      found->pass.lane[k].ring = found->ring[k];
+    while (at < LANE_PARTICLES) {
+      const int64_t units = random_whole(source, 1, random_whole(source, 0, 1) ? 5 : UNITS), from = at;
+      at += units * HOOKE_LANE_UNIT;
+      if (at > LANE_PARTICLES) at = LANE_PARTICLES;
+      found_lost += set->lanes(&found->pass, from, at);
+    }
+    assert_int_equal(found_lost, lost);
+    for (int a = 0; a < 3; a++) {
+      check_same_bits(ROOM, found->q[a], expected->q[a]);
+      check_same_bits(ROOM, found->v[a], expected->v[a]);
+      check_same_bits(ROOM, found->f[a], expected->f[a]);
+    }
+  }
+  free(found);
+}
+
+static void test_lanes_agree(void **unused) {
   (void)unused;
   struct random_source source = {1234};
-  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
-  for (int32_t shape = 0; shape < HOOKE_RUN_SHAPES; shape++) {
-    for (int64_t count = 1; count <= 300 && !(shape & HOOKE_RUN_INDEXED); count += count < 20 ? 1 : 53)
-      compare_windows(&source, shape, count, trial);
-  }
+  struct lane_trial *trial = new_block(2, (int64_t)sizeof *trial);
+  for (int round = 0; round < 120; round++)
+    compare_lanes(&source, trial, trial + 1);
   free(trial);
 }
 
-/* Sums over lanes and moves, against one number at a time. */
-static void test_sums_and_moves_agree(void **unused) {
+/* Moves against one number at a time. */
+static void test_moves_agree(void **unused) {
   (void)unused;
-  enum { COUNT = 77, MOST = 15 };
+  enum { COUNT = 77 };
   struct random_source source = {99};
-  double value[2 * MOST + 3][COUNT], q[COUNT], v[COUNT], f[COUNT], expected_q[COUNT], expected_v[COUNT];
-  for (int k = 0; k < 2 * MOST + 3; k++) {
+  double value[4][COUNT], q[COUNT], v[COUNT], expected_q[COUNT], expected_v[COUNT];
+  for (int k = 0; k < 4; k++) {
     for (int p = 0; p < COUNT; p++)
       value[k][p] = random_between(&source, -1.0, 1.0);
   }
-  const double *upper[MOST], *lower[MOST], *w = value[2 * MOST], h = 0.01, gravity = -9.81;
-  for (int k = 0; k < MOST; k++)
-    upper[k] = value[2 * k], lower[k] = value[2 * k + 1];
+  const double *w = value[0], *f = value[1], h = 0.01, gravity = -9.81;
   const struct hooke_spring_set *set;
   for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
-    for (int32_t lanes = 0; lanes <= MOST; lanes++) {
-      double sum[COUNT] = {0};
-      for (int p = 0; p < COUNT; p++) {
-        for (int k = 0; k < lanes; k++)
-          sum[p] = (sum[p] + upper[k][p]) - lower[k][p];
-      }
-      set->sum(COUNT, lanes, upper, lower, f);
-      check_same_bits(COUNT, f, sum);
-    }
     for (int kick_first = 0; kick_first <= 1; kick_first++) {
       for (int heavy = 0; heavy <= 1; heavy++) {
         for (int p = 0; p < COUNT; p++) {
-          const double x = q[p] = value[2 * MOST + 1][p], u = v[p] = value[2 * MOST + 2][p];
+          const double x = q[p] = value[2][p], u = v[p] = value[3][p];
           expected_v[p] = u + h * (heavy ? w[p] * f[p] + gravity : w[p] * f[p]);
           expected_q[p] = x + h * (kick_first ? expected_v[p] : u);
         }
@@ -395,8 +508,8 @@ static void test_sets_have_names(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sets_have_names),      cmocka_unit_test(test_sets_agree),
-      cmocka_unit_test(test_nets_agree),           cmocka_unit_test(test_windows_agree),
-      cmocka_unit_test(test_sums_and_moves_agree), cmocka_unit_test(test_bending_agrees)};
+      cmocka_unit_test(test_sets_have_names), cmocka_unit_test(test_sets_agree),
+      cmocka_unit_test(test_nets_agree),      cmocka_unit_test(test_lanes_agree),
+      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * springs are. */
 #include "agree.h"
 #include "check.h"
+#include "members.h"
 #include "random.h"
 
 #include "model/motion.h"
@@ -147,55 +148,6 @@ static void check_numbering(const struct hooke_net *net, int order) {
 
 /* ---- crews ---- */
 
-static void kick_and_drift(int64_t from, int64_t count, double *const f[3], void *ctx) {
-  const struct hooke_motion *m = ctx;
-  for (int a = 0; a < 3; a++) {
-    hooke_spring_set(0)->kick_then_drift((ptrdiff_t)count, 1e-3, m->w + from, f[a], NULL, m->q[a] + from,
-                                         m->v[a] + from);
-  }
-}
-
-/* Two steps tile by tile, and forces; all that comes of it in `out`, 9 numbers a particle. */
-static int64_t step_with(const hooke_system *system, const struct sheet *sheet, int32_t members,
-                         double *out) {
-  struct hooke_crew *crew = hooke_crew_create(members);
-  struct hooke_motion *moved = NULL, *still = NULL;
-  const int64_t size = 3 * sheet->particles;
-  assert_non_null(crew);
-  check_ok(hooke_motion_create(system, 1, crew, &moved));
-  check_ok(hooke_motion_create(system, 0, crew, &still));
-  hooke_motion_load(system, moved, sheet->q, sheet->v);
-  int64_t lost = 0;
-  for (int k = 0; k < 2; k++) {
-    hooke_motion_pass(system, moved, kick_and_drift, moved);
-    lost += moved->coincident;
-  }
-  hooke_motion_store(moved, out, out + size);
-  hooke_motion_load(system, still, sheet->q, sheet->v);
-  check_ok(hooke_motion_forces(system, still, 0.0));
-  lost += still->coincident;
-  for (int a = 0; a < 3; a++)
-    memcpy(out + 2 * size + a * sheet->particles, still->f[a], (size_t)sheet->particles * sizeof(double));
-  hooke_motion_destroy(moved);
-  hooke_motion_destroy(still);
-  hooke_crew_destroy(crew);
-  return lost;
-}
-
-static void check_members(const hooke_system *system, const struct sheet *sheet) {
-  static const int32_t members[] = {2, 3, 8, 16};
-  const int64_t count = 9 * sheet->particles;
-  double *alone = new_doubles(count), *together = new_doubles(count);
-  const int64_t lost = step_with(system, sheet, 1, alone);
-  for (int k = 0; k < 4; k++) {
-    memset(together, 0, (size_t)count * sizeof *together);
-    assert_int_equal(step_with(system, sheet, members[k], together), lost);
-    check_same_bits(count, together, alone);
-  }
-  free(alone);
-  free(together);
-}
-
 static void compare(uint64_t seed, int64_t side, int order, int groups, int material) {
   struct random_source source = {seed};
   struct sheet *sheet = new_block(1, (int64_t)sizeof *sheet);
@@ -213,7 +165,7 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   check_material(system, &c, groups, material, sheet->side);
   check_numbering(&system->net, order);
   check_agrees(system, &c, sheet->q, sheet->v);
-  check_members(system, sheet);
+  check_members(system, sheet->q, sheet->v);
   canonical_destroy(&c);
   hooke_system_destroy(system);
   free(sheet);

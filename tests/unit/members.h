@@ -1,0 +1,55 @@
+/* Passes by crews of any size have the bits of one thread. */
+#ifndef MEMBERS_H
+#define MEMBERS_H
+
+#include "check.h"
+
+#include "model/motion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Two steps in passes, and forces; all that comes of it in `out`, 9 numbers a particle. */
+static int64_t step_with(const hooke_system *system, const double *q, const double *v, int32_t members,
+                         double *out) {
+  const struct hooke_move move = {
+      .kind = HOOKE_KICK_THEN_DRIFT, .heavy = 1, .step = 0.01, .gravity = {0.0, -9.81, 0.0}};
+  struct hooke_crew *crew = hooke_crew_create(members);
+  struct hooke_motion *moved = NULL, *still = NULL;
+  const int64_t n = system->particle_count;
+  assert_non_null(crew);
+  check_ok(hooke_motion_create(system, 1, crew, &moved));
+  check_ok(hooke_motion_create(system, 0, crew, &still));
+  hooke_motion_load(system, moved, q, v);
+  int64_t lost = 0;
+  for (int k = 0; k < 2; k++) {
+    hooke_motion_pass(system, moved, &move);
+    lost += moved->coincident;
+  }
+  hooke_motion_store(moved, out, out + 3 * n);
+  hooke_motion_load(system, still, q, v);
+  check_ok(hooke_motion_forces(system, still, 0.0));
+  lost += still->coincident;
+  for (int a = 0; a < 3; a++)
+    memcpy(out + 6 * n + a * n, still->f[a], (size_t)n * sizeof(double));
+  hooke_motion_destroy(moved);
+  hooke_motion_destroy(still);
+  hooke_crew_destroy(crew);
+  return lost;
+}
+
+static void check_members(const hooke_system *system, const double *q, const double *v) {
+  static const int32_t members[] = {2, 3, 8, 16};
+  const int64_t count = 9 * system->particle_count;
+  double *alone = new_doubles(count), *together = new_doubles(count);
+  const int64_t lost = step_with(system, q, v, 1, alone);
+  for (int k = 0; k < 4; k++) {
+    memset(together, 0, (size_t)count * sizeof *together);
+    assert_int_equal(step_with(system, q, v, members[k], together), lost);
+    check_same_bits(count, together, alone);
+  }
+  free(alone);
+  free(together);
+}
+
+#endif
