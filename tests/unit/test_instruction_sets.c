@@ -1,0 +1,110 @@
+/* Runs of every method with a fixed step have the bits that are written here, with the loops of every instruction set that this
+ * machine has, whatever the build is optimised for, for any number of threads. */
+#include "check.h"
+#include "hash.h"
+#include "random_scene.h"
+#include "run.h"
+
+#include "kernel/spring_loops.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+/* The linker puts the second in place of the first everywhere else. */
+const struct hooke_spring_set *__real_hooke_spring_set(int32_t set);
+const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set);
+
+static int32_t first_set;
+
+const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set) {
+  return __real_hooke_spring_set(first_set + set);
+}
+
+static const struct scene {
+  const char *name;
+  struct random_scene_request request;
+  double step;
+} scenes[] = {
+    {"cloth",
+     {.seed = 1, .particles = 1, .features = SCENE_GRAVITY | SCENE_DAMPING | SCENE_DRAG, .cloth = {90, 90}},
+     1e-4},
+    {"net",
+     {.seed = 2,
+      .particles = 3000,
+      .springs = 40000,
+      .features = SCENE_GRAVITY | SCENE_DAMPING | SCENE_PINNED},
+     1e-4},
+    {"all",
+     {.seed = 3,
+      .particles = 300,
+      .springs = 1200,
+      .triples = 100,
+      .features = SCENE_EVERYTHING,
+      .cloth = {20, 20},
+      .rope = 40},
+     1e-4},
+};
+enum { SCENES = sizeof scenes / sizeof scenes[0], STEPS = 4 };
+
+static uint64_t hash_of(const hooke_system *system, const char *method, double step, int32_t threads) {
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  double *state = new_doubles(2 * size);
+  run_to_end(system,
+             (struct run){.method = method, .step = step, .duration = STEPS * step, .threads = threads},
+             state, state + size);
+  const uint64_t hash = hash_doubles(2 * size, state, HASH_START);
+  free(state);
+  return hash;
+}
+
+static const struct {
+  const char *method;
+  uint64_t hash[SCENES];
+} expected[] = {
+    {"forward-euler",
+     {UINT64_C(0x76ddfbc6a6939e0d), UINT64_C(0x0e167bcb4e500e97), UINT64_C(0xf22573fbb183d3c6)}},
+    {"symplectic-euler",
+     {UINT64_C(0xeac4ff2c1ebde768), UINT64_C(0x74a82c044bc0b086), UINT64_C(0x997d0a425d34f29c)}},
+    {"verlet", {UINT64_C(0xae82945f7c256435), UINT64_C(0x9a14849d0126e018), UINT64_C(0x419338283c753ff3)}},
+    {"rk4", {UINT64_C(0xe4f21c7b4e25fe9d), UINT64_C(0xc13efeaec850b373), UINT64_C(0x05ad6ef5f38ebbdf)}},
+    {"backward-euler",
+     {UINT64_C(0x8577ce744217a3f2), UINT64_C(0x1bb4a25505c35c92), UINT64_C(0x8f7ee54a484dc681)}},
+};
+
+static void check_scene(const struct scene *scene, int k) {
+  for (first_set = 0; __real_hooke_spring_set(first_set) != NULL; first_set++) {
+    struct random_scene made;
+    random_scene_create(scene->request, &made); /* runs take their loops when a system is committed */
+    for (size_t m = 0; m < sizeof expected / sizeof expected[0]; m++) {
+      for (int32_t threads = 1; threads <= 3; threads++) {
+        const uint64_t hash = hash_of(made.system, expected[m].method, scene->step, threads);
+        if (hash == expected[m].hash[k]) continue;
+        check_failed("%s, %s, loops for %s, %d threads: hash %016" PRIx64 ", expected %016" PRIx64,
+                     scene->name, expected[m].method, __wrap_hooke_spring_set(0)->name, (int)threads, hash,
+                     expected[m].hash[k]);
+      }
+    }
+    random_scene_destroy(&made);
+  }
+}
+
+static void test_same_bits(void **unused) {
+  (void)unused;
+  for (int k = 0; k < SCENES; k++)
+    check_scene(&scenes[k], k);
+}
+
+/* A method that is added needs its row. */
+static void test_methods_are_complete(void **unused) {
+  (void)unused;
+  int64_t rows = 0;
+  for (int64_t m = 0; m < hooke_method_count(); m++)
+    rows += is_fixed_step(hooke_method_name(m));
+  assert_int_equal(rows, sizeof expected / sizeof expected[0]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_methods_are_complete),
+                                     cmocka_unit_test(test_same_bits)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
