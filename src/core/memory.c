@@ -10,18 +10,23 @@ static void no_memory(int64_t count, size_t size) {
   hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %lld elements of %zu bytes", (long long)count, size);
 }
 
-void *hooke_new(int64_t count, size_t size) {
+static size_t whole_lines(int64_t count, size_t size) {
+  return ((size_t)count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+}
+
+void *hooke_reserve(int64_t count, size_t size) {
   if (count < 0 || (uint64_t)count > (PTRDIFF_MAX - ALIGNMENT) / size) {
     no_memory(count, size);
     return NULL;
   }
-  size_t bytes = ((size_t)count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
-  void *block = aligned_alloc(ALIGNMENT, bytes);
-  if (block == NULL) {
-    no_memory(count, size);
-    return NULL;
-  }
-  memset(block, 0, bytes);
+  void *block = aligned_alloc(ALIGNMENT, whole_lines(count, size));
+  if (block == NULL) no_memory(count, size);
+  return block;
+}
+
+void *hooke_new(int64_t count, size_t size) {
+  void *block = hooke_reserve(count, size);
+  if (block) memset(block, 0, whole_lines(count, size));
   return block;
 }
 

@@ -11,6 +11,9 @@
  */
 void *hooke_new(int64_t count, size_t size);
 
+/* The same, not zeroed: pages come to be near the processor of the thread that first writes to them. */
+void *hooke_reserve(int64_t count, size_t size);
+
 /* Like realloc: grows `*block` to `capacity` elements of `size`, keeping the first `used`; HOOKE_NO_MEMORY
  * leaves it. */
 int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size);

@@ -36,6 +36,22 @@ int32_t hooke_goes_by_tiles(const hooke_system *system) {
   return by_tiles;
 }
 
+struct arrays {
+  double *block;
+  int64_t n, count, stride, rest; /* `count` arrays of n particles, and `rest` numbers after them */
+};
+
+/* Each member clears what it will go over, so that it is near; the last one all that follows. */
+static void clear(int32_t member, int32_t members, void *ctx) {
+  const struct arrays *arrays = ctx;
+  const int last = member + 1 == members;
+  const int64_t from = hooke_crew_share(arrays->n, HOOKE_TILE, member, members),
+                to = last ? arrays->stride : hooke_crew_share(arrays->n, HOOKE_TILE, member + 1, members);
+  for (int64_t k = 0; k < arrays->count; k++)
+    memset(arrays->block + k * arrays->stride + from, 0, (size_t)(to - from) * sizeof(double));
+  if (last) memset(arrays->block + arrays->count * arrays->stride, 0, (size_t)arrays->rest * sizeof(double));
+}
+
 /* Arrays of n numbers each, and what else goes with them. */
 static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hooke_motion *motion) {
   const int64_t n = system->particle_count;
@@ -46,8 +62,10 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
   const int64_t numbers = components + rows + still + driven;
-  double *block = hooke_new(numbers, sizeof(double));
+  double *block = hooke_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
+  struct arrays cleared = {block, n, arrays, stride, numbers - components};
+  hooke_crew_run(motion->crew, clear, &cleared);
   motion->n = n;
   motion->memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
