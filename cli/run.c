@@ -97,8 +97,9 @@ static int32_t prepare(struct run *run) {
     if (status == HOOKE_NOT_BUILT) status = HOOKE_OK; /* then nobody warns */
   }
   if (status != HOOKE_OK || !run->output) return status;
-  return hooke_trajectory_create(run->output, run->setup.system, run->integrator,
-                                 hooke_scene_text(run->setup.scene), &run->trajectory);
+  status = hooke_trajectory_create(run->output, run->setup.system, run->integrator,
+                                   hooke_scene_text(run->setup.scene), &run->trajectory);
+  return status == HOOKE_OK ? hooke_trajectory_write_behind(run->trajectory) : status;
 }
 
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */

@@ -74,7 +74,14 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 
-/* Writes the outcome (a status of hooke_integrator_run), shortens the file to the frames it has, and releases
+/* From here on hooke_trajectory_write() copies a large frame, of 1366 particles or more, and returns; a thread of the
+ * trajectory writes it, which takes the memory of one state and calls nothing but the system, no HDF5. The next frame waits
+ * until the one before it is there. A failed write is told by the next call; a process that is killed may lose the one frame
+ * on its way; the system has to stay as long as the trajectory. Call it before the first frame or later.
+ * HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
+HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
+
+/* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), shortens the file to the frames it has, and releases
  * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 

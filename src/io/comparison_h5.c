@@ -18,6 +18,7 @@
 #include "io/file_h5.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
+#include "io/place.h"
 #include "io/recording_h5.h"
 #include "measure/comparison.h"
 
@@ -140,16 +141,13 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
     }
     return 1;
   }
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  if (hooke_recording_write(recording, step, state) < 0) {
-    char what[96];
-    snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
-    hooke_h5_fail(&guard, file->file.path, what);
-    snprintf(file->failure, sizeof file->failure, "%s", hooke_last_error());
-  }
-  hooke_h5_guard_end(&guard);
-  return file->failure[0] != '\0';
+  const int error = hooke_recording_write(recording, step, state);
+  if (error == 0) return 0;
+  char what[96];
+  snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
+  hooke_place_fail(file->file.path, what, error);
+  snprintf(file->failure, sizeof file->failure, "%s", hooke_last_error());
+  return 1;
 }
 
 int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,

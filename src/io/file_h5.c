@@ -115,7 +115,18 @@ double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
   return H5Fget_filesize(file->id, &bytes) < 0 ? 0.0 : (double)bytes;
 }
 
+/* Room on the disk for all of it, and not only in the numbering of its bytes. */
+static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_file *file) {
+  void *handle = NULL;
+  if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, &handle) < 0) return hooke_h5_fail(guard, file->path, "write");
+  const int error = posix_fallocate(*(const int *)handle, 0, (off_t)hooke_h5_file_bytes(file));
+  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
+  return hooke_place_fail(file->path, "make room for all frames", error);
+}
+
 int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const int32_t status = take_room(guard, file);
+  if (status != HOOKE_OK) return status;
   if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
   return hooke_place_take(file->path, &file->temporary);
 }

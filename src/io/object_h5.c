@@ -54,14 +54,14 @@ herr_t hooke_h5_integer_attribute(hid_t object, const char *name, int64_t count,
                          number);
 }
 
-hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
-                     const void *fill) {
+static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
+                       H5D_fill_time_t time, const void *fill) {
   hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
   hid_t dataset = -1;
   herr_t result = list < 0 || space < 0 ? -1 : H5Pset_layout(list, H5D_CONTIGUOUS);
   if (result >= 0) result = H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
-  if (result >= 0) result = H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC);
+  if (result >= 0) result = H5Pset_fill_time(list, time);
   if (result >= 0 && fill) result = H5Pset_fill_value(list, type, fill);
   /* no dates: the same run makes the same bytes */
   if (result >= 0) result = H5Pset_obj_track_times(list, 0);
@@ -71,9 +71,18 @@ hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const 
   return dataset;
 }
 
+hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
+                     const void *fill) {
+  return new_array(where, name, type, rank, size, H5D_FILL_TIME_ALLOC, fill);
+}
+
+hid_t hooke_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size) {
+  return new_array(where, name, type, rank, size, H5D_FILL_TIME_NEVER, NULL);
+}
+
 herr_t hooke_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank,
                          const hsize_t *size, const void *data) {
-  hid_t dataset = hooke_h5_array(where, name, type, rank, size, NULL);
+  hid_t dataset = hooke_h5_room(where, name, type, rank, size);
   herr_t result = dataset < 0 ? -1 : H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
   hooke_h5_drop(dataset);
   return result;

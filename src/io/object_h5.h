@@ -20,6 +20,9 @@ herr_t hooke_h5_integer_attribute(hid_t object, const char *name, int64_t count,
 hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
                      const void *fill);
 
+/* The same without anything in it: until it is written, what its bytes are is the system's choice. */
+hid_t hooke_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size);
+
 /* The same, filled with `data` of the type `memory`, and closed. */
 herr_t hooke_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank,
                          const hsize_t *size, const void *data);

@@ -7,33 +7,18 @@
 #include "io/recording_h5.h"
 #include "model/system.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const struct {
-  const char *name;
-  int32_t columns;
-} observables[HOOKE_OBSERVABLE_COUNT] = {{"kinetic_energy", 1}, {"potential_energy", 1},
-                                         {"total_energy", 1},   {"dissipated_power", 1},
-                                         {"momentum", 3},       {"angular_momentum", 3}};
-
-static void observe(const hooke_system *system, const double *q, const double *v,
-                    double value[HOOKE_OBSERVABLE_COUNT][3]) {
-  value[0][0] = hooke_system_kinetic_energy(system, v);
-  value[1][0] = hooke_system_potential_energy(system, q);
-  value[2][0] = value[0][0] + value[1][0];
-  value[3][0] = hooke_system_dissipated_power(system, q, v);
-  hooke_system_momentum(system, v, value[4]);
-  hooke_system_angular_momentum(system, q, v, value[5]);
-}
+#include <unistd.h>
 
 /* ---- making ---- */
 
 static double frame_bytes(int64_t particle_count) {
   int32_t numbers = 2; /* step and time */
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++)
-    numbers += observables[k].columns;
+    numbers += hooke_observables[k].columns;
   return 8.0 * (6.0 * (double)particle_count + numbers);
 }
 
@@ -47,14 +32,15 @@ double hooke_recording_unused_bytes(const struct hooke_recording *recording) {
   return frame_bytes(recording->particle_count) * (double)(recording->frame_count - recording->written);
 }
 
-/* An array of numbers for all frames, `rows` x `columns` each. */
+/* An array of numbers for all frames, `rows` x `columns` each. Numbers have the machine's order of bytes, since frames are
+ * written as bytes. */
 static hid_t new_frames(const struct hooke_recording *recording, hid_t where, int64_t rows, int32_t columns) {
   const double fill = NAN;
   const hsize_t frames = (hsize_t)recording->frame_count;
   const hsize_t table[3] = {frames, (hsize_t)rows, (hsize_t)columns};
   const hsize_t line[2] = {frames, (hsize_t)columns};
-  if (rows > 0) return hooke_h5_array(where, "value", H5T_IEEE_F64LE, 3, table, &fill);
-  return hooke_h5_array(where, "value", H5T_IEEE_F64LE, columns > 1 ? 2 : 1, line, &fill);
+  if (rows > 0) return hooke_h5_room(where, "value", H5T_NATIVE_DOUBLE, 3, table);
+  return hooke_h5_array(where, "value", H5T_NATIVE_DOUBLE, columns > 1 ? 2 : 1, line, &fill);
 }
 
 /* step and time: made with the first element, shared by the others. */
@@ -67,9 +53,9 @@ static herr_t add_clock(struct hooke_recording *recording, hid_t element) {
   const hsize_t size = (hsize_t)recording->frame_count;
   const double no_time = NAN;
   const int64_t no_step = -1;
-  recording->step = hooke_h5_array(element, "step", H5T_STD_I64LE, 1, &size, &no_step);
+  recording->step = hooke_h5_array(element, "step", H5T_NATIVE_INT64, 1, &size, &no_step);
   if (recording->step < 0) return -1;
-  recording->time = hooke_h5_array(element, "time", H5T_IEEE_F64LE, 1, &size, &no_time);
+  recording->time = hooke_h5_array(element, "time", H5T_NATIVE_DOUBLE, 1, &size, &no_time);
   return recording->time < 0 ? -1 : 0;
 }
 
@@ -138,15 +124,36 @@ static herr_t make_arrays(hid_t file, struct hooke_recording *recording, int32_t
   hid_t group = group_at(file, path);
   if (group < 0) return -1;
   for (int k = 0; result >= 0 && k < HOOKE_OBSERVABLE_COUNT; k++) {
-    recording->observable[k] = new_element(recording, group, observables[k].name, 0, observables[k].columns);
+    recording->observable[k] =
+        new_element(recording, group, hooke_observables[k].name, 0, hooke_observables[k].columns);
     if (recording->observable[k] < 0) result = -1;
   }
   hooke_h5_drop(group);
   return result;
 }
 
+/* Where the arrays begin, and a descriptor of the file that is ours. */
+static herr_t find_bytes(hid_t file, struct hooke_recording *recording) {
+  const hid_t array[] = {recording->time, recording->step, recording->position, recording->velocity};
+  struct hooke_frame_file *bytes = &recording->file;
+  int64_t *const at[] = {&bytes->time, &bytes->step, &bytes->position, &bytes->velocity};
+  herr_t result = 0;
+  for (int k = 0; k < 4 + HOOKE_OBSERVABLE_COUNT; k++) {
+    const haddr_t first = H5Dget_offset(k < 4 ? array[k] : recording->observable[k - 4]);
+    if (first == HADDR_UNDEF) result = -1;
+    *(k < 4 ? at[k] : &bytes->observable[k - 4]) = (int64_t)first;
+  }
+  void *handle = NULL;
+  if (result >= 0) result = H5Fget_vfd_handle(file, H5P_DEFAULT, &handle);
+  if (result < 0) return result;
+  bytes->system = recording->system;
+  bytes->descriptor = fcntl(*(const int *)handle, F_DUPFD_CLOEXEC, 0);
+  return bytes->descriptor < 0 ? -1 : 0;
+}
+
 void hooke_recording_clear(struct hooke_recording *recording) {
-  *recording = (struct hooke_recording){.time = -1, .step = -1, .position = -1, .velocity = -1};
+  *recording = (struct hooke_recording){
+      .time = -1, .step = -1, .position = -1, .velocity = -1, .file = {.descriptor = -1}};
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++)
     recording->observable[k] = -1;
 }
@@ -163,10 +170,12 @@ static void start(struct hooke_recording *recording, const hooke_system *system,
 herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
                               struct hooke_recording *recording) {
   start(recording, system, group, hooke_system_particle_count(system), frame_count);
-  return make_arrays(file, recording, 0);
+  const herr_t result = make_arrays(file, recording, 0);
+  return result < 0 ? result : find_bytes(file, recording);
 }
 
 void hooke_recording_release(struct hooke_recording *recording) {
+  if (recording->file.descriptor >= 0) close(recording->file.descriptor);
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++)
     hooke_h5_drop(recording->observable[k]);
   hooke_h5_drop(recording->velocity);
@@ -204,20 +213,10 @@ static herr_t write_clock(const struct hooke_recording *recording, int64_t frame
   return result < 0 ? result : write_row(recording->time, frame, 1, &time);
 }
 
-herr_t hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state) {
-  const double *q = hooke_state_position(state);
-  const double *v = hooke_state_velocity(state);
-  const int64_t frame = recording->written, numbers = 3 * recording->particle_count;
-  double value[HOOKE_OBSERVABLE_COUNT][3];
-  observe(recording->system, q, v, value);
-  herr_t result = write_row(recording->position, frame, numbers, q);
-  if (result >= 0) result = write_row(recording->velocity, frame, numbers, v);
-  for (int k = 0; result >= 0 && k < HOOKE_OBSERVABLE_COUNT; k++) {
-    result = write_row(recording->observable[k], frame, observables[k].columns, value[k]);
-  }
-  if (result >= 0) result = write_clock(recording, frame, step, hooke_state_time(state));
-  if (result >= 0) recording->written++;
-  return result;
+int hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state) {
+  const int error = hooke_frame_write(&recording->file, recording->written, step, state);
+  recording->written += error == 0;
+  return error;
 }
 
 /* ---- copying ---- */
@@ -234,7 +233,7 @@ static herr_t copy_frame(const struct hooke_recording *from, const struct hooke_
   herr_t result = copy_row(from->position, to->position, frame, numbers, scratch);
   if (result >= 0) result = copy_row(from->velocity, to->velocity, frame, numbers, scratch);
   for (int k = 0; result >= 0 && k < HOOKE_OBSERVABLE_COUNT; k++) {
-    result = copy_row(from->observable[k], to->observable[k], frame, observables[k].columns, scratch);
+    result = copy_row(from->observable[k], to->observable[k], frame, hooke_observables[k].columns, scratch);
   }
   if (result >= 0) result = transfer(from->step, H5T_NATIVE_INT64, frame, 1, NULL, &step);
   if (result >= 0) result = transfer(from->time, H5T_NATIVE_DOUBLE, frame, 1, NULL, scratch);

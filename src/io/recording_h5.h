@@ -6,23 +6,23 @@
  *   /particles/<group>/mass, species      [n]              species: 0 free, 1 pinned, 2 driven
  *   /observables[/<group>]/<name>/value   [frames] or [frames][3]; the group `all` has no folder of its own
  *
- * Every array is contiguous, of its final size, and filled (NaN; step -1) before the first frame. A frame is
- * written in place, its time last: time is the mark that the frame is there. Nothing else of the file
- * changes, so the file is valid whenever the process is killed. */
+ * Every array is contiguous, of its final size, and there before the first frame: filled with NaN, step with -1, position
+ * and velocity, which would take as long to fill as to write, with nothing but room for them. A frame is written in place
+ * (frame_file.h), its time last: time is the mark that the frame is there. Nothing else of the file changes, so the file is
+ * valid whenever the process is killed. */
 #ifndef HOOKE_IO_RECORDING_H5_H
 #define HOOKE_IO_RECORDING_H5_H
 
-#include "hooke/state.h"
+#include "io/frame_file.h"
 
 #include <hdf5.h>
-
-enum { HOOKE_OBSERVABLE_COUNT = 6 };
 
 struct hooke_recording {
   const hooke_system *system;
   char group[48];
   int64_t particle_count, frame_count, written;
   hid_t time, step, position, velocity, observable[HOOKE_OBSERVABLE_COUNT];
+  struct hooke_frame_file file; /* the same arrays as bytes */
 };
 
 /* What a recording takes in a file, with springs and everything about the particles: an upper bound in bytes.
@@ -37,8 +37,8 @@ void hooke_recording_clear(struct hooke_recording *recording);
 herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
                               struct hooke_recording *recording);
 
-/* Writes the next frame; there has to be room for it. */
-herr_t hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state);
+/* Writes the next frame; there has to be room for it. 0, or the number of the system's error. */
+int hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state);
 
 /* Makes the same arrays in another file, for the frames written so far, and copies these. */
 herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t file, struct hooke_recording *to);

@@ -6,7 +6,9 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file_h5.h"
+#include "io/frame_thread.h"
 #include "io/h5md_h5.h"
+#include "io/place.h"
 #include "io/recording_h5.h"
 
 #include <stdio.h>
@@ -15,7 +17,9 @@
 struct hooke_trajectory {
   struct hooke_h5_file file;
   struct hooke_recording recording;
-  char failure[512]; /* of the write that made the file bad; "" while it is good */
+  struct hooke_frame_thread *thread; /* NULL: frames are written as they come */
+  int64_t taken;                     /* frames, the one on its way included */
+  char failure[512];                 /* of the write that made the file bad; "" while it is good */
 };
 
 int32_t hooke_io_own_process(void) {
@@ -24,6 +28,9 @@ int32_t hooke_io_own_process(void) {
       HOOKE_BAD_CALL, NULL,
       "HDF5 is already running; hooke_io_own_process() has to be the first call of the process");
 }
+
+/* A thread costs more than writing a smaller frame. */
+static const int64_t LEAST_BYTES = 65536;
 
 static void release(hooke_trajectory *trajectory) {
   hooke_recording_release(&trajectory->recording);
@@ -80,6 +87,13 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
   return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
 }
 
+static void fail_frame(hooke_trajectory *trajectory, int64_t frame, int error) {
+  char what[64];
+  snprintf(what, sizeof what, "write frame %lld", (long long)frame);
+  hooke_place_fail(trajectory->file.path, what, error);
+  snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
+}
+
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   struct hooke_recording *recording = &trajectory->recording;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
@@ -87,21 +101,38 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
                       (long long)hooke_state_size(state), (long long)(3 * recording->particle_count));
   }
-  if (recording->written == recording->frame_count) {
+  if (trajectory->taken == recording->frame_count) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
                       (long long)recording->frame_count);
   }
-  struct hooke_h5_guard guard;
-  int32_t status = HOOKE_OK;
-  hooke_h5_guard_begin(&guard);
-  if (hooke_recording_write(recording, step, state) < 0) {
-    char what[64];
-    snprintf(what, sizeof what, "write frame %lld", (long long)recording->written);
-    status = hooke_h5_fail(&guard, trajectory->file.path, what);
-    snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
+  const int error = trajectory->thread ? hooke_frame_thread_write(trajectory->thread, step, state)
+                                       : hooke_recording_write(recording, step, state);
+  if (error) {
+    /* of the thread, that of the frame before */
+    fail_frame(trajectory, trajectory->thread ? trajectory->taken - 1 : trajectory->taken, error);
+    return HOOKE_IO_FAILED;
   }
-  hooke_h5_guard_end(&guard);
-  return status;
+  trajectory->taken++;
+  return HOOKE_OK;
+}
+
+int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
+  const struct hooke_recording *recording = &trajectory->recording;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  if (trajectory->thread || 48 * recording->particle_count < LEAST_BYTES) return HOOKE_OK;
+  trajectory->thread = hooke_frame_thread_create(&recording->file, recording->written);
+  return trajectory->thread
+             ? HOOKE_OK
+             : hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
+}
+
+/* Waits for the frame on its way. */
+static void end_thread(hooke_trajectory *trajectory) {
+  if (trajectory->thread == NULL) return;
+  struct hooke_recording *recording = &trajectory->recording;
+  const int error = hooke_frame_thread_end(trajectory->thread, &recording->written);
+  trajectory->thread = NULL;
+  if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, recording->written, error);
 }
 
 /* A new file with exactly the frames that are there takes the place of ours. */
@@ -127,6 +158,7 @@ static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_trajectory *tra
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
+  end_thread(trajectory);
   struct hooke_h5_guard guard;
   hooke_h5_guard_begin(&guard);
   int32_t status = HOOKE_OK;
@@ -167,6 +199,11 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
 
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   (void)trajectory, (void)step, (void)state;
+  return not_built();
+}
+
+int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
+  (void)trajectory;
   return not_built();
 }
 

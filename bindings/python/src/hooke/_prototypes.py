@@ -275,6 +275,7 @@ PROTOTYPES = {
     "hooke_scene_text": (TEXT, SCENE),
     "hooke_trajectory_create": (STATUS, TEXT, SYSTEM, INTEGRATOR, TEXT, POINTER(TRAJECTORY)),
     "hooke_trajectory_write": (STATUS, TRAJECTORY, INT64, STATE),
+    "hooke_trajectory_write_behind": (STATUS, TRAJECTORY),
     "hooke_trajectory_close": (STATUS, TRAJECTORY, INT32),
     "hooke_record_open": (STATUS, TEXT, POINTER(RECORD)),
     "hooke_record_close": (None, RECORD),

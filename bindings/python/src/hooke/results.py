@@ -193,6 +193,9 @@ def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
         path, integrator._problem._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer)
     )
 
+    if not watchers:  # who watches is told of frames that are there
+        lib.hooke_trajectory_write_behind(pointer)
+
     def write(step: int, state: State) -> None:
         lib.hooke_trajectory_write(pointer, step, state._handle)
 

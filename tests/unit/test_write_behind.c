@@ -1,0 +1,206 @@
+/* Frames that a thread writes: the same bytes in the file, as many, and failures told. */
+#include "check.h"
+#include "core/memory.h"
+#include "io/array_h5.h"
+#include "run.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { N = 3000, FRAMES = 9, PATH_SIZE = 256 };
+
+/* A rope of n particles, and a folder of its own. */
+struct fixture {
+  hooke_system *system;
+  hooke_integrator *integrator;
+  hooke_state *state;
+  char folder[PATH_SIZE / 2], path[PATH_SIZE], other[PATH_SIZE];
+};
+
+static void build(struct fixture *f, int n) {
+  hooke_options *options;
+  check_ok(hooke_system_create(&f->system));
+  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
+  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
+  check_ok(hooke_options_set_number(options, "segments", n - 1));
+  check_ok(hooke_options_set_number(options, "mass", 0.5));
+  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1e-3));
+  check_ok(hooke_options_set_number(options, "stretch.damping", 1e-6));
+  check_ok(hooke_system_add_part(f->system, "rope", NULL, options, NULL, NULL));
+  check_ok(hooke_system_set_gravity(f->system, (double[]){0, -9.81, 0}));
+  check_ok(hooke_system_commit(f->system));
+  hooke_options_destroy(options);
+  f->integrator = start_run(
+      f->system, (struct run){.method = "symplectic-euler", .step = 1e-4, .duration = 8e-3, .every = 1e-3});
+  f->state = start_state(f->system);
+  snprintf(f->folder, sizeof f->folder, "%s/hooke-behind-XXXXXX", P_tmpdir);
+  assert_non_null(mkdtemp(f->folder));
+  snprintf(f->path, sizeof f->path, "%s/out.h5", f->folder);
+  snprintf(f->other, sizeof f->other, "%s/other.h5", f->folder);
+}
+
+static void release(struct fixture *f) {
+  hooke_state_destroy(f->state);
+  hooke_integrator_destroy(f->integrator);
+  hooke_system_destroy(f->system);
+  unlink(f->path);
+  unlink(f->other);
+  assert_int_equal(rmdir(f->folder), 0); /* nothing is left behind */
+}
+
+#if HOOKE_HAVE_HDF5
+
+static hooke_trajectory *create(const struct fixture *f, const char *path, int behind) {
+  hooke_trajectory *trajectory;
+  check_ok(hooke_trajectory_create(path, f->system, f->integrator, "{}", &trajectory));
+  if (behind) check_ok(hooke_trajectory_write_behind(trajectory));
+  return trajectory;
+}
+
+/* The state changes as soon as a frame is handed over, as it does when steps go on. */
+static int32_t write_frame(const struct fixture *f, hooke_trajectory *trajectory, int64_t frame) {
+  double *q = hooke_state_position(f->state), *v = hooke_state_velocity(f->state);
+  hooke_state_set_time(f->state, 0.25 * (double)frame);
+  for (int64_t k = 0; k < hooke_state_size(f->state); k++) {
+    q[k] = (double)(k % 97) + 1000.0 * (double)frame;
+    v[k] = (double)(k % 89) - (double)frame;
+  }
+  const int32_t status = hooke_trajectory_write(trajectory, 10 * frame, f->state);
+  memset(q, 0xff, (size_t)hooke_state_size(f->state) * sizeof *q);
+  return status;
+}
+
+static void write_file(const struct fixture *f, const char *path, int behind, int64_t frames) {
+  hooke_trajectory *trajectory = create(f, path, behind);
+  for (int64_t k = 0; k < frames; k++)
+    check_ok(write_frame(f, trajectory, k));
+  if (frames == FRAMES) check_status(write_frame(f, trajectory, frames), HOOKE_BAD_CALL);
+  check_ok(hooke_trajectory_close(trajectory, frames == FRAMES ? HOOKE_OK : HOOKE_STOPPED));
+}
+
+static char *bytes_of(const char *path, size_t *count) {
+  struct stat there;
+  assert_int_equal(stat(path, &there), 0);
+  *count = (size_t)there.st_size;
+  char *bytes = new_block((int64_t)*count, 1);
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  assert_int_equal(fread(bytes, 1, *count, file), *count);
+  fclose(file);
+  return bytes;
+}
+
+static void the_file_is_the_same(void **unused) {
+  (void)unused;
+  struct fixture f;
+  build(&f, N);
+  const int64_t frames[] = {FRAMES, 5, 1, 0};
+  for (int k = 0; k < 4; k++) {
+    size_t size, other_size;
+    write_file(&f, f.path, 1, frames[k]);
+    write_file(&f, f.other, 0, frames[k]);
+    char *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
+    assert_int_equal(size, other_size);
+    assert_true(size > (size_t)(48 * N * frames[k]));
+    assert_memory_equal(bytes, other, size);
+    free(bytes);
+    free(other);
+  }
+  release(&f);
+}
+
+static int64_t frames_in(const char *path) {
+  hooke_record *record;
+  check_ok(hooke_record_open(path, &record));
+  const int64_t count = hooke_record_frame_count(record);
+  hooke_record_close(record);
+  return count;
+}
+
+static void small_frames_are_there_at_once(void **unused) {
+  (void)unused;
+  struct fixture f;
+  build(&f, 7);
+  hooke_trajectory *trajectory = create(&f, f.path, 1);
+  for (int64_t k = 0; k < FRAMES; k++) {
+    char *bytes;
+    size_t size;
+    check_ok(write_frame(&f, trajectory, k));
+    bytes = bytes_of(f.path, &size); /* what a kill would leave */
+    FILE *copy = fopen(f.other, "wb");
+    assert_non_null(copy);
+    assert_int_equal(fwrite(bytes, 1, size, copy), size);
+    assert_int_equal(fclose(copy), 0);
+    free(bytes);
+    assert_int_equal(frames_in(f.other), k + 1);
+  }
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  release(&f);
+}
+
+/* Files may not grow beyond `size` bytes from here on, and bytes behind that may not be written. */
+static void limit_files(rlim_t size) {
+  struct rlimit limit;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  limit.rlim_cur = size;
+  signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+}
+
+/* The frame that fails is told by the next call, and by all after it. */
+static void a_failed_write_is_told(void **unused) {
+  (void)unused;
+  struct fixture f;
+  build(&f, N);
+  for (int closes = 0; closes <= 1; closes++) {
+    hooke_trajectory *trajectory = create(&f, f.path, 1);
+    for (int64_t k = 0; k < 3; k++)
+      check_ok(write_frame(&f, trajectory, k));
+    while (frames_in(f.path) < 3)
+      nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    limit_files(1000);
+    check_ok(write_frame(&f, trajectory, 3));
+    for (int again = 0; again < 2 && !closes; again++) {
+      check_status(write_frame(&f, trajectory, 4), HOOKE_IO_FAILED);
+      check_message("write frame 3: File too large");
+    }
+    check_status(hooke_trajectory_close(trajectory, HOOKE_OK), HOOKE_IO_FAILED);
+    check_message("write frame 3: File too large");
+    check_message(f.path);
+    limit_files(RLIM_INFINITY);
+    assert_int_equal(frames_in(f.path), 3);
+  }
+  release(&f);
+}
+
+#else
+
+static void it_is_not_in_this_build(void **unused) {
+  (void)unused;
+  struct fixture f;
+  build(&f, N);
+  check_status(hooke_trajectory_write_behind(NULL), HOOKE_NOT_BUILT);
+  release(&f);
+}
+
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+#if HOOKE_HAVE_HDF5
+    cmocka_unit_test(the_file_is_the_same),
+    cmocka_unit_test(small_frames_are_there_at_once),
+    cmocka_unit_test(a_failed_write_is_told),
+#else
+    cmocka_unit_test(it_is_not_in_this_build),
+#endif
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
