@@ -132,6 +132,26 @@ static int measure_memory(struct check *check) {
   return HOOKE_EXIT_DONE;
 }
 
+/* What of it goes with the number of springs, for each; and the rest, for each particle. */
+static double bytes_per_spring(const struct check *check) {
+  return (double)hooke_system_spring_memory(check->setup.system) /
+         (double)hooke_system_spring_count(check->setup.system);
+}
+
+static double bytes_per_particle(const struct check *check) {
+  return (double)(check->memory - hooke_system_spring_memory(check->setup.system)) /
+         (double)hooke_system_particle_count(check->setup.system);
+}
+
+static void print_memory(const struct check *check) {
+  printf("memory       %" PRId64 " bytes", check->memory);
+  if (hooke_system_particle_count(check->setup.system) > 0)
+    printf(", %.1f a particle", bytes_per_particle(check));
+  if (hooke_system_spring_count(check->setup.system) > 0)
+    printf(" and %.1f a spring", bytes_per_spring(check));
+  printf("\n");
+}
+
 static void print_json(const struct check *check) {
   const hooke_system *system = check->setup.system;
   struct hooke_json json;
@@ -153,6 +173,8 @@ static void print_json(const struct check *check) {
   }
   hooke_json_close(&json);
   hooke_json_count(&json, "memory_bytes", check->memory);
+  hooke_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
+  hooke_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
   hooke_json_open(&json, "step_limit", '{');
   for (int64_t i = 0; i < hooke_method_count(); i++) {
     hooke_json_number(&json, hooke_method_name(i), bound_of(check, hooke_method_name(i)));
@@ -226,7 +248,7 @@ static void print_words(const struct check *check) {
     printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));
   }
   printf("%s\n", hooke_system_force_count(system) == 0 ? "none" : "");
-  printf("memory       %" PRId64 " bytes\n", check->memory);
+  print_memory(check);
   print_cost(check);
   print_limits(check);
   hooke_cost_sheet_print(check->cost, system);

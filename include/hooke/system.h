@@ -163,8 +163,9 @@ HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t 
 HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
-/* Memory that the committed system holds [bytes]. */
+/* Memory that the committed system holds [bytes]; and how much of that goes with the number of its springs. */
 HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
+HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
 
 /* ---- forces and energies at q, v (3n each), committed systems only ----
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or

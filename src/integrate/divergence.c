@@ -14,6 +14,7 @@
 #include "integrate/integrator.h"
 
 #include "core/status.h"
+#include "model/spring_batch.h"
 
 #include <float.h>
 #include <math.h>
@@ -40,10 +41,10 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->held[p] ? 0.0 : system->mass[p];
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++)
-      stiffness += hooke_run_spring(run, k).kappa;
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++)
+      stiffness += batch.kappa[k];
   }
   struct hooke_triple triple;
   for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)

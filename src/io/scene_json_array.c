@@ -174,21 +174,26 @@ static int32_t read_particle(const struct hooke_scene_reader *reader, const json
                     (long long)*particle, (long long)count - 1);
 }
 
+/* Numbers become particles where they stand: large scenes have no memory for both. */
 static int32_t particles_from_file(struct hooke_scene_reader *reader, const json_t *value, int32_t columns,
                                    int64_t **particles, int64_t *count) {
+  _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
   double *numbers = NULL;
   int32_t status = numbers_from_file(reader, value, columns, 1, &numbers, count);
-  if (status == HOOKE_OK && (*particles = hooke_new(*count, sizeof(int64_t))) == NULL)
-    status = HOOKE_NO_MEMORY;
-  int64_t particle_count = hooke_system_particle_count(reader->scene->system);
-  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++) {
-    if (numbers[k] < 0 || numbers[k] >= (double)particle_count)
+  const int64_t particle_count = hooke_system_particle_count(reader->scene->system);
+  char *place = (char *)numbers;
+  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, place += sizeof(double)) {
+    double number;
+    memcpy(&number, place, sizeof number);
+    if (number < 0 || number >= (double)particle_count) {
       status = hooke_fail(HOOKE_BAD_VALUE, "dataset", "there is no particle %.17g; allowed: 0 to %lld",
-                          numbers[k], (long long)particle_count - 1);
-    else
-      (*particles)[k] = (int64_t)numbers[k];
+                          number, (long long)particle_count - 1);
+    } else {
+      const int64_t particle = (int64_t)number;
+      memcpy(place, &particle, sizeof particle);
+    }
   }
-  hooke_free(numbers);
+  *particles = (void *)numbers; /* released by the caller where this failed */
   return status;
 }
 

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/spring_batch.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,18 +31,55 @@ static void see_spring(struct hooke_linearised *lin, int64_t k, const struct hoo
     lin->clamped++;
 }
 
-static void see_springs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
-  const hooke_system *system = lin->system;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+/* Between held ends it moves nothing. */
+static int32_t moves(const hooke_system *system, const struct hooke_spring *spring) {
+  return !system->held[spring->head] || !system->held[spring->tail];
+}
+
+static void see_runs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
+  for (int64_t r = 0; r < lin->run_count; r++) {
+    const struct hooke_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hooke_spring spring = hooke_run_spring(run, k);
-      const int64_t number = run->first + k;
-      /* between held ends it moves nothing */
-      if (system->held[spring.head] && system->held[spring.tail]) continue;
-      see_spring(lin, number, &spring, q, spring_scale ? spring_scale[number] : 1.0);
+      const double scale = spring_scale ? spring_scale[run->first + k] : 1.0;
+      if (moves(lin->system, &spring)) see_spring(lin, run->first + k, &spring, q, scale);
     }
   }
+}
+
+static void see_batches(struct hooke_linearised *lin, const double *q) {
+  int32_t *head = lin->ends, *tail = lin->ends + lin->own.count;
+  int64_t place = 0;
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(lin->system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++, place++) {
+      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      head[place] = batch.head[k];
+      tail[place] = batch.tail[k];
+      if (moves(lin->system, &spring)) see_spring(lin, place, &spring, q, 1.0);
+    }
+  }
+}
+
+/* Springs in no order are many times faster in that of their batches. */
+static int32_t see_springs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
+  const struct hooke_springs *springs = &lin->system->springs;
+  if (spring_scale || lin->system->net.particles == 0) {
+    lin->run = springs->run;
+    lin->run_count = springs->run_count;
+    see_runs(lin, q, spring_scale);
+    return HOOKE_OK;
+  }
+  lin->ends = hooke_new(2 * springs->count, sizeof *lin->ends);
+  if (lin->ends == NULL) return HOOKE_NO_MEMORY;
+  lin->own = (struct hooke_run){.count = springs->count,
+                                .shape = HOOKE_RUN_INDEXED,
+                                .head = lin->ends,
+                                .tail = lin->ends + springs->count};
+  lin->run = &lin->own;
+  lin->run_count = 1;
+  see_batches(lin, q);
+  return HOOKE_OK;
 }
 
 /* Triples of held particles move nothing. */
@@ -61,8 +99,8 @@ static double largest_row(const struct hooke_linearised *lin, const double *weig
   const hooke_system *system = lin->system;
   double most = 0.0;
   memset(sum, 0, (size_t)system->particle_count * sizeof(double));
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < lin->run_count; r++) {
+    const struct hooke_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
       const int64_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
@@ -140,15 +178,16 @@ int32_t hooke_linearised_create(const hooke_system *system, const double *q, con
     lin->inverse[p] = system->held[p] ? 0.0 : 1.0 / lin->mass[p];
     lin->unknowns += system->held[p] ? 0 : 3;
   }
-  see_springs(lin, q, spring_scale);
+  int32_t status = see_springs(lin, q, spring_scale);
   see_triples(lin);
-  const int32_t status = choose_rate(lin, sum);
+  if (status == HOOKE_OK) status = choose_rate(lin, sum);
   if (status != HOOKE_OK) hooke_linearised_release(lin);
   return status;
 }
 
 void hooke_linearised_release(struct hooke_linearised *lin) {
   hooke_free(lin->mass);
+  hooke_free(lin->ends);
   memset(lin, 0, sizeof *lin);
 }
 
@@ -178,8 +217,8 @@ void hooke_linearised_add_product(struct hooke_linearised *lin, const double *x,
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   lin->products++;
-  for (int64_t k = 0; k < lin->system->springs.run_count; k++)
-    hooke_tangent_product(&lin->system->springs.run[k], &lin->tangent, from, to);
+  for (int64_t k = 0; k < lin->run_count; k++)
+    hooke_tangent_product(&lin->run[k], &lin->tangent, from, to);
   if (lin->bent > 0.0) hooke_bending_add(&lin->system->bending, -lin->bent, from, to);
   if (lin->brake > 0.0) hooke_add_multiple(lin->size, lin->brake, x, out);
 }
@@ -212,11 +251,10 @@ static double bending_energy(const struct hooke_linearised *lin, const double *x
 
 /* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
 double hooke_linearised_energy(const struct hooke_linearised *lin, const double *x) {
-  const hooke_system *system = lin->system;
-  const int64_t n = system->particle_count;
+  const int64_t n = lin->system->particle_count;
   double sum = bending_energy(lin, x);
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < lin->run_count; r++) {
+    const struct hooke_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hooke_spring spring = hooke_run_spring(run, k);
       const int64_t i = spring.head, j = spring.tail, s = run->first + k;

@@ -22,8 +22,13 @@ struct hooke_linearised {
   double rate;               /* [1/s] */
   int64_t clamped, products; /* springs clamped; products with K and C so far */
   int32_t across_any, damped, bends;
-  double *mass, *inverse;                /* n; the inverse is 0 where a particle is held */
-  double *u[3], *kappa, *across, *gamma; /* by spring, over rate^2 and rate */
+  double *mass, *inverse; /* n; the inverse is 0 where a particle is held */
+  /* springs: by their numbers, or in the order of batches, in one run of our own */
+  int64_t run_count;
+  const struct hooke_run *run;
+  struct hooke_run own;
+  int32_t *ends;                         /* of that */
+  double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
   double drag, bending;                  /* of coefficients: 1 over rate^2 */
   /* a K + b C, from the last hooke_linearised_weigh() */
   struct hooke_tangent tangent;

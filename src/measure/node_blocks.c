@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/spring_batch.h"
 
 #include <math.h>
 #include <string.h>
@@ -66,11 +67,11 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   blocks->across = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
-      if (system->held[spring.head] && system->held[spring.tail]) continue;
-      add_spring(blocks, &spring, q);
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++) {
+      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      if (!system->held[spring.head] || !system->held[spring.tail]) add_spring(blocks, &spring, q);
     }
   }
   struct hooke_triple triple;

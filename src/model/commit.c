@@ -4,9 +4,13 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/spring_batch.h"
 
 #include <stddef.h>
 #include <string.h>
+
+/* Above so many springs, building took memory that is worth giving back. */
+enum { LARGE = 200000 };
 
 static int32_t check_pinned_at_rest(const hooke_system *system) {
   for (int64_t p = 0; p < system->particle_count; p++) {
@@ -96,12 +100,10 @@ static int32_t fill_particles(hooke_system *system) {
 }
 
 void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched) {
-  const struct hooke_springs *springs = &system->springs;
-  for (int64_t r = 0; r < springs->run_count; r++) {
-    for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(&springs->run[r], k);
-      touched[spring.head] = touched[spring.tail] = 1;
-    }
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++)
+      touched[batch.head[k]] = touched[batch.tail[k]] = 1;
   }
   struct hooke_triple triple;
   for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
@@ -218,6 +220,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   }
   drop_building_arrays(system);
   trim_particles(system);
+  if (system->springs.count > LARGE) hooke_give_back();
   system->committed = 1;
   return HOOKE_OK;
 }

@@ -3,6 +3,8 @@
 #include "model/force.h"
 
 #include "core/sum.h"
+#include "kernel/spring_body.h"
+#include "model/spring_batch.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -34,29 +36,58 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
 
 static double energy(const hooke_system *system, const double *q) {
   struct hooke_sum sum = {0.0, 0.0};
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
-      struct hooke_stretch s;
-      hooke_spring_stretch(&spring, q, NULL, &s);
-      if (spring.pull_only && s.length <= spring.rest_length) continue;
-      hooke_sum_add(&sum, 0.5 * s.elastic * (s.length - spring.rest_length));
+  double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    hooke_batch_lengths(&batch, q, length);
+    for (int64_t k = 0; k < batch.count; k++) {
+      const double stretch = length[k] - batch.rest_length[k];
+      stored[k] = 0.5 * (batch.kappa[k] * stretch) * stretch;
+    }
+    for (int64_t k = 0; k < batch.count; k++) {
+      if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
+      hooke_sum_add(&sum, stored[k]);
     }
   }
   return hooke_sum_value(&sum);
 }
 
+/* Of springs that pull and push. */
+static void find_heat(const struct hooke_spring_batch *batch, const double *q, const double *v,
+                      double *heat) {
+  for (int64_t k = 0; k < batch->count; k++) {
+    const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];
+    const double d[3] = {q[i] - q[j], q[i + 1] - q[j + 1], q[i + 2] - q[j + 2]};
+    const double u[3] = {v[i] - v[j], v[i + 1] - v[j + 1], v[i + 2] - v[j + 2]};
+    const double ir = hooke_spring_inverse_length(hooke_spring_length(d[0], d[1], d[2]));
+    const double rate = ((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]) * ir;
+    heat[k] = (batch->gamma[k] * rate) * rate;
+  }
+}
+
+/* A spring that only pulls brakes no more than its tension lets it. */
+static void find_heat_of_cables(const struct hooke_spring_batch *batch, const double *q, const double *v,
+                                double *heat) {
+  for (int64_t k = 0; k < batch->count; k++) {
+    const struct hooke_spring spring = hooke_batch_spring(batch, k);
+    struct hooke_stretch s;
+    hooke_spring_stretch(&spring, q, v, &s);
+    heat[k] = (s.tension - s.elastic) * s.rate;
+  }
+}
+
 static double heat(const hooke_system *system, const double *q, const double *v) {
   struct hooke_sum sum = {0.0, 0.0};
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
-    for (int64_t k = 0; (run->shape & HOOKE_RUN_DAMPED) && k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
-      struct hooke_stretch s;
-      hooke_spring_stretch(&spring, q, v, &s);
-      hooke_sum_add(&sum, (s.tension - s.elastic) * s.rate);
-    }
+  double lost[HOOKE_SPRING_BATCH];
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    if (!batch.damped) continue;
+    if (batch.pull_only)
+      find_heat_of_cables(&batch, q, v, lost);
+    else
+      find_heat(&batch, q, v, lost);
+    for (int64_t k = 0; k < batch.count; k++)
+      hooke_sum_add(&sum, lost[k]);
   }
   return hooke_sum_value(&sum);
 }

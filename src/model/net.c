@@ -22,7 +22,7 @@ static const double WORTH_NUMBERING = 0.6;
 struct maker {
   struct hooke_net *net;
   struct hooke_springs *springs;
-  int32_t *head, *tail;   /* of all springs */
+  int32_t *lower, *upper; /* ends of all springs, by number in `place` */
   int32_t *order, *place; /* of particles */
   int32_t *class_of;      /* of runs */
   int32_t *at;            /* place of each spring */
@@ -30,69 +30,75 @@ struct maker {
 };
 
 static int32_t maker_create(struct hooke_springs *springs, struct hooke_net *net, struct maker *maker) {
-  const int64_t n = net->particles, m = springs->count;
+  const int64_t n = net->particles, m = springs->count, bins = net->tiles * HOOKE_NET_CLASSES;
   *maker = (struct maker){.net = net,
                           .springs = springs,
-                          .head = hooke_new(2 * m, sizeof(int32_t)),
+                          .lower = hooke_new(2 * m, sizeof(int32_t)),
                           .order = hooke_new(2 * n, sizeof(int32_t)),
                           .class_of = hooke_new(springs->run_count, sizeof(int32_t)),
                           .at = hooke_new(m, sizeof(int32_t)),
-                          .next = hooke_new(n + 1 + net->tiles * HOOKE_NET_CLASSES, sizeof(int64_t))};
-  if (!maker->head || !maker->order || !maker->class_of || !maker->at || !maker->next) return HOOKE_NO_MEMORY;
-  maker->tail = maker->head + m;
+                          .next = hooke_new(n > bins ? n : bins, sizeof(int64_t))};
+  if (!maker->lower || !maker->order || !maker->class_of || !maker->at || !maker->next)
+    return HOOKE_NO_MEMORY;
+  maker->upper = maker->lower + m;
   maker->place = maker->order + n;
-  for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
-      maker->head[run->first + k] = (int32_t)spring.head;
-      maker->tail[run->first + k] = (int32_t)spring.tail;
-    }
-  }
   return HOOKE_OK;
 }
 
 static void maker_release(struct maker *maker) {
-  hooke_free(maker->head);
+  hooke_free(maker->lower);
   hooke_free(maker->order);
   hooke_free(maker->class_of);
   hooke_free(maker->at);
   hooke_free(maker->next);
 }
 
-static int32_t lower_end(const struct maker *maker, int64_t spring) {
-  const int32_t i = maker->place[maker->head[spring]], j = maker->place[maker->tail[spring]];
-  return i < j ? i : j;
-}
+/* Springs are in no order, and what they lead to comes late unless it is asked for so many springs early. */
+enum { EARLY = 16 };
 
-static int32_t upper_end(const struct maker *maker, int64_t spring) {
-  const int32_t i = maker->place[maker->head[spring]], j = maker->place[maker->tail[spring]];
-  return i < j ? j : i;
+static int64_t ahead(int64_t s, int64_t count) {
+  return s + EARLY < count ? s + EARLY : s;
 }
 
 /* ---- the working numbering ---- */
-
-static double mean_reach(const struct maker *maker) {
-  double sum = 0.0;
-  for (int64_t s = 0; s < maker->springs->count; s++)
-    sum += (double)(upper_end(maker, s) - lower_end(maker, s));
-  return sum;
-}
 
 static void number_as_given(const struct maker *maker) {
   for (int64_t p = 0; p < maker->net->particles; p++)
     maker->order[p] = maker->place[p] = (int32_t)p;
 }
 
+static void number_ends(const struct maker *maker) {
+  const struct hooke_springs *springs = maker->springs;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    const struct hooke_run *run = &springs->run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const int32_t i = maker->place[spring.head], j = maker->place[spring.tail];
+      maker->lower[run->first + k] = i < j ? i : j;
+      maker->upper[run->first + k] = i < j ? j : i;
+    }
+  }
+}
+
+static double sum_of_reaches(const struct maker *maker) {
+  double sum = 0.0;
+  for (int64_t s = 0; s < maker->springs->count; s++)
+    sum += (double)(maker->upper[s] - maker->lower[s]);
+  return sum;
+}
+
 static int32_t number(struct maker *maker, const double *inverse_mass) {
   struct hooke_net *net = maker->net;
   number_as_given(maker);
-  const double given = mean_reach(maker);
-  const int32_t status = hooke_net_number(net->particles, maker->springs->count, maker->head, maker->tail,
+  number_ends(maker);
+  const double given = sum_of_reaches(maker);
+  const int32_t status = hooke_net_number(net->particles, maker->springs->count, maker->lower, maker->upper,
                                           maker->order, maker->place);
   if (status != HOOKE_OK) return status;
-  if (mean_reach(maker) >= WORTH_NUMBERING * given) {
+  number_ends(maker);
+  if (sum_of_reaches(maker) >= WORTH_NUMBERING * given) {
     number_as_given(maker);
+    number_ends(maker);
     return HOOKE_OK;
   }
   net->order = hooke_new(net->particles, sizeof(int32_t));
@@ -116,33 +122,39 @@ static void sum_up(int64_t *count, int64_t size) {
   }
 }
 
-/* By lower end first, then, which keeps that order, by tile and class. `by_end` is `springs` long. */
-static void sort(struct maker *maker, int32_t *by_end) {
+/* Springs of one tile and class, `sorted` until now by number alone, get their places by lower end. */
+static void sort_bin(struct maker *maker, const int32_t *sorted, int64_t from, int64_t count) {
+  int64_t next[HOOKE_TILE] = {0};
+  for (int64_t k = 0; k < count; k++)
+    next[maker->lower[sorted[k]] % HOOKE_TILE]++;
+  sum_up(next, HOOKE_TILE);
+  for (int64_t k = 0; k < count; k++)
+    maker->at[sorted[k]] = (int32_t)(from + next[maker->lower[sorted[k]] % HOOKE_TILE]++);
+}
+
+/* By tile and class, then by lower end. `sorted` is `springs` long. */
+static void sort(struct maker *maker, int32_t *sorted) {
   struct hooke_net *net = maker->net;
   const struct hooke_springs *springs = maker->springs;
-  int64_t *next = maker->next, *bin = maker->next + net->particles + 1;
-  for (int64_t s = 0; s < springs->count; s++)
-    next[lower_end(maker, s)]++;
-  sum_up(next, net->particles);
-  for (int64_t s = 0; s < springs->count; s++)
-    by_end[next[lower_end(maker, s)]++] = (int32_t)s;
-
-  int32_t *class_of_spring = maker->at; /* until places are known */
+  const int64_t bins = net->tiles * net->classes;
+  int64_t *next = maker->next;
   for (int64_t r = 0; r < springs->run_count; r++) {
-    for (int64_t k = 0; k < springs->run[r].count; k++)
-      class_of_spring[springs->run[r].first + k] = maker->class_of[r];
+    for (int64_t s = springs->run[r].first; s < springs->run[r].first + springs->run[r].count; s++)
+      net->batch[maker->lower[s] / HOOKE_TILE * net->classes + maker->class_of[r]]++;
   }
-  for (int64_t s = 0; s < springs->count; s++)
-    net->batch[lower_end(maker, s) / HOOKE_TILE * net->classes + class_of_spring[s]]++;
-  for (int64_t k = 0; k < net->tiles * net->classes; k++)
-    bin[k] = net->batch[k];
-  sum_up(bin, net->tiles * net->classes);
-  for (int64_t k = 0; k < springs->count; k++) {
-    const int32_t s = by_end[k];
-    maker->at[s] = (int32_t)bin[lower_end(maker, s) / HOOKE_TILE * net->classes + class_of_spring[s]]++;
+  for (int64_t k = 0; k < bins; k++)
+    next[k] = net->batch[k];
+  sum_up(next, bins);
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t s = springs->run[r].first; s < springs->run[r].first + springs->run[r].count; s++)
+      sorted[next[maker->lower[s] / HOOKE_TILE * net->classes + maker->class_of[r]]++] = (int32_t)s;
+  }
+  for (int64_t k = 0; k < bins; k++) {
+    const int64_t from = next[k] - net->batch[k];
+    sort_bin(maker, sorted + from, from, net->batch[k]);
   }
   for (int64_t t = 0; t < net->tiles; t++)
-    net->tile[t].end = bin[t * net->classes + net->classes - 1];
+    net->tile[t].end = next[t * net->classes + net->classes - 1];
 }
 
 /* How far tiles look ahead and back, and what a window and a ring have to hold for that. */
@@ -154,8 +166,8 @@ static void measure(struct maker *maker) {
     net->tile[t].before = t > 0 ? net->tile[t - 1].end : 0;
   }
   for (int64_t s = 0; s < net->springs; s++) {
-    const int32_t upper = upper_end(maker, s);
-    struct hooke_net_tile *from = &net->tile[lower_end(maker, s) / HOOKE_TILE];
+    const int32_t upper = maker->upper[s];
+    struct hooke_net_tile *from = &net->tile[maker->lower[s] / HOOKE_TILE];
     struct hooke_net_tile *to = &net->tile[upper / HOOKE_TILE];
     if (from->reach <= upper) from->reach = upper + 1;
     if (to->before > maker->at[s]) to->before = maker->at[s];
@@ -182,12 +194,21 @@ static void put(void *index, int64_t at, int64_t value, int32_t wide) {
 static int count_degrees(struct maker *maker) {
   struct hooke_net *net = maker->net;
   for (int64_t s = 0; s < net->springs; s++) {
-    uint16_t *i = &net->degree[lower_end(maker, s)], *j = &net->degree[upper_end(maker, s)];
+    uint16_t *i = &net->degree[maker->lower[s]], *j = &net->degree[maker->upper[s]];
     if (*i == MOST_DEGREE || *j == MOST_DEGREE) return 0;
     ++*i;
     ++*j;
   }
   return 1;
+}
+
+static void ask_for_places(const struct maker *maker, int64_t s) {
+  const struct hooke_net *net = maker->net;
+  const int64_t width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t), at = maker->at[s];
+  __builtin_prefetch(net->lower + at, 1);
+  __builtin_prefetch((char *)net->upper + at * width, 1);
+  __builtin_prefetch(maker->next + maker->lower[s], 1);
+  __builtin_prefetch(maker->next + maker->upper[s], 1);
 }
 
 static int32_t fill_ends(struct maker *maker) {
@@ -201,7 +222,8 @@ static int32_t fill_ends(struct maker *maker) {
     maker->next[p] = net->degree[p];
   sum_up(maker->next, net->particles);
   for (int64_t s = 0; s < m; s++) {
-    const int32_t i = lower_end(maker, s), j = upper_end(maker, s), at = maker->at[s];
+    const int32_t i = maker->lower[s], j = maker->upper[s], at = maker->at[s];
+    ask_for_places(maker, ahead(s, m));
     net->lower[at] = (uint8_t)(i % HOOKE_TILE);
     put(net->upper, at, j % net->rows, net->wide);
     put(net->half, maker->next[i]++, 2 * (at % net->pairs) + 1, net->wide);
@@ -271,12 +293,12 @@ static int32_t make(struct maker *maker, const double *inverse_mass) {
   net->tile = hooke_new(net->tiles, sizeof *net->tile);
   net->batch = hooke_new(net->tiles * net->classes, sizeof *net->batch);
   net->degree = hooke_new(net->particles, sizeof *net->degree);
-  int32_t *by_end = hooke_new(net->springs, sizeof *by_end);
-  if (net->tile && net->batch && net->degree && by_end)
-    sort(maker, by_end);
+  int32_t *sorted = hooke_new(net->springs, sizeof *sorted);
+  if (net->tile && net->batch && net->degree && sorted)
+    sort(maker, sorted);
   else
     status = HOOKE_NO_MEMORY;
-  hooke_free(by_end);
+  hooke_free(sorted);
   if (status != HOOKE_OK) return status;
   measure(maker);
   const double bytes = (double)(net->rows + net->pairs) * (HOOKE_NET_ROW * sizeof(double));
@@ -311,12 +333,17 @@ void hooke_net_release(struct hooke_net *net) {
   memset(net, 0, sizeof *net);
 }
 
-int64_t hooke_net_memory(const struct hooke_net *net) {
+int64_t hooke_net_spring_memory(const struct hooke_net *net) {
   const int64_t width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t), number = sizeof(double);
-  int64_t a_spring = 1 + 3 * width, a_particle = (int64_t)sizeof(uint16_t);
+  int64_t a_spring = 1 + 3 * width;
   if (net->rest_length) a_spring += number + (int64_t)sizeof(int32_t);
   if (net->kappa) a_spring += 2 * number;
-  if (net->order) a_particle += number + (int64_t)sizeof(int32_t);
+  return a_spring * net->springs;
+}
+
+int64_t hooke_net_memory(const struct hooke_net *net) {
+  int64_t a_particle = (int64_t)sizeof(uint16_t);
+  if (net->order) a_particle += (int64_t)(sizeof(double) + sizeof(int32_t));
   const int64_t a_tile = (int64_t)sizeof *net->tile + net->classes * (int64_t)sizeof *net->batch;
-  return a_spring * net->springs + a_particle * net->particles + a_tile * net->tiles;
+  return hooke_net_spring_memory(net) + a_particle * net->particles + a_tile * net->tiles;
 }

@@ -54,6 +54,8 @@ int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, 
                          struct hooke_net *net);
 void hooke_net_release(struct hooke_net *net);
 int64_t hooke_net_memory(const struct hooke_net *net);
+/* The part of it that goes with the number of springs. */
+int64_t hooke_net_spring_memory(const struct hooke_net *net);
 
 /* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number k, place[p]
  * the number of p. HOOKE_NO_MEMORY. */

@@ -4,6 +4,9 @@
 
 #include "core/memory.h"
 
+/* Particles are in no order yet, and what they lead to comes late unless it is asked for so many early. */
+enum { EARLY = 16 };
+
 /* Neighbours of all particles, those of p at first[p] .. first[p + 1] - 1. */
 struct graph {
   int64_t *first;
@@ -24,10 +27,19 @@ static int32_t graph_create(int64_t particles, int64_t springs, const int32_t *h
     graph->first[p + 1] += graph->first[p];
   next = graph->first + 1;
   for (int64_t s = 0; s < springs; s++) {
+    if (s + EARLY < springs) {
+      __builtin_prefetch(next + head[s + EARLY], 1);
+      __builtin_prefetch(next + tail[s + EARLY], 1);
+    }
     graph->neighbour[next[head[s]]++] = tail[s];
     graph->neighbour[next[tail[s]]++] = head[s];
   }
   return HOOKE_OK;
+}
+
+static void ask_for_neighbours(const struct graph *graph, const int32_t *order, int64_t done, int64_t count) {
+  if (done + EARLY < count) __builtin_prefetch(graph->first + order[done + EARLY]);
+  if (done + EARLY / 2 < count) __builtin_prefetch(graph->neighbour + graph->first[order[done + EARLY / 2]]);
 }
 
 static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count, int32_t *order,
@@ -37,6 +49,7 @@ static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count
   order[count++] = start;
   for (; done < count; done++) {
     const int32_t p = order[done];
+    ask_for_neighbours(graph, order, done, count);
     for (int64_t k = graph->first[p]; k < graph->first[p + 1]; k++) {
       const int32_t other = graph->neighbour[k];
       if (place[other] >= 0) continue;

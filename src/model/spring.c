@@ -169,10 +169,14 @@ static int32_t check_count(const hooke_options *options, const char *name, int64
                     (long long)given, (long long)count);
 }
 
-/* Value k of an option that is one number or one for each spring. */
-static double value_of(const hooke_options *options, const char *name, int64_t k) {
-  const double *value = hooke_options_numbers(options, name);
-  return value[hooke_options_number_count(options, name) == 1 ? 0 : k];
+/* Values that are one number or one for each spring. */
+struct values {
+  const double *value;
+  int64_t stride;
+};
+
+static struct values values_of(const hooke_options *options, const char *name) {
+  return (struct values){hooke_options_numbers(options, name), hooke_options_number_count(options, name) > 1};
 }
 
 static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
@@ -187,23 +191,32 @@ static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
                     length, (long long)k);
 }
 
+/* Springs are in any order, so that the places of their ends come late unless they are asked for early. */
+static void ask_for_ends(const struct hooke_group *group, const double *position, int64_t k) {
+  if (k >= group->count) return;
+  __builtin_prefetch(position + 3 * (int64_t)group->head[k]);
+  __builtin_prefetch(position + 3 * (int64_t)group->tail[k]);
+}
+
+static double initial_length(const struct hooke_group *group, const double *position, int64_t k) {
+  const double *qi = position + 3 * (int64_t)group->head[k], *qj = position + 3 * (int64_t)group->tail[k];
+  ask_for_ends(group, position, k + 16);
+  return hooke_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
+}
+
 /* kappa, gamma and rest length of every spring of the group. */
 static int32_t find_material(const hooke_system *system, const hooke_options *options,
                              struct hooke_group *group) {
   const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
   const double scale = hooke_options_number(options, "rest_scale");
   const int64_t given = hooke_options_number_count(options, "rest_length");
+  const struct values stiffnesses = values_of(options, "stiffness"), dampings = values_of(options, "damping"),
+                      lengths = values_of(options, "rest_length");
   for (int64_t k = 0; k < group->count; k++) {
-    double length;
-    if (given > 0) {
-      length = value_of(options, "rest_length", k);
-    } else {
-      const double *qi = system->position + 3 * (int64_t)group->head[k];
-      const double *qj = system->position + 3 * (int64_t)group->tail[k];
-      length = hooke_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
-    }
-    length *= scale;
-    const double stiffness = value_of(options, "stiffness", k), damping = value_of(options, "damping", k);
+    const double length =
+        scale * (given > 0 ? lengths.value[k * lengths.stride] : initial_length(group, system->position, k));
+    const double stiffness = stiffnesses.value[k * stiffnesses.stride],
+                 damping = dampings.value[k * dampings.stride];
     if (strain && !(length > 0.0)) return refuse_rest_length(k, given, length);
     group->rest_length[k] = length;
     group->kappa[k] = strain ? stiffness / length : stiffness;

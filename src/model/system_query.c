@@ -1,5 +1,6 @@
 /* Questions to a system. */
 #include "model/force.h"
+#include "model/spring_batch.h"
 
 #include "core/status.h"
 
@@ -90,13 +91,12 @@ int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, 
 
 int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
   int64_t count = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
-      struct hooke_stretch stretch;
-      hooke_spring_stretch(&spring, q, NULL, &stretch);
-      count += stretch.length == 0.0 && spring.rest_length != 0.0;
-    }
+  double length[HOOKE_SPRING_BATCH];
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    hooke_batch_lengths(&batch, q, length);
+    for (int64_t k = 0; k < batch.count; k++)
+      count += length[k] == 0.0 && batch.rest_length[k] != 0.0;
   }
   return count;
 }
@@ -107,6 +107,10 @@ int64_t hooke_system_force_count(const hooke_system *system) {
 
 const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
   return force >= 0 && force < system->force_row_count ? system->force_row[force]->name : NULL;
+}
+
+int64_t hooke_system_spring_memory(const hooke_system *system) {
+  return hooke_springs_memory(&system->springs) + hooke_net_spring_memory(&system->net);
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {

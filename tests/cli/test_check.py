@@ -10,8 +10,8 @@ from conftest import METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
-KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "derived", "forces", "memory_bytes", "step_limit", "warnings"]
-KEYS += ["cost"]
+KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "derived", "forces", "memory_bytes", "bytes_per_particle"]
+KEYS += ["bytes_per_spring", "step_limit", "warnings", "cost"]
 COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
 COST_KEYS += ["idle_particles", "rows"]
 ROW_KEYS = ["ingredient", "kind", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]
@@ -84,6 +84,9 @@ def test_memory_grows_with_the_scene(hooke, write):
     assert (small["particles"], large["particles"]) == (400, 1600)
     assert small["springs"] == 2 * 20 * 19
     assert 2.5 < large["memory_bytes"] / small["memory_bytes"] < 4.5
+    for value in small, large:
+        parts = [value[f"bytes_per_{of}"] * value[f"{of}s"] for of in ("particle", "spring")]
+        assert abs(sum(parts) - value["memory_bytes"]) < 1 and parts[0] > parts[1] > 0
 
 
 def test_step_limit_of_one_spring(hooke, write):

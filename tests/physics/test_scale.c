@@ -5,15 +5,32 @@
 #include "run.h"
 
 #include <stdlib.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 /* Above the size at which states are kept besides, in a memory of 16 MB that does not grow. */
 enum { SIDE = 420, PARTICLES = SIDE * SIDE, LONG_ROPE = 180000 };
 
-static double bytes_of_run(const hooke_system *system, const char *method) {
+/* What the allocator has handed out; 0 where it does not tell. */
+static double bytes_in_use(void) {
+#ifdef __GLIBC__
+  const struct mallinfo2 all = mallinfo2();
+  return (double)all.uordblks + (double)all.hblkhd;
+#else
+  return 0.0;
+#endif
+}
+
+/* What is stated, which is what has been taken since `before`. */
+static double bytes_of_run(const hooke_system *system, const char *method, double before) {
   hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
-  const double state = 6.0 * 8.0 * (double)hooke_system_particle_count(system) + 8.0;
-  const double bytes = (double)hooke_system_memory(system) + state +
+  hooke_state *made = start_state(system);
+  const double taken = bytes_in_use() - before, size = (double)hooke_state_size(made);
+  const double bytes = (double)hooke_system_memory(system) + 8.0 * (2.0 * size + 1.0) +
                        (double)hooke_integrator_count(integrator, "memory_bytes");
+  if (taken > 0.0) check_between(taken / bytes, 0.99, 1.02);
+  hooke_state_destroy(made);
   hooke_integrator_destroy(integrator);
   return bytes;
 }
@@ -89,9 +106,10 @@ static hooke_system *build_sheet(int kinds, int moving) {
 /* No less than positions and velocities, twice. */
 static void test_memory_of_a_cloth(void **unused) {
   (void)unused;
+  const double before = bytes_in_use();
   hooke_system *system = build_cloth();
-  check_between(bytes_of_run(system, "symplectic-euler") / PARTICLES, 96.0, 150.0);
-  check_between(bytes_of_run(system, "forward-euler") / PARTICLES, 96.0, 150.0);
+  check_between(bytes_of_run(system, "symplectic-euler", before) / PARTICLES, 96.0, 150.0);
+  check_between(bytes_of_run(system, "forward-euler", before) / PARTICLES, 96.0, 150.0);
   hooke_system_destroy(system);
 }
 
@@ -99,10 +117,12 @@ static void test_memory_without_order(void **unused) {
   (void)unused;
   const int kinds[] = {3, 6, 3, 6};
   for (int k = 0; k < 4; k++) {
+    const double before = bytes_in_use();
     hooke_system *system = build_sheet(kinds[k], k >= 2);
     const double springs = (double)hooke_system_spring_count(system);
     const double least = 96.0 * PARTICLES + 16.0 * springs, most = 200.0 * PARTICLES + 24.0 * springs;
-    check_between(bytes_of_run(system, "symplectic-euler"), least, most);
+    check_between(bytes_of_run(system, "symplectic-euler", before), least, most);
+    check_between((double)hooke_system_spring_memory(system) / springs, 16.0, 34.0);
     hooke_system_destroy(system);
   }
 }

@@ -111,6 +111,7 @@ PROTOTYPES = {
     "hooke_system_force_count": (INT64, SYSTEM),
     "hooke_system_force_name": (TEXT, SYSTEM, INT64),
     "hooke_system_memory": (INT64, SYSTEM),
+    "hooke_system_spring_memory": (INT64, SYSTEM),
     "hooke_system_force": (STATUS, SYSTEM, DOUBLE, DOUBLES, DOUBLES, DOUBLES),
     "hooke_system_acceleration": (STATUS, SYSTEM, DOUBLE, DOUBLES, DOUBLES, DOUBLES),
     "hooke_system_coincident_springs": (INT64, SYSTEM, DOUBLES),

@@ -181,6 +181,11 @@ class Queries:
         """Memory that the system holds [bytes]."""
         return lib.hooke_system_memory(self._committed())
 
+    @property
+    def spring_memory(self) -> int:
+        """The part of it that goes with the number of springs [bytes]."""
+        return lib.hooke_system_spring_memory(self._committed())
+
     # forces
 
     def force(self, q: Any, v: Any, t: float = 0.0) -> np.ndarray:
