@@ -23,6 +23,7 @@ class Stepper(NamedTuple):
     damped: bool  #: whether it can do damping along springs, and is to
     undamped: bool
     start: Callable[[Cloth, float, int], Motion]  #: from a cloth, a step [s] and a number of threads
+    has_threads: bool = True
 
 
 class Solver(NamedTuple):

@@ -81,4 +81,4 @@ def start(cloth: Cloth, step: float, threads: int) -> Motion:
     return Motion(take, lambda: q)
 
 
-SCATTER = Stepper("Numba", lambda: numba.__version__, "symplectic-euler", True, True, start)
+SCATTER = Stepper("Numba", lambda: numba.__version__, "symplectic-euler", True, True, start, has_threads=False)
