@@ -2,9 +2,6 @@
 #include "core/status.h"
 
 #include <stdlib.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <string.h>
 
 enum { ALIGNMENT = 64 };
@@ -51,10 +48,4 @@ char *hooke_copy_text(const char *text) {
 
 void hooke_free(void *block) {
   free(block);
-}
-
-void hooke_give_back(void) {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
 }

@@ -23,8 +23,4 @@ char *hooke_copy_text(const char *text);
 
 void hooke_free(void *block);
 
-/* What was freed and the allocator holds back goes to the system, as far as it can do that. Takes its time in a large
- * program. */
-void hooke_give_back(void);
-
 #endif

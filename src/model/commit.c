@@ -9,9 +9,6 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Above so many springs, building took memory that is worth giving back. */
-enum { LARGE = 200000 };
-
 static int32_t check_pinned_at_rest(const hooke_system *system) {
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p] != HOOKE_HELD_PINNED) continue;
@@ -220,7 +217,6 @@ int32_t hooke_system_commit(hooke_system *system) {
   }
   drop_building_arrays(system);
   trim_particles(system);
-  if (system->springs.count > LARGE) hooke_give_back();
   system->committed = 1;
   return HOOKE_OK;
 }
