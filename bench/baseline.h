@@ -6,11 +6,14 @@
 
 struct baseline;
 
-/* A copy of a committed system at its initial state; NULL without memory. */
-struct baseline *baseline_create(const hooke_system *system);
+/* 1 if there is such a loop: for forward-euler, symplectic-euler, rk4, and without damping verlet. */
+int baseline_has(const char *method, int is_damped);
+
+/* Steps of `method` under springs, their damping, and gravity, from a copy of `state` on; NULL without memory. A system
+ * without damping has loops that read no velocity. */
+struct baseline *baseline_create(const hooke_system *system, const hooke_state *state, const char *method);
 void baseline_destroy(struct baseline *baseline);
 
-/* Steps of symplectic Euler under springs, their damping, and gravity. */
 void baseline_step(struct baseline *baseline, double h, int64_t steps);
 
 /* Positions, 3 a particle. */

@@ -1,5 +1,7 @@
 #include "scenes.h"
 
+#include "draw.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,20 +29,13 @@ static void join(struct net *net, int64_t i, int64_t j) {
   net->springs++;
 }
 
-static uint64_t draw(uint64_t *state) {
-  uint64_t z = (*state += 0x9E3779B97F4A7C15u); /* splitmix64 */
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
 /* A permutation of `count` numbers; NULL without memory. */
 static int64_t *shuffled(int64_t count, uint64_t seed) {
   int64_t *order = malloc((size_t)count * sizeof *order);
   for (int64_t k = 0; order && k < count; k++)
     order[k] = k;
   for (int64_t k = count - 1; order && k > 0; k--) {
-    const int64_t other = (int64_t)(draw(&seed) % (uint64_t)(k + 1)), kept = order[k];
+    const int64_t other = (int64_t)(bench_draw(&seed) % (uint64_t)(k + 1)), kept = order[k];
     order[k] = order[other];
     order[other] = kept;
   }
@@ -146,9 +141,8 @@ static int32_t build_lattice(hooke_system *system, int64_t size, double damping)
 static void lay_triangles(struct net *net, int64_t size) {
   uint64_t seed = 7;
   for (int64_t p = 0; p < net->particles; p++) {
-    net->position[3 * p] = ((double)(p % size) + 0.3 * (double)(draw(&seed) >> 11) * 0x1p-53) / (double)size;
-    net->position[3 * p + 2] =
-        ((double)(p / size) + 0.3 * (double)(draw(&seed) >> 11) * 0x1p-53) / (double)size;
+    net->position[3 * p] = ((double)(p % size) + 0.3 * bench_draw_unit(&seed)) / (double)size;
+    net->position[3 * p + 2] = ((double)(p / size) + 0.3 * bench_draw_unit(&seed)) / (double)size;
     if (p % size + 1 < size) join(net, p, p + 1);
     if (p / size + 1 < size) join(net, p, p + size);
     if (p % size + 1 < size && p / size + 1 < size) join(net, p, p + size + 1);
@@ -210,20 +204,21 @@ static int32_t build_six(hooke_system *system, int64_t size, double damping) {
 }
 
 static const struct bench_scene table[] = {
-    {"six-particles", build_six, 6, DAMPING},
-    {"cloth-32", build_cloth, 32, DAMPING},
-    {"cloth-64", build_cloth, 64, DAMPING},
-    {"cloth-128", build_cloth, 128, DAMPING},
-    {"cloth-128-undamped", build_cloth, 128, 0.0},
-    {"cloth-512", build_cloth, 512, DAMPING},
-    {"cloth-512-undamped", build_cloth, 512, 0.0},
-    {"cloth-1024", build_cloth, 1024, DAMPING},
-    {"cloth-1024-undamped", build_cloth, 1024, 0.0},
-    {"cloth-128-shuffled", build_shuffled_cloth, 128, DAMPING},
-    {"cloth-512-shuffled", build_shuffled_cloth, 512, DAMPING},
-    {"rope-100000", build_rope, 100000, DAMPING},
-    {"lattice-64", build_lattice, 64, DAMPING},
-    {"mesh-200000", build_mesh, 448, DAMPING},
+    {"six-particles", build_six, 6, DAMPING, 1},
+    {"cloth-32", build_cloth, 32, DAMPING, 0},
+    {"cloth-64", build_cloth, 64, DAMPING, 0},
+    {"cloth-128", build_cloth, 128, DAMPING, 1},
+    {"cloth-256", build_cloth, 256, DAMPING, 0},
+    {"cloth-512", build_cloth, 512, DAMPING, 0},
+    {"cloth-1024", build_cloth, 1024, DAMPING, 0},
+    {"cloth-128-undamped", build_cloth, 128, 0.0, 1},
+    {"cloth-512-undamped", build_cloth, 512, 0.0, 0},
+    {"cloth-1024-undamped", build_cloth, 1024, 0.0, 0},
+    {"cloth-128-shuffled", build_shuffled_cloth, 128, DAMPING, 0},
+    {"cloth-512-shuffled", build_shuffled_cloth, 512, DAMPING, 0},
+    {"mesh-200000", build_mesh, 448, DAMPING, 1},
+    {"rope-100000", build_rope, 100000, DAMPING, 0},
+    {"lattice-64", build_lattice, 64, DAMPING, 0},
 };
 
 const struct bench_scene *bench_scene(int64_t number) {

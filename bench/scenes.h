@@ -8,7 +8,8 @@ struct bench_scene {
   const char *name;
   int32_t (*build)(hooke_system *system, int64_t size, double damping);
   int64_t size;
-  double damping; /* 0: none */
+  double damping; /* [N s]; 0: none */
+  int has_more; /* 1: by itself the table has it with all explicit methods, not with symplectic Euler alone */
 };
 
 /* NULL past the last. */

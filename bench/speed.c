@@ -1,213 +1,146 @@
-/* Cost of a step, per spring, against a plain loop over an array of springs, both in one run:
+/* Cost of a step, for each spring of a scene, against a plain loop over an array of springs and against what the machine
+ * can do; docs/performance.md says how to read it.
  *
- *   speed [--seconds S] [--threads N] [--method M] [--csv] [SCENE ...]
+ *   speed [--seconds S] [--methods M,...] [--threads N,...] [--csv | --markdown] [SCENE ...]
  *
- * For each scene the library and the plain loop take turns for S seconds (2 if not given); minimum and median are over
- * those turns. Bytes are what a step has to move when nothing stays in a cache: positions and velocities in and out, masses
- * in. The plain loop is symplectic Euler whatever the method. */
-#include "bandwidth.h"
-#include "baseline.h"
-#include "scenes.h"
+ * S seconds (2) are the time for the turns of each row. By itself: all scenes with symplectic Euler, and some of them with
+ * other explicit methods. Ends with 1 if the library and the plain loop do not move alike. */
+#include "table.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_TURNS = 400, MOST_NAMES = 32, LEAST_STEPS = 25 };
-static const double TURN = 0.02; /* [s] */
+enum { MOST_NAMES = 64 };
 
-struct request {
-  double seconds;
-  const char *method;
-  int32_t threads, csv;
+struct arguments {
+  enum table_form form;
+  struct race_request request;
   int name_count;
   const char *name[MOST_NAMES];
 };
 
-struct times {
-  int64_t steps; /* of a turn */
-  int count;
-  double turn[MOST_TURNS]; /* [s] */
-};
+/* Without damping; with it, steps of verlet are solved for. Forward Euler is stable at no step of these scenes. */
+static const char *const explicit_methods[] = {"symplectic-euler", "rk4", "verlet"};
 
-struct measured {
-  int64_t particles, springs;
-  struct times own, plain;
-  double distance; /* largest, of the two after the same few steps */
-};
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static double least(const struct times *times) {
-  return times->turn[0] / (double)times->steps;
-}
-
-static double median(const struct times *times) {
-  return times->turn[times->count / 2] / (double)times->steps;
-}
-
-/* Steps that take about a turn, and not so few that loading and storing a state would show. */
-static int64_t steps_of(double seconds_a_step) {
-  const double steps = TURN / seconds_a_step;
-  return steps < LEAST_STEPS ? LEAST_STEPS : (int64_t)steps;
-}
-
-struct race {
-  hooke_system *system;
-  hooke_options *options;
-  hooke_integrator *integrator;
-  hooke_state *state;
-  struct baseline *plain;
-  double step;
-};
-
-static int32_t own_turn(struct race *race, struct times *times) {
-  const double begun = bench_seconds();
-  const int32_t status = hooke_integrator_step(race->integrator, race->state, times->steps);
-  times->turn[times->count++] = bench_seconds() - begun;
-  return status;
-}
-
-static void plain_turn(struct race *race, struct times *times) {
-  const double begun = bench_seconds();
-  baseline_step(race->plain, race->step, times->steps);
-  times->turn[times->count++] = bench_seconds() - begun;
-}
-
-static int32_t prepare(const struct bench_scene *scene, const struct request *request, struct race *race) {
-  double bound = NAN;
-  int32_t status = bench_scene_create(scene, &race->system);
-  if (status == HOOKE_OK) status = hooke_state_create(race->system, &race->state);
-  if (status == HOOKE_OK) {
-    status = hooke_step_bound(race->system, "symplectic-euler", hooke_state_position(race->state), &bound);
+static int read_methods(char *list, struct race_request *request) {
+  for (char *word = strtok(list, ","); word; word = strtok(NULL, ",")) {
+    if (request->method_count == MOST_METHODS || hooke_method_is_adaptive(word) != 0) {
+      fprintf(stderr, "%s: not a method of a fixed step, or one too many\n", word);
+      return 0;
+    }
+    request->method[request->method_count++] = word;
   }
-  race->step = 0.5 * bound;
-  if (status == HOOKE_OK) status = hooke_run_options_create(&race->options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(race->options, "method", request->method);
-  if (status == HOOKE_OK) status = hooke_options_set_number(race->options, "step", race->step);
-  if (status == HOOKE_OK) status = hooke_options_set_number(race->options, "threads", request->threads);
-  if (status == HOOKE_OK) status = hooke_integrator_create(race->system, race->options, &race->integrator);
-  race->plain = status == HOOKE_OK ? baseline_create(race->system) : NULL;
-  return status == HOOKE_OK && race->plain == NULL ? HOOKE_NO_MEMORY : status;
+  return request->method_count > 0;
 }
 
-static double largest_distance(const struct race *race) {
-  const double *q = hooke_state_position(race->state), *other = baseline_position(race->plain);
-  double most = 0.0;
-  for (int64_t k = 0; k < hooke_state_size(race->state); k++)
-    most = fmax(most, fabs(q[k] - other[k]));
-  return most;
-}
-
-static int32_t take_turns(struct race *race, double seconds, struct measured *found) {
-  struct times *own = &found->own, *plain = &found->plain;
-  own->steps = plain->steps = 3;
-  int32_t status = own_turn(race, own);
-  plain_turn(race, plain);
-  found->distance = largest_distance(race);
-  own->steps = steps_of(own->turn[0] / 3.0);
-  plain->steps = steps_of(plain->turn[0] / 3.0);
-  if (status == HOOKE_OK) status = own_turn(race, own); /* warm-up */
-  plain_turn(race, plain);
-  own->steps = steps_of(own->turn[1] / (double)own->steps);
-  plain->steps = steps_of(plain->turn[1] / (double)plain->steps);
-  own->count = plain->count = 0;
-  const double begun = bench_seconds();
-  while (status == HOOKE_OK && own->count < MOST_TURNS &&
-         (own->count < 3 || bench_seconds() - begun < seconds)) {
-    status = own_turn(race, own);
-    plain_turn(race, plain);
+static int read_threads(char *list, struct race_request *request) {
+  request->thread_count = 0;
+  for (char *word = strtok(list, ","); word; word = strtok(NULL, ",")) {
+    const long threads = strtol(word, NULL, 10);
+    if (request->thread_count == MOST_THREADS || threads < 1 || threads > 1024) {
+      fprintf(stderr, "%s: not a number of threads, or one too many\n", word);
+      return 0;
+    }
+    request->threads[request->thread_count++] = (int32_t)threads;
   }
-  qsort(own->turn, (size_t)own->count, sizeof(double), by_size);
-  qsort(plain->turn, (size_t)plain->count, sizeof(double), by_size);
-  return status;
+  return request->thread_count > 0;
 }
 
-static int32_t measure(const struct bench_scene *scene, const struct request *request,
-                       struct measured *found) {
-  struct race race = {0};
-  int32_t status = prepare(scene, request, &race);
-  if (status == HOOKE_OK) {
-    found->particles = hooke_system_particle_count(race.system);
-    found->springs = hooke_system_spring_count(race.system);
-    status = take_turns(&race, request->seconds, found);
+static int is_scene(const char *name) {
+  for (int64_t k = 0; bench_scene(k); k++) {
+    if (strcmp(bench_scene(k)->name, name) == 0) return 1;
   }
-  baseline_destroy(race.plain);
-  hooke_integrator_destroy(race.integrator);
-  hooke_options_destroy(race.options);
-  hooke_state_destroy(race.state);
-  hooke_system_destroy(race.system);
-  return status;
+  fprintf(stderr, "%s: no such scene; there are", name);
+  for (int64_t k = 0; bench_scene(k); k++)
+    fprintf(stderr, " %s", bench_scene(k)->name);
+  fprintf(stderr, "\n");
+  return 0;
 }
 
-static void print(const struct bench_scene *scene, const struct request *request, const struct measured *m,
-                  double bandwidth) {
-  const double springs = (double)m->springs, particles = (double)m->particles;
-  const double bytes = 13.0 * 8.0 * particles, own = median(&m->own);
-  const char *format = request->csv
-                           ? "%s,%s,%d,%lld,%lld,%.4g,%.4g,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g\n"
-                           : "%-20s %-16s %7d %9lld %9lld %8.3f %8.3f %8.3f %8.3f %7.2f %10.3g %8.3g %9.2g\n";
-  printf(format, scene->name, request->method, (int)request->threads, (long long)m->particles,
-         (long long)m->springs, 1e9 * least(&m->own) / springs, 1e9 * own / springs,
-         1e9 * least(&m->plain) / springs, 1e9 * median(&m->plain) / springs, median(&m->plain) / own,
-         particles / own, bytes / own / bandwidth, m->distance);
-  fflush(stdout);
+static int read_arguments(int argc, char **argv, struct arguments *a) {
+  int fits = 1;
+  *a = (struct arguments){.form = TABLE_TEXT, .request = {.seconds = 2.0, .thread_count = 1, .threads = {1}}};
+  for (int k = 1; k < argc && fits; k++) {
+    const int more = k + 1 < argc;
+    if (strcmp(argv[k], "--csv") == 0)
+      a->form = TABLE_CSV;
+    else if (strcmp(argv[k], "--markdown") == 0)
+      a->form = TABLE_MARKDOWN;
+    else if (strcmp(argv[k], "--seconds") == 0 && more)
+      fits = (a->request.seconds = strtod(argv[++k], NULL)) > 0.0;
+    else if (strcmp(argv[k], "--threads") == 0 && more)
+      fits = read_threads(argv[++k], &a->request);
+    else if (strcmp(argv[k], "--methods") == 0 && more)
+      fits = read_methods(argv[++k], &a->request);
+    else if (argv[k][0] != '-' && a->name_count < MOST_NAMES && is_scene(argv[k]))
+      a->name[a->name_count++] = argv[k];
+    else
+      fits = 0;
+  }
+  return fits;
 }
 
-static int is_wanted(const struct request *request, const char *name) {
-  int wanted = request->name_count == 0;
-  for (int k = 0; k < request->name_count; k++)
-    wanted |= strcmp(request->name[k], name) == 0;
+static int is_wanted(const struct arguments *a, const char *name) {
+  int wanted = a->name_count == 0;
+  for (int k = 0; k < a->name_count; k++)
+    wanted |= strcmp(a->name[k], name) == 0;
   return wanted;
 }
 
-static int read_request(int argc, char **argv, struct request *request) {
-  *request = (struct request){.seconds = 2.0, .method = "symplectic-euler", .threads = 1};
-  for (int k = 1; k < argc; k++) {
-    const int more = k + 1 < argc;
-    if (strcmp(argv[k], "--csv") == 0)
-      request->csv = 1;
-    else if (strcmp(argv[k], "--seconds") == 0 && more)
-      request->seconds = strtod(argv[++k], NULL);
-    else if (strcmp(argv[k], "--threads") == 0 && more)
-      request->threads = (int32_t)strtol(argv[++k], NULL, 10);
-    else if (strcmp(argv[k], "--method") == 0 && more)
-      request->method = argv[++k];
-    else if (argv[k][0] != '-' && request->name_count < MOST_NAMES)
-      request->name[request->name_count++] = argv[k];
-    else
-      return 0;
+/* The methods that a scene is run with. */
+static struct race_request request_of(const struct arguments *a, const struct bench_scene *scene) {
+  struct race_request request = a->request;
+  if (request.method_count > 0) return request;
+  request.method_count = !scene->has_more ? 1 : scene->damping > 0.0 ? 2 : 3;
+  memcpy(request.method, explicit_methods, sizeof explicit_methods);
+  return request;
+}
+
+/* Runs a scene and prints its rows; 1 if it could, and all moved alike. */
+static int show(const struct arguments *a, const struct bench_scene *scene, const struct machine *machine,
+                const struct limits *limits) {
+  const struct race_request request = request_of(a, scene);
+  struct race_row row[MOST_ROWS];
+  int count, alike = 1;
+  const int32_t status = race_run(scene, &request, row, &count);
+  if (status != HOOKE_OK) {
+    fprintf(stderr, "%s: %s: %s\n", scene->name, hooke_status_name(status), hooke_last_error());
+    return 0;
   }
-  return 1;
+  if (count < request.method_count * request.thread_count) {
+    fprintf(stderr, "%s: without the methods that are stable at no step\n", scene->name);
+  }
+  for (int k = 0; k < count; k++) {
+    table_row(a->form, machine, &row[k], &limits[k % request.thread_count]);
+    if (!(row[k].distance > row[k].allowed)) continue;
+    fprintf(stderr, "%s, %s, %d threads: the plain loop is %.3g m away, and rounding explains %.3g m\n",
+            scene->name, row[k].method, (int)row[k].threads, row[k].distance, row[k].allowed);
+    alike = 0;
+  }
+  return alike;
 }
 
 int main(int argc, char **argv) {
-  struct request request;
-  if (!read_request(argc, argv, &request)) {
-    fprintf(stderr, "speed [--seconds S] [--threads N] [--method M] [--csv] [SCENE ...]\n");
+  struct arguments arguments;
+  struct machine machine;
+  struct limits limits[MOST_THREADS];
+  int fine = 1;
+  if (!read_arguments(argc, argv, &arguments)) {
+    fprintf(stderr,
+            "speed [--seconds S] [--methods M,...] [--threads N,...] [--csv | --markdown] [SCENE ...]\n");
     return 2;
   }
-  const double bandwidth = bandwidth_measure();
-  printf("# hooke %s (%s), %s, loops for %s, triad %.1f GB/s\n", hooke_version(), BENCH_COMMIT,
-         BENCH_COMPILER, hooke_build_fact("instructions"), 1e-9 * bandwidth);
-  printf(request.csv
-             ? "scene,method,threads,particles,springs,ns_min,ns_median,plain_ns_min,plain_ns_median,ratio,"
-               "particle_steps_per_second,bandwidth_share,distance\n"
-             : "scene                method           threads particles   springs   ns min   median    "
-               "plain   median   ratio  particles/s  of triad  distance\n");
-  for (int64_t k = 0; bench_scene(k); k++) {
-    if (!is_wanted(&request, bench_scene(k)->name)) continue;
-    struct measured *found = calloc(1, sizeof *found);
-    const int32_t status = found ? measure(bench_scene(k), &request, found) : HOOKE_NO_MEMORY;
-    if (status == HOOKE_OK) print(bench_scene(k), &request, found, bandwidth);
-    free(found);
-    if (status == HOOKE_OK) continue;
-    fprintf(stderr, "%s: %s\n", bench_scene(k)->name, hooke_last_error());
+  machine_read(&machine);
+  for (int k = 0; k < arguments.request.thread_count; k++) {
+    if (limits_measure(arguments.request.threads[k], &limits[k])) continue;
+    fprintf(stderr, "no memory or threads to measure the machine\n");
     return 1;
   }
-  return 0;
+  table_begin(arguments.form, &machine, &arguments.request, limits);
+  for (int64_t k = 0; bench_scene(k); k++) {
+    if (is_wanted(&arguments, bench_scene(k)->name))
+      fine &= show(&arguments, bench_scene(k), &machine, limits);
+  }
+  return fine ? 0 : 1;
 }

@@ -1,0 +1,112 @@
+#include "limits.h"
+
+#include "clock.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+enum {
+  TRIAD = 1 << 23,    /* elements of an array, of a thread */
+  SMALL = 512,        /* elements of an array that stays in the first cache */
+  SWEEPS = 4000,      /* over a small array, in a turn */
+  OPERATIONS = 2 * 8, /* of an element in a sweep of arithmetic() */
+  TURNS = 7
+};
+
+struct worker {
+  pthread_t thread;
+  double *a, *b, *c;
+};
+
+/* ---- the loops: a turn of one thread ---- */
+
+static void *fill(void *ctx) {
+  const struct worker *w = ctx;
+  for (size_t k = 0; k < TRIAD; k++) {
+    w->a[k] = 0.0;
+    w->b[k] = 1.0 + (double)(k % 7);
+    w->c[k] = 2.0 + (double)(k % 5);
+  }
+  return NULL;
+}
+
+static void *triad(void *ctx) {
+  const struct worker *w = ctx;
+  double *restrict a = w->a;
+  const double *restrict b = w->b, *restrict c = w->c;
+  const double s = w->b[0];
+  for (size_t k = 0; k < TRIAD; k++)
+    a[k] = b[k] + s * c[k];
+  return NULL;
+}
+
+/* What one sweep writes the next reads, so that none can be left out. */
+static void *root(void *ctx) {
+  const struct worker *w = ctx;
+  double *restrict a = w->a;
+  const double *restrict b = w->b;
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int k = 0; k < SMALL; k++)
+      a[k] = b[k] / sqrt(a[k]);
+  }
+  return NULL;
+}
+
+static void *arithmetic(void *ctx) {
+  const struct worker *w = ctx;
+  double *restrict a = w->a;
+  const double s = w->b[0] * 0.5, t = w->b[0] * 0.25;
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int k = 0; k < SMALL; k++) {
+      double x = a[k];
+      x = (((x * s + t) * s + t) * s + t) * s + t;
+      x = (((x * s + t) * s + t) * s + t) * s + t;
+      a[k] = x;
+    }
+  }
+  return NULL;
+}
+
+/* ---- all threads ---- */
+
+/* Seconds until all threads have done `work` once; 0 if they could not be started. */
+static double together(struct worker *worker, int32_t threads, void *(*work)(void *)) {
+  int32_t started = 0;
+  const double begun = bench_seconds();
+  while (started + 1 < threads && pthread_create(&worker[started].thread, NULL, work, &worker[started]) == 0)
+    started++;
+  if (started + 1 == threads) work(&worker[started]);
+  for (int32_t k = 0; k < started; k++)
+    pthread_join(worker[k].thread, NULL);
+  return started + 1 == threads ? bench_seconds() - begun : 0.0;
+}
+
+/* The least time of a turn, over the `count` things that all threads do in it; 0 if threads could not be started. */
+static double least(struct worker *worker, int32_t threads, void *(*work)(void *), double count) {
+  double best = INFINITY;
+  for (int turn = 0; turn < TURNS; turn++)
+    best = fmin(best, together(worker, threads, work));
+  return best / (count * threads);
+}
+
+int limits_measure(int32_t threads, struct limits *limits) {
+  struct worker *worker = calloc((size_t)threads, sizeof *worker);
+  double *room = malloc(3 * sizeof(double) * TRIAD * (size_t)threads);
+  int done = worker && room;
+  for (int32_t k = 0; done && k < threads; k++) {
+    worker[k].a = room + 3 * (size_t)TRIAD * (size_t)k;
+    worker[k].b = worker[k].a + TRIAD;
+    worker[k].c = worker[k].b + TRIAD;
+  }
+  done = done && together(worker, threads, fill) > 0.0;
+  if (done) {
+    limits->bandwidth = 24.0 / least(worker, threads, triad, TRIAD);
+    limits->root = least(worker, threads, root, (double)SMALL * SWEEPS);
+    limits->arithmetic = least(worker, threads, arithmetic, (double)SMALL * SWEEPS * OPERATIONS);
+    done = isfinite(limits->bandwidth) && limits->root > 0.0 && limits->arithmetic > 0.0;
+  }
+  free(room);
+  free(worker);
+  return done;
+}

@@ -1,0 +1,39 @@
+/* One scene: all that step it take turns, so that they see the same machine. */
+#ifndef BENCH_RACE_H
+#define BENCH_RACE_H
+
+#include "scenes.h"
+
+enum { MOST_METHODS = 8, MOST_THREADS = 16, MOST_ROWS = MOST_METHODS * MOST_THREADS };
+
+struct race_request {
+  double seconds; /* for the turns of each row */
+  int method_count, thread_count;
+  const char *method[MOST_METHODS];
+  int32_t threads[MOST_THREADS];
+};
+
+struct race_time { /* of a step [s]; NaN: there is none */
+  double least, median;
+};
+
+struct race_row {
+  const struct bench_scene *scene;
+  const char *method;
+  int32_t threads, is_damped, turns;
+  int64_t particles, springs;
+  double step;            /* [s] */
+  double evaluations;     /* of forces, in a step */
+  struct race_time own;   /* of the library */
+  struct race_time plain; /* of the plain loop, on one thread */
+  double
+      distance; /* between the two after the same steps, the largest of a component [m]; NaN without plain loop */
+  double allowed; /* what rounding explains of it [m] */
+};
+
+/* A row for each number of threads and each method that has a stable step on the scene; `row` has room for MOST_ROWS. A
+ * status; HOOKE_DIVERGED where what was timed did not stay finite. */
+int32_t race_run(const struct bench_scene *scene, const struct race_request *request, struct race_row *row,
+                 int *count);
+
+#endif
