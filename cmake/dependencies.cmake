@@ -64,8 +64,24 @@ function(hooke_find_chartjs)
   endif()
 endfunction()
 
+# Its three numbers are in lines of their own; in cholmod.h from SuiteSparse 7 on.
+function(hooke_read_cholmod_version)
+  set(numbers)
+  foreach(header cholmod_core.h cholmod.h)
+    set(file "${HOOKE_CHOLMOD_INCLUDE_DIR}/${header}")
+    if(EXISTS "${file}" AND NOT numbers)
+      file(STRINGS "${file}" numbers REGEX "^#define CHOLMOD_(MAIN|SUB|SUBSUB)_VERSION +[0-9]+")
+    endif()
+  endforeach()
+  list(TRANSFORM numbers REPLACE ".* " "")
+  if(numbers)
+    list(JOIN numbers "." version)
+    set(HOOKE_CHOLMOD_VERSION "${version}" PARENT_SCOPE)
+  endif()
+endfunction()
+
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
-# looked up by name. One of them ("sundials", "gsl", "arpack", "hdf5", "jansson") per call.
+# looked up by name. One of them ("sundials", "cholmod", "gsl", "arpack", "hdf5", "jansson") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
@@ -74,6 +90,13 @@ macro(hooke_find name)
                 sundials_sunnonlinsolnewton sundials_sunnonlinsolfixedpoint
       OPTIONAL sundials_core # SUNDIALS 7
       VERSION sundials/sundials_config.h "SUNDIALS_VERSION \"([^\"]+)\"")
+  elseif("${name}" STREQUAL "cholmod")
+    hooke_find_library(cholmod
+      HEADER cholmod.h
+      LIBRARIES cholmod
+      SUFFIXES suitesparse
+      VERSION cholmod.h "no line has all of it")
+    hooke_read_cholmod_version()
   elseif("${name}" STREQUAL "gsl")
     hooke_find_library(gsl
       HEADER gsl/gsl_version.h

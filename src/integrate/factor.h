@@ -1,8 +1,7 @@
 /* A sparse Cholesky factor of the symmetric positive definite part S of the equations of an implicit step,
  *   M + beta c + sum over springs of (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T)
  *     + sum over triples of alpha c (1, -2, 1)^T (1, -2, 1),
- * over the free particles: multifrontal (Duff and Reid 1983), on parts of a nested dissection. What of it depends on the
- * springs' ends alone is found once. */
+ * over the free particles, computed by CHOLMOD. What of it depends on the springs' ends alone is found once. */
 #ifndef HOOKE_INTEGRATE_FACTOR_H
 #define HOOKE_INTEGRATE_FACTOR_H
 
@@ -13,8 +12,10 @@
 
 struct hooke_factor;
 
+int32_t hooke_factor_is_built(void);
+
 /* Finds order and sizes, and takes memory for the numbers where they are not more than `most`: HOOKE_OK with *factor NULL
- * if they are. HOOKE_NO_MEMORY. */
+ * if they are, and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
 int32_t hooke_factor_create(const hooke_system *system, int64_t most, struct hooke_factor **factor);
 void hooke_factor_destroy(struct hooke_factor *factor);
 
@@ -22,8 +23,8 @@ int64_t hooke_factor_memory(const struct hooke_factor *factor); /* bytes */
 int64_t hooke_factor_numbers(const struct hooke_factor *factor);
 double hooke_factor_products(const struct hooke_factor *factor); /* multiplications that computing it takes */
 
-/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 0 where rounding or numbers that
- * are not finite leave it not positive. */
+/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 0 where rounding or numbers
+ * that are not finite leave it not positive, or where there is no memory. */
 int32_t hooke_factor_compute(struct hooke_factor *factor, const double *diagonal,
                              const struct hooke_tangent *tangent, double alpha);
 

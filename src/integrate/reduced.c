@@ -10,10 +10,10 @@
 
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 /* Numbers of a factor that is still made: 2 GB. */
-static const int64_t MOST_NUMBERS = 250000000;
+static const int64_t MOST_NUMBERS = 100000000;
 /* Nanoseconds, as measured; only their ratios count: of a product for each spring, of work on a vector for each number, of a
  * solve with a factor for each of its numbers, of a factor for each of its multiplications. */
-static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.18;
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84;
 /* Of BiCGSTAB(4), an iteration. */
 static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
 enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
@@ -340,7 +340,7 @@ int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced) {
   if (reduced->whole_state != HOOKE_WHOLE_UNKNOWN) return HOOKE_OK;
   const int32_t status = hooke_factor_create(reduced->integrator->system, MOST_NUMBERS, &reduced->whole);
   if (status != HOOKE_OK) return status;
-  reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_TOO_LARGE;
+  reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
   if (reduced->whole) reduced->integrator->own_memory += hooke_factor_memory(reduced->whole);
   return HOOKE_OK;
 }

@@ -16,7 +16,7 @@
  * out; by GMRES, for few of them. */
 enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
-enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_TOO_LARGE };
+enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
 
 struct hooke_reduced {
   hooke_integrator *integrator;
@@ -27,7 +27,7 @@ struct hooke_reduced {
   double *diagonal;                        /* n: m + beta c */
   double *block;                           /* 6 n: diagonal blocks of S, zero where a particle is held */
   double *factor;                          /* 6 n: L^-1 of these */
-  struct hooke_factor *whole;              /* of all of S; NULL: not asked for, or too large */
+  struct hooke_factor *whole;              /* of all of S; NULL: not asked for, too large, not built */
   int32_t whole_state;                     /* HOOKE_WHOLE_* */
   const double *weight;                    /* of the norm of the minimal one */
   double *right, *unknown, *place, *moved; /* 3n each: L^-1 b, L^T x, x, scratch */
@@ -47,7 +47,8 @@ void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, do
 int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
                             struct hooke_solution *solution);
 
-/* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large. */
+/* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
+ * in a build without CHOLMOD. */
 int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 0 if it is not positive. */
 int32_t hooke_reduced_factorise(struct hooke_reduced *reduced);

@@ -15,13 +15,13 @@
 
 /* Works on a vector that an iteration of GMRES takes, and for each vector of its space. */
 static const double VECTORS = 10.0, VECTORS_OF_SPACE = 1.0;
-/* What a factor is taken to do: solves a Newton correction, and corrections until it is worn. */
-static const double SOLVES_OF_FACTOR = 3.5, USES_OF_FACTOR = 6.0;
-/* Analysis waits for so many iterations a solve by blocks. */
-static const double MANY = 10.0;
+/* Solves that a Newton correction takes with a factor that is not old. */
+static const double SOLVES_OF_FACTOR = 2.0;
+/* Analysis waits for so many iterations by blocks. */
+static const double MANY = 160.0;
 /* With a factor the residual is the error, and the share that SUNDIALS leaves is enough. */
 static const double LOOSER = 5.0;
-enum { MOST_ITERATIONS = 300, MEMORY = 16 };
+enum { MOST_ITERATIONS = 300 };
 
 struct solver {
   hooke_integrator *integrator;
@@ -32,7 +32,8 @@ struct solver {
   double *bq, *bv, *right, *z, *z_weight;
   int32_t direct, may_be_direct; /* S is factorised as a whole, or may come to be */
   int64_t solves;                /* since the beginning, or since the last factor */
-  double fresh, excess, mean;    /* iterations: with a new factor, beyond that, of late by blocks */
+  double fresh, by_blocks_alone; /* iterations: with a new factor, and all of those by blocks */
+  double excess;                 /* what a new factor would have saved since then */
   int iterations;
 };
 
@@ -51,7 +52,7 @@ static void forget(struct solver *s) {
   s->direct = s->direct_only && s->reduced.whole;
   s->may_be_direct = !s->by_blocks;
   s->solves = 0;
-  s->fresh = s->excess = s->mean = 0.0;
+  s->fresh = s->excess = s->by_blocks_alone = 0.0;
 }
 
 /* S of the present place, if that is due; where it is not positive, its blocks have to do from now on. */
@@ -62,36 +63,33 @@ static void renew(struct solver *s, int due) {
   s->excess = 0.0;
 }
 
-static double cost_by_blocks(const struct solver *s) {
-  const double space = fmin(s->mean, HOOKE_MINIMAL_SPACE);
-  return s->mean * hooke_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
+static double cost_by_blocks(const struct solver *s, double iterations) {
+  const double space = fmin(iterations, HOOKE_MINIMAL_SPACE);
+  return iterations * hooke_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
 }
 
-static double cost_by_factor(const struct solver *s) {
-  return SOLVES_OF_FACTOR * hooke_reduced_cost_of_solve(&s->reduced) +
-         hooke_reduced_cost_of_factor(&s->reduced) / USES_OF_FACTOR;
+/* What a new factor would have saved has come to its price. That is told after the fact, and so costs at most twice what
+ * the best choice would have. */
+static int is_due(const struct solver *s) {
+  return s->excess > hooke_reduced_cost_of_factor(&s->reduced);
 }
 
-/* Iterations that a new factor would have saved have cost as much as it does. */
-static int is_worn(const struct solver *s) {
-  return s->solves == 0 ||
-         s->excess * hooke_reduced_cost_of_solve(&s->reduced) > hooke_reduced_cost_of_factor(&s->reduced);
-}
-
-/* Whether the next solves had better be with a factor; by counts alone, so that runs repeat to the bit. */
+/* Whether the next solves had better be with a new factor; by counts alone, so that runs repeat to the bit. */
 static int32_t learn(struct solver *s, const struct hooke_solution *solution) {
   const double iterations = (double)solution->iterations;
   s->solves++;
   if (s->direct) {
     if (s->solves == 1) s->fresh = iterations;
-    s->excess += fmax(0.0, iterations - s->fresh);
+    s->excess += fmax(0.0, iterations - s->fresh) * hooke_reduced_cost_of_solve(&s->reduced);
     return HOOKE_OK;
   }
-  s->mean += (iterations - s->mean) / MEMORY;
-  if (!s->may_be_direct || (solution->converged && s->mean < MANY)) return HOOKE_OK;
+  s->by_blocks_alone += iterations;
+  if (!s->may_be_direct || (solution->converged && s->by_blocks_alone < MANY)) return HOOKE_OK;
   const int32_t status = hooke_reduced_prepare_whole(&s->reduced);
   if (status != HOOKE_OK || s->reduced.whole == NULL) return status;
-  s->direct = !solution->converged || cost_by_blocks(s) > cost_by_factor(s);
+  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * hooke_reduced_cost_of_solve(&s->reduced);
+  s->excess = fmax(0.0, s->excess);
+  s->direct = !solution->converged || is_due(s);
   if (s->direct) s->solves = 0;
   return HOOKE_OK;
 }
@@ -150,7 +148,7 @@ static int32_t minimise(struct solver *s, double tolerance, struct hooke_solutio
 
 /* Once more with a new factor, if the one at hand is old or there was none. */
 static int32_t find(struct solver *s, double tolerance, struct hooke_solution *solution) {
-  renew(s, s->direct && is_worn(s));
+  renew(s, s->direct && (s->solves == 0 || is_due(s)));
   const int32_t status = minimise(s, tolerance, solution);
   if (status != HOOKE_OK || solution->converged || !s->direct || s->solves == 1) return status;
   renew(s, 1);
@@ -243,6 +241,9 @@ static int32_t create_own(hooke_integrator *it, const char *word, struct hooke_s
 int32_t hooke_sundials_linear_create(hooke_integrator *it) {
   struct hooke_sundials *own = it->own;
   const char *word = hooke_options_text(it->options, "linear_solver");
+  if (strcmp(word, "direct") == 0 && !hooke_factor_is_built())
+    return hooke_fail(HOOKE_NOT_BUILT, "linear_solver",
+                      "direct needs CHOLMOD, which this build is without; take auto or blocks");
   /* a space that holds every unknown is exact as it is */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
   if (!it->rate && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&

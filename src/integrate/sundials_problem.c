@@ -24,8 +24,8 @@ int32_t hooke_sundials_create(hooke_integrator *it, int32_t implicit, int64_t ve
   const int64_t size = own->unknowns.size;
   it->own_memory += vectors * size * (int64_t)sizeof(double);
   if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
-  own->y = hooke_sundials_vector(size, own->context);
-  own->tolerance = hooke_sundials_vector(size, own->context);
+  own->y = hooke_sundials_vector(size, it->crew, own->context);
+  own->tolerance = hooke_sundials_vector(size, it->crew, own->context);
   if (own->y == NULL || own->tolerance == NULL) return no_memory(it, size);
   N_VConst(0.0, own->y);
   hooke_unknowns_tolerance(it, &own->unknowns, N_VGetArrayPointer(own->tolerance));

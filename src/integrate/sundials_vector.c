@@ -2,13 +2,22 @@
 
 #include "integrate/sundials_vector.h"
 
+#include "core/memory.h"
 #include "kernel/vector_loops.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Numbers of each vector that are worked on at a time where there are many vectors. */
-enum { BLOCK = 1024 };
+/* Vectors are worked on in blocks, which depend on the size alone: as many as there may be sums, and none so small that
+ * many vectors would not stay in cache between two of them. Below LARGE waking the others takes longer than it saves. */
+enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
+
+/* Begins as that of a serial vector, for whoever takes it for one. */
+struct content {
+  struct _N_VectorContent_Serial serial;
+  void *plain; /* what it is a copy of */
+  struct hooke_crew *crew;
+};
 
 static double *numbers(N_Vector v) {
   return NV_DATA_S(v);
@@ -18,79 +27,186 @@ static int64_t size_of(N_Vector v) {
   return NV_LENGTH_S(v);
 }
 
+/* ---- block by block ---- */
+
+struct job {
+  /* elements from `at` on; sums go to `sum` */
+  void (*some)(const struct job *job, int64_t at, int64_t count, double *sum);
+  double a, b;
+  const double *x, *y;
+  double *z;
+  int vectors;
+  const double *factor;
+  N_Vector *from, *to;
+  int64_t size, block;
+  double sum[MOST_BLOCKS];
+};
+
+static void work(int32_t member, int32_t members, void *ctx) {
+  struct job *job = ctx;
+  const int64_t end = hooke_crew_share(job->size, job->block, member + 1, members);
+  for (int64_t at = hooke_crew_share(job->size, job->block, member, members); at < end; at += job->block) {
+    const int64_t left = job->size - at;
+    job->some(job, at, left < job->block ? left : job->block, &job->sum[at / job->block]);
+  }
+}
+
+static void run(N_Vector v, struct job *job) {
+  const int64_t least = (size_of(v) + MOST_BLOCKS - 1) / MOST_BLOCKS;
+  job->size = size_of(v);
+  job->block = (least + LEAST_BLOCK - 1) / LEAST_BLOCK * LEAST_BLOCK;
+  if (job->block < LEAST_BLOCK) job->block = LEAST_BLOCK;
+  hooke_crew_run(job->size < LARGE ? NULL : ((struct content *)v->content)->crew, work, job);
+}
+
+/* The sums of the blocks in their order. */
+static double run_and_add(N_Vector v, struct job *job) {
+  double sum = 0.0;
+  run(v, job);
+  for (int64_t k = 0; k * job->block < job->size; k++)
+    sum += job->sum[k];
+  return sum;
+}
+
+/* ---- one vector from one or two ---- */
+
+static void some_linear_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
+}
+
 static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
-  hooke_linear_sum(size_of(z), a, numbers(x), b, numbers(y), numbers(z));
+  run(z, &(struct job){
+             .some = some_linear_sum, .a = a, .x = numbers(x), .b = b, .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_set(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  for (int64_t k = at; k < at + count; k++)
+    j->z[k] = j->a;
 }
 
 static void set(realtype a, N_Vector z) {
-  double *to = numbers(z);
-  if (a == 0.0) memset(to, 0, (size_t)size_of(z) * sizeof(double));
-  for (int64_t k = 0; k < size_of(z) && a != 0.0; k++)
-    to[k] = a;
+  run(z, &(struct job){.some = some_set, .a = a, .z = numbers(z)});
+}
+
+static void some_product(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_multiply(count, j->x + at, j->y + at, j->z + at);
 }
 
 static void product(N_Vector x, N_Vector y, N_Vector z) {
-  hooke_multiply(size_of(z), numbers(x), numbers(y), numbers(z));
+  run(z, &(struct job){.some = some_product, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_quotient(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_divide(count, j->x + at, j->y + at, j->z + at);
 }
 
 static void quotient(N_Vector x, N_Vector y, N_Vector z) {
-  hooke_divide(size_of(z), numbers(x), numbers(y), numbers(z));
+  run(z, &(struct job){.some = some_quotient, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_scale(count, j->a, j->x + at, j->z + at);
 }
 
 static void scale(realtype a, N_Vector x, N_Vector z) {
-  hooke_scale(size_of(z), a, numbers(x), numbers(z));
+  run(z, &(struct job){.some = some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_absolute(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_absolute(count, j->x + at, j->z + at);
 }
 
 static void absolute(N_Vector x, N_Vector z) {
-  hooke_absolute(size_of(z), numbers(x), numbers(z));
+  run(z, &(struct job){.some = some_absolute, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_inverse(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_invert(count, j->x + at, j->z + at);
 }
 
 static void inverse(N_Vector x, N_Vector z) {
-  hooke_invert(size_of(z), numbers(x), numbers(z));
+  run(z, &(struct job){.some = some_inverse, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_add_number(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_add_number(count, j->a, j->x + at, j->z + at);
 }
 
 static void add_number(N_Vector x, realtype a, N_Vector z) {
-  hooke_add_number(size_of(z), a, numbers(x), numbers(z));
+  run(z, &(struct job){.some = some_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
+}
+
+/* ---- numbers ---- */
+
+static void some_dot(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_long_dot(count, j->x + at, j->y + at);
 }
 
 static realtype dot(N_Vector x, N_Vector y) {
-  return hooke_long_dot(size_of(x), numbers(x), numbers(y));
+  return run_and_add(x, &(struct job){.some = some_dot, .x = numbers(x), .y = numbers(y)});
+}
+
+static void some_largest(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_largest(count, j->x + at);
 }
 
 static realtype largest(N_Vector x) {
-  return hooke_largest(size_of(x), numbers(x));
+  struct job job = {.some = some_largest, .x = numbers(x)};
+  double most = 0.0;
+  run(x, &job);
+  for (int64_t k = 0; k * job.block < job.size; k++)
+    most = job.sum[k] > most ? job.sum[k] : most;
+  return most;
+}
+
+static void some_squares(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_sum_of_squares(count, j->x + at, j->y + at);
+}
+
+static realtype sum_of_squares(N_Vector x, N_Vector weight) {
+  return run_and_add(x, &(struct job){.some = some_squares, .x = numbers(x), .y = numbers(weight)});
 }
 
 static realtype mean_square(N_Vector x, N_Vector weight) {
-  return sqrt(hooke_sum_of_squares(size_of(x), numbers(x), numbers(weight)) / (double)size_of(x));
+  return sqrt(sum_of_squares(x, weight) / (double)size_of(x));
 }
 
 static realtype norm(N_Vector x, N_Vector weight) {
-  return sqrt(hooke_sum_of_squares(size_of(x), numbers(x), numbers(weight)));
+  return sqrt(sum_of_squares(x, weight));
 }
 
 /* ---- several vectors at once ---- */
 
+static void some_combination(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_scale(count, j->factor[0], numbers(j->from[0]) + at, j->z + at);
+  for (int k = 1; k < j->vectors; k++)
+    hooke_add_multiple(count, j->factor[k], numbers(j->from[k]) + at, j->z + at);
+}
+
 /* z may be the first of x. */
 static int combination(int count, realtype *c, N_Vector *x, N_Vector z) {
-  const int64_t size = size_of(z);
-  for (int64_t done = 0; done < size; done += BLOCK) {
-    const int64_t some = size - done < BLOCK ? size - done : BLOCK;
-    double *to = numbers(z) + done;
-    hooke_scale(some, c[0], numbers(x[0]) + done, to);
-    for (int k = 1; k < count; k++)
-      hooke_add_multiple(some, c[k], numbers(x[k]) + done, to);
-  }
+  run(z, &(struct job){.some = some_combination, .vectors = count, .factor = c, .from = x, .z = numbers(z)});
   return 0;
 }
 
+static void some_add_to_each(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  for (int k = 0; k < j->vectors; k++)
+    hooke_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
+}
+
 static int add_to_each(int count, realtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
-  const int64_t size = size_of(x);
-  for (int64_t done = 0; done < size; done += BLOCK) {
-    const int64_t some = size - done < BLOCK ? size - done : BLOCK;
-    for (int k = 0; k < count; k++)
-      hooke_linear_sum(some, a[k], numbers(x) + done, 1.0, numbers(y[k]) + done, numbers(z[k]) + done);
-  }
+  run(x, &(struct job){
+             .some = some_add_to_each, .vectors = count, .factor = a, .x = numbers(x), .from = y, .to = z});
   return 0;
 }
 
@@ -106,9 +222,39 @@ static int scale_each(int count, realtype *c, N_Vector *x, N_Vector *z) {
   return 0;
 }
 
-N_Vector hooke_sundials_vector(int64_t size, SUNContext context) {
-  N_Vector v = N_VNew_Serial(size, context);
+/* ---- the object ---- */
+
+static void destroy(N_Vector v) {
+  struct content *content = v->content;
+  v->content = content->plain;
+  hooke_free(content);
+  N_VDestroy_Serial(v);
+}
+
+/* A serial vector with content of ours; NULL, and nothing left, without memory. */
+static N_Vector wrap(N_Vector v, struct hooke_crew *crew) {
+  struct content *content = v ? hooke_new(1, sizeof *content) : NULL;
+  if (content) {
+    content->serial = *(N_VectorContent_Serial)v->content;
+    content->plain = v->content;
+    content->crew = crew;
+    v->content = content;
+  } else if (v) {
+    N_VDestroy_Serial(v);
+  }
+  return content ? v : NULL;
+}
+
+static N_Vector clone(N_Vector v) {
+  return wrap(N_VClone_Serial(v), ((struct content *)v->content)->crew);
+}
+
+N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context) {
+  N_Vector v = wrap(N_VNew_Serial(size, context), crew);
   if (v == NULL) return NULL;
+  v->ops->nvclone = clone;
+  v->ops->nvcloneempty = NULL;
+  v->ops->nvdestroy = destroy;
   v->ops->nvlinearsum = linear_sum;
   v->ops->nvconst = set;
   v->ops->nvprod = product;

@@ -2,10 +2,10 @@
 #ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
-#include "kernel/front_loops.h"
 #include "kernel/lane_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
+#include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 
 #define HOOKE_JOIN_NAMES(a, b) a##b
@@ -23,16 +23,16 @@
 #define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hooke_lane_loop_)
 #define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hooke_net_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hooke_bending_loops_)
-#define HOOKE_FRONT_SET     HOOKE_OF_ISA(hooke_front_set_)
 #define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hooke_tangent_set_)
+#define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hooke_triangle_set_)
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hooke_vector_set_)
 
 extern const struct hooke_spring_set HOOKE_SPRING_SET;
 hooke_lane_loop HOOKE_LANE_LOOP;
 extern const struct hooke_net_loops HOOKE_NET_LOOPS;
 extern hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
-extern const struct hooke_front_set HOOKE_FRONT_SET;
 extern const struct hooke_tangent_set HOOKE_TANGENT_SET;
+extern const struct hooke_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hooke_vector_set HOOKE_VECTOR_SET;
 
 #endif

@@ -1,7 +1,7 @@
 /* The functions of loops that are compiled for each instruction set: those of the best that this machine has. */
-#include "kernel/front_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
+#include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 
 double hooke_dot(int64_t size, const double *x, const double *y) {
@@ -101,18 +101,10 @@ void hooke_tangent_damping(const struct hooke_run *run, const struct hooke_tange
   hooke_spring_set(0)->tangent->tangent_damping(run, tangent, x, out);
 }
 
-int32_t hooke_front_factorise(ptrdiff_t rows, ptrdiff_t columns, double *panel) {
-  return hooke_spring_set(0)->front->front_factorise(rows, columns, panel);
+void hooke_triangle_forward(const struct hooke_triangle *l, double *x) {
+  hooke_spring_set(0)->triangle->triangle_forward(l, x);
 }
 
-void hooke_front_subtract(ptrdiff_t rows, ptrdiff_t columns, const double *panel, double *rest) {
-  hooke_spring_set(0)->front->front_subtract(rows, columns, panel, rest);
-}
-
-void hooke_front_forward(ptrdiff_t rows, ptrdiff_t columns, const double *panel, double *x) {
-  hooke_spring_set(0)->front->front_forward(rows, columns, panel, x);
-}
-
-void hooke_front_backward(ptrdiff_t rows, ptrdiff_t columns, const double *panel, double *x) {
-  hooke_spring_set(0)->front->front_backward(rows, columns, panel, x);
+void hooke_triangle_backward(const struct hooke_triangle *l, double *x) {
+  hooke_spring_set(0)->triangle->triangle_backward(l, x);
 }

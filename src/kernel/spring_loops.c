@@ -197,5 +197,5 @@ const struct hooke_spring_set HOOKE_SPRING_SET = {
     .bending = HOOKE_BENDING_LOOPS,
     .vector = &HOOKE_VECTOR_SET,
     .tangent = &HOOKE_TANGENT_SET,
-    .front = &HOOKE_FRONT_SET,
+    .triangle = &HOOKE_TRIANGLE_SET,
 };

@@ -31,7 +31,7 @@ enum {
 
 struct hooke_run;
 struct hooke_net_loops;
-struct hooke_front_set;
+struct hooke_triangle_set;
 struct hooke_tangent_set;
 struct hooke_vector_set;
 
@@ -81,7 +81,7 @@ struct hooke_spring_set {
   const struct hooke_net_loops *net;
   const struct hooke_vector_set *vector;
   const struct hooke_tangent_set *tangent;
-  const struct hooke_front_set *front;
+  const struct hooke_triangle_set *triangle;
 };
 const struct hooke_spring_set *hooke_spring_set(int32_t set);
 

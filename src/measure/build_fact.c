@@ -14,12 +14,17 @@ int32_t hooke_abi(void) {
 }
 
 static const char *licence(void) {
-  return HOOKE_HAVE_GSL ? "GPL-3.0-or-later, since it contains GSL; hooke itself is MIT" : "MIT";
+  if (HOOKE_HAVE_GSL && HOOKE_HAVE_CHOLMOD)
+    return "GPL-3.0-or-later, since it contains GSL and CHOLMOD; hooke itself is MIT";
+  if (HOOKE_HAVE_GSL) return "GPL-3.0-or-later, since it contains GSL; hooke itself is MIT";
+  if (HOOKE_HAVE_CHOLMOD) return "GPL-2.0-or-later, since it contains CHOLMOD; hooke itself is MIT";
+  return "MIT";
 }
 
 const char *hooke_build_fact(const char *what) {
   if (!what) return NULL;
   if (!strcmp(what, "sundials")) return HOOKE_SUNDIALS_VERSION;
+  if (!strcmp(what, "cholmod")) return HOOKE_CHOLMOD_VERSION;
   if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
   if (!strcmp(what, "arpack")) return HOOKE_ARPACK_VERSION;
   if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;

@@ -56,13 +56,17 @@ def test_version_says_what_it_was_built_with(hooke):
     facts = dict(line.split(None, 1) for line in answer.out.splitlines())
     assert re.fullmatch(r"\d+\.\d+\.\d+", facts["hooke"])
     assert facts["ABI"].isdigit()
-    for library in ["SUNDIALS", "GSL", "HDF5", "jansson"]:
+    for library in ["SUNDIALS", "CHOLMOD", "GSL", "HDF5", "jansson"]:
         if MINIMAL:
             assert facts[library] == "not in this build"
         else:
             assert re.match(r"\d+\.\d+", facts[library])
     assert int(facts["threads"].split()[0]) >= 1
-    assert facts["instructions"] and facts["licence"]
+    assert facts["instructions"]
+    if MINIMAL:
+        assert facts["licence"] == "MIT"
+    else:
+        assert facts["licence"] == "GPL-3.0-or-later, since it contains GSL and CHOLMOD; hooke itself is MIT"
 
 
 @pytest.mark.parametrize(

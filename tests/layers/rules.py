@@ -36,6 +36,7 @@ FENCES = [
     (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]"),
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
+    (r"cholmod\.h", r"src/integrate/\w+_cholmod\.c"),
     (r"gsl/.*", r"src/(integrate|measure)/\w+_gsl\.[ch]"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
     (r"malloc\.h", r"tests/physics/test_scale\.c"),  # of glibc

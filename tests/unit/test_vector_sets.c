@@ -1,11 +1,11 @@
-/* Every instruction set that this machine has gives the same bits in the loops of vectors, products and factors; and these
+/* Every instruction set that this machine has gives the same bits in the loops of vectors and triangles; and these
  * are right. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
 
-#include "kernel/front_loops.h"
 #include "kernel/spring_loops.h"
+#include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 
 #include <math.h>
@@ -82,89 +82,98 @@ static void vectors(void **unused) {
   free(other);
 }
 
-/* A panel of `rows` by `columns` of a positive matrix, with the rest below. */
-static void run_front(const struct hooke_front_set *set, int rows, int columns, const double *matrix,
-                      double *out) {
-  const int n = rows - columns;
-  double *panel = out, *rest = panel + rows * columns, *x = rest + n * n;
-  for (int j = 0; j < columns; j++)
-    memcpy(panel + j * rows, matrix + j * rows, (size_t)rows * sizeof(double));
-  for (int j = 0; j < n; j++)
-    memcpy(rest + j * n, matrix + (columns + j) * rows + columns, (size_t)n * sizeof(double));
-  assert_int_equal(set->front_factorise(rows, columns, panel), 1);
-  set->front_subtract(rows, columns, panel, rest);
-  for (int k = 0; k < rows; k++)
-    x[k] = x[rows + k] = 1.0 + 0.01 * k;
-  set->front_forward(rows, columns, panel, x);
-  set->front_backward(rows, columns, panel, x + rows);
+/* ---- triangles of blocks ---- */
+
+enum { MOST_COLUMNS = 24, MOST_ROWS = 3 * MOST_COLUMNS };
+
+struct example {
+  struct hooke_triangle triangle;
+  int64_t begin[MOST_COLUMNS + 1];
+  int32_t row[MOST_COLUMNS * MOST_COLUMNS];
+  double block[9 * MOST_COLUMNS * MOST_COLUMNS + HOOKE_TRIANGLE_SPARE], corner[6 * MOST_COLUMNS];
+  double dense[MOST_ROWS][MOST_ROWS]; /* rows of the same */
+};
+
+/* One column has every block below it, the others some; what is spare is no number. */
+static void draw_triangle(struct random_source *source, int columns, struct example *x) {
+  int64_t blocks = 0;
+  *x = (struct example){.triangle = {columns, x->begin, x->row, x->block, x->corner}};
+  for (int k = 0; k < columns; k++) {
+    const double d[3] = {random_between(source, 1.0, 2.0), random_between(source, 1.0, 2.0),
+                         random_between(source, 1.0, 2.0)};
+    double below[3];
+    draw(source, 3, below);
+    const double corner[6] = {1.0 / d[0], below[0], below[1], 1.0 / d[1], below[2], 1.0 / d[2]};
+    memcpy(x->corner + 6 * k, corner, sizeof corner);
+    for (int a = 0; a < 3; a++)
+      x->dense[3 * k + a][3 * k + a] = d[a];
+    x->dense[3 * k + 1][3 * k] = below[0];
+    x->dense[3 * k + 2][3 * k] = below[1];
+    x->dense[3 * k + 2][3 * k + 1] = below[2];
+    for (int i = k + 1; i < columns; i++) {
+      if (k != 1 && random_between(source, 0.0, 1.0) < 0.7) continue;
+      double *block = x->block + 9 * blocks;
+      draw(source, 9, block);
+      x->row[blocks++] = 3 * i;
+      for (int e = 0; e < 9; e++)
+        x->dense[3 * i + e % 3][3 * k + e / 3] = block[e];
+    }
+    x->begin[k + 1] = blocks;
+  }
+  x->block[9 * blocks] = NAN;
 }
 
-/* The same in plain loops. */
-static void check_front(int rows, int columns, const double *matrix, const double *found) {
-  double *a = new_doubles(rows * rows), *x = new_doubles(2 * rows), *back = x + rows;
-  const int n = rows - columns;
-  memcpy(a, matrix, (size_t)(rows * rows) * sizeof(double));
-  for (int j = 0; j < columns; j++) {
-    const double root = sqrt(a[j * rows + j]);
-    for (int i = j; i < rows; i++)
-      a[j * rows + i] /= root;
-    for (int k = j + 1; k < rows; k++) {
-      for (int i = k; i < rows; i++)
-        a[k * rows + i] -= a[j * rows + i] * a[j * rows + k];
+/* Solutions forward and backward, `rows` each and what is spare. */
+static void run_triangle(const struct hooke_triangle_set *set, const struct example *x, const double *right,
+                         double *out) {
+  const int64_t rows = 3 * x->triangle.count;
+  for (int way = 0; way < 2; way++) {
+    double *solution = out + way * (MOST_ROWS + HOOKE_TRIANGLE_SPARE);
+    memcpy(solution, right, (size_t)rows * sizeof(double));
+    solution[rows] = NAN;
+    (way ? set->triangle_backward : set->triangle_forward)(&x->triangle, solution);
+  }
+}
+
+static void check_triangle(const struct example *x, const double *right, const double *found) {
+  const int rows = (int)(3 * x->triangle.count);
+  const double *back = found + MOST_ROWS + HOOKE_TRIANGLE_SPARE;
+  for (int i = 0; i < rows; i++) {
+    double forth = 0.0, other = 0.0, size = 1.0, other_size = 1.0;
+    for (int j = 0; j < rows; j++) {
+      forth += x->dense[i][j] * found[j];
+      size += fabs(x->dense[i][j] * found[j]);
+      other += x->dense[j][i] * back[j];
+      other_size += fabs(x->dense[j][i] * back[j]);
+    }
+    check_between(fabs(forth - right[i]), 0.0, 1e-14 * size);
+    check_between(fabs(other - right[i]), 0.0, 1e-14 * other_size);
+  }
+}
+
+static void triangles(void **unused) {
+  (void)unused;
+  struct random_source source = {12};
+  enum { SIZE = 2 * (MOST_ROWS + HOOKE_TRIANGLE_SPARE) };
+  struct example *x = calloc(1, sizeof *x);
+  double right[MOST_ROWS], first[SIZE], other[SIZE];
+  assert_non_null(x);
+  for (int columns = 1; columns <= MOST_COLUMNS; columns++) {
+    draw_triangle(&source, columns, x);
+    draw(&source, 3 * columns, right);
+    memset(first, 0, sizeof first);
+    memset(other, 0, sizeof other);
+    run_triangle(hooke_spring_set(0)->triangle, x, right, first);
+    check_triangle(x, right, first);
+    for (int32_t k = 1; hooke_spring_set(k); k++) {
+      run_triangle(hooke_spring_set(k)->triangle, x, right, other);
+      check_same_bits(SIZE, other, first);
     }
   }
-  for (int j = 0; j < columns; j++) {
-    for (int i = j + 1; i < rows; i++)
-      check_close(found[j * rows + i], a[j * rows + i], 1e-12);
-    check_close(found[j * rows + j], 1.0 / a[j * rows + j], 1e-12);
-  }
-  for (int j = 0; j < n; j++) {
-    for (int i = j; i < n; i++)
-      check_close(found[rows * columns + j * n + i], a[(columns + j) * rows + columns + i], 1e-12);
-  }
-  for (int k = 0; k < rows; k++)
-    x[k] = back[k] = 1.0 + 0.01 * k;
-  for (int j = 0; j < columns; j++) {
-    x[j] /= a[j * rows + j];
-    for (int i = j + 1; i < rows; i++)
-      x[i] -= a[j * rows + i] * x[j];
-  }
-  for (int j = columns - 1; j >= 0; j--) {
-    for (int i = j + 1; i < rows; i++)
-      back[j] -= a[j * rows + i] * back[i];
-    back[j] /= a[j * rows + j];
-  }
-  for (int k = 0; k < 2 * rows; k++)
-    check_close(found[rows * columns + n * n + k], x[k], 1e-11);
-  free(a);
   free(x);
 }
 
-static void fronts(void **unused) {
-  (void)unused;
-  struct random_source source = {12};
-  for (int rows = 1; rows < 90; rows += 1 + rows / 7) {
-    for (int columns = 1; columns <= rows; columns += 1 + columns / 5) {
-      const int n = rows - columns, count = rows * columns + n * n + 2 * rows;
-      double *matrix = new_doubles(rows * rows), *first = new_doubles(count), *other = new_doubles(count);
-      for (int j = 0; j < rows; j++) {
-        for (int i = j; i < rows; i++)
-          matrix[j * rows + i] = i == j ? 0.5 * rows + 1.0 : random_between(&source, -0.5, 0.5);
-      }
-      run_front(hooke_spring_set(0)->front, rows, columns, matrix, first);
-      check_front(rows, columns, matrix, first);
-      for (int32_t k = 1; hooke_spring_set(k); k++) {
-        run_front(hooke_spring_set(k)->front, rows, columns, matrix, other);
-        check_same_bits(count, other, first);
-      }
-      free(matrix);
-      free(first);
-      free(other);
-    }
-  }
-}
-
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(fronts)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(triangles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

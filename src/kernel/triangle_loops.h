@@ -1,0 +1,29 @@
+/* Solutions with a sparse lower triangular matrix L of 3x3 blocks, kept column by column of blocks. Every number is found
+ * from the same numbers in the same order whatever the instruction set. */
+#ifndef HOOKE_KERNEL_TRIANGLE_LOOPS_H
+#define HOOKE_KERNEL_TRIANGLE_LOOPS_H
+
+#include <stdint.h>
+
+/* Room behind arrays that is read and has no influence. */
+enum { HOOKE_TRIANGLE_SPARE = 1 };
+
+struct hooke_triangle {
+  int64_t count;  /* of columns of blocks */
+  int64_t *begin; /* count + 1: of the blocks of a column that are below the diagonal */
+  int32_t *row;   /* of each of them: its first row of numbers, a multiple of 3 */
+  double *block;  /* 9 each, by columns, and HOOKE_TRIANGLE_SPARE more */
+  double *corner; /* 6 for each column, the block on the diagonal: 1/11, 21, 31, 1/22, 32, 1/33 */
+};
+
+/* x = L^-1 x and x = L^-T x; 3 count numbers and HOOKE_TRIANGLE_SPARE more. */
+void hooke_triangle_forward(const struct hooke_triangle *l, double *x);
+void hooke_triangle_backward(const struct hooke_triangle *l, double *x);
+
+/* The loops of one instruction set, under the names above. */
+struct hooke_triangle_set {
+  void (*triangle_forward)(const struct hooke_triangle *, double *);
+  void (*triangle_backward)(const struct hooke_triangle *, double *);
+};
+
+#endif
