@@ -184,6 +184,13 @@ HOOKE_INLINE void fill_any(const struct hooke_lane_pass *pass, const struct plac
   }
 }
 
+HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
+  for (int a = 0; a < 3; a++) {
+    __builtin_prefetch(at->q + ahead + a * at->stride);
+    __builtin_prefetch(at->v + ahead + a * at->stride);
+  }
+}
+
 /* `shape` is that of all lanes, or ANY. */
 HOOKE_INLINE int64_t advance(const struct hooke_lane_pass *pass, const int shape, ptrdiff_t from,
                              ptrdiff_t to) {
@@ -197,6 +204,7 @@ HOOKE_INLINE int64_t advance(const struct hooke_lane_pass *pass, const int shape
       at.x[a] = hooke_load(at.q + a * at.stride);
       if (shape & HOOKE_RUN_DAMPED) at.u[a] = hooke_load(at.v + a * at.stride);
     }
+    if (pass->ahead > 0) fetch(&at, pass->ahead);
     if (shape == ANY)
       fill_any(pass, &at, &shortest, sum);
     else

@@ -49,7 +49,8 @@ struct hooke_lane_pass {
   int32_t count;
   struct hooke_lane_view lane[HOOKE_MOST_LANES]; /* in the order of the sum */
   ptrdiff_t stride;                              /* between x, y and z of q, and of v and f */
-  double *q, *v, *f;                             /* f: HOOKE_MOVE_KEEP */
+  ptrdiff_t ahead;   /* q and v are fetched so many particles ahead; 0: not at all */
+  double *q, *v, *f; /* f: HOOKE_MOVE_KEEP */
   const double *w;
   struct hooke_move move;
 };

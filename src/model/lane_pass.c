@@ -6,6 +6,10 @@
 
 #include <string.h>
 
+/* In a system larger than a cache of the second level the processor is told what it will need: particles that springs reach
+ * for the first time, so many before the first spring does. */
+enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
+
 struct share {
   struct hooke_lane_pass pass;    /* lanes that the loop is at */
   double *ring[HOOKE_MOST_LANES]; /* of every lane */
@@ -174,6 +178,7 @@ static void begin(const struct task *task, struct share *share, int32_t member, 
   share->pass.f = m->f[0];
   share->pass.w = m->w;
   share->pass.move = *task->move;
+  share->pass.ahead = m->n > PARTICLES_IN_CACHE ? m->rings->reach + FETCH_AHEAD : 0;
   memset(share->open, 0, sizeof share->open);
   share->at = larger(0, share->from - m->rings->reach);
   share->lost = 0;
