@@ -1,111 +1,290 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows, strengths computed on whole
- * vectors in between. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into vectors of one
+ * component each; strengths are computed on those. */
 #include "kernel/net_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/spring_body.h"
 
+#include <string.h>
+
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 /* Four numbers of a row, and two; compilers split them where the instruction set has shorter vectors. */
 typedef double quad __attribute__((vector_size(32), may_alias));
+typedef double loose_quad __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double couple __attribute__((vector_size(16), may_alias));
 
-/* ---- springs ---- */
+#if defined(__clang__)
+#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+typedef int64_t places __attribute__((vector_size(32)));
+#define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
+#endif
 
+/* As many springs as a vector has numbers are done at once. */
+#if defined(__AVX512F__)
+enum { GROUP = 8 };
+#else
+enum { GROUP = 4 };
+#endif
+
+/* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
-  _Alignas(64) double d[4 * HOOKE_NET_BATCH]; /* dx, dy, dz, dvz */
-  _Alignas(64) double w[2 * HOOKE_NET_BATCH]; /* dvx, dvy */
   _Alignas(64) double s[HOOKE_NET_BATCH];
+  _Alignas(64) int64_t lost[GROUP];
+};
+
+/* Where springs are looked up, and what they do to their ends. */
+struct ends {
+  const uint8_t *lower;
+  const void *upper;
+  const double *low, *up;
+  double *on_lower, *on_upper;
+};
+
+/* Differences of GROUP springs, component by component. */
+struct group {
+  _Alignas(64) double x[GROUP], y[GROUP], z[GROUP], vx[GROUP], vy[GROUP], vz[GROUP];
 };
 
 HOOKE_INLINE size_t index_at(const void *index, ptrdiff_t k, const int wide) {
   return wide ? ((const uint32_t *)index)[k] : ((const uint16_t *)index)[k];
 }
 
-HOOKE_INLINE void subtract_rows(const uint8_t *restrict lower, const void *restrict upper, ptrdiff_t count,
-                                const double *restrict low, const double *restrict up,
-                                struct batch *restrict batch, const int damped, const int wide) {
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double *i = low + HOOKE_NET_ROW * (size_t)lower[k],
-                 *j = up + HOOKE_NET_ROW * index_at(upper, k, wide);
-    *(quad *)(batch->d + 4 * k) = *(const quad *)i - *(const quad *)j;
-    if (damped) *(couple *)(batch->w + 2 * k) = *(const couple *)(i + 4) - *(const couple *)(j + 4);
-  }
+HOOKE_INLINE const double *lower_row(const struct ends *ends, ptrdiff_t k) {
+  return ends->low + HOOKE_NET_ROW * (size_t)ends->lower[k];
 }
 
-HOOKE_INLINE int64_t find_strengths(const struct hooke_net_springs springs, ptrdiff_t count,
-                                    const double *restrict d, const double *restrict w, double *restrict s,
-                                    const int damped, const int pull, const int material) {
-  int64_t lost = 0;
-  HOOKE_VECTORISE
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double dx = d[4 * k], dy = d[4 * k + 1], dz = d[4 * k + 2];
-    const double rest_length = material ? springs.rest_lengths[k] : springs.rest_length;
-    const double kappa = material == HOOKE_NET_MIXED    ? springs.kappas[k]
-                         : material == HOOKE_NET_STRAIN ? springs.kappa / rest_length
-                                                        : springs.kappa;
+HOOKE_INLINE const double *upper_row(const struct ends *ends, ptrdiff_t k, const int wide) {
+  return ends->up + HOOKE_NET_ROW * index_at(ends->upper, k, wide);
+}
+
+/* ---- differences: d of each spring is left where the force on its upper end goes ---- */
+
+#define KEEP(ends, k, d) *(quad *)((ends)->on_upper + HOOKE_NET_FORCE * (k)) = (d)
+
+HOOKE_INLINE void subtract_one(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                               const int wide) {
+  const double *i = lower_row(ends, k), *j = upper_row(ends, k, wide);
+  const quad d = *(const quad *)i - *(const quad *)j;
+  KEEP(ends, k, d);
+  group->x[0] = d[0];
+  group->y[0] = d[1];
+  group->z[0] = d[2];
+  group->vz[0] = d[3];
+  if (!damped) return;
+  group->vx[0] = i[4] - j[4];
+  group->vy[0] = i[5] - j[5];
+}
+
+#if defined(__AVX512F__)
+
+HOOKE_INLINE __m512d subtract_rows(const struct ends *ends, ptrdiff_t k, const int wide) {
+  const __m512d d =
+      _mm512_sub_pd(_mm512_load_pd(lower_row(ends, k)), _mm512_load_pd(upper_row(ends, k, wide)));
+  KEEP(ends, k, (quad)_mm512_castpd512_pd256(d));
+  return d;
+}
+
+/* Couples of numbers: two of a, two of b. */
+#define COUPLES(a, b, a0, a1, b0, b1) _mm512_shuffle_f64x2(a, b, (a0) | (a1) << 2 | (b0) << 4 | (b1) << 6)
+
+/* Rows are x y z vz vx vy: of each two, those in even places lie couple by couple in `even`, the others in `odd`. */
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+#define TWO(n)                                                                                               \
+  const __m512d a##n = subtract_rows(ends, k + (n), wide), b##n = subtract_rows(ends, k + (n) + 1, wide),    \
+                even##n = _mm512_unpacklo_pd(a##n, b##n), odd##n = _mm512_unpackhi_pd(a##n, b##n);
+  TWO(0)
+  TWO(2)
+  TWO(4)
+  TWO(6)
+  const __m512d xz0 = COUPLES(even0, even2, 0, 1, 0, 1),
+                xz4 = COUPLES(even4, even6, 0, 1, 0, 1), yvz0 = COUPLES(odd0, odd2, 0, 1, 0, 1),
+                yvz4 = COUPLES(odd4, odd6, 0, 1, 0, 1);
+  _mm512_store_pd(group->x, COUPLES(xz0, xz4, 0, 2, 0, 2));
+  _mm512_store_pd(group->y, COUPLES(yvz0, yvz4, 0, 2, 0, 2));
+  _mm512_store_pd(group->z, COUPLES(xz0, xz4, 1, 3, 1, 3));
+  if (!damped) return;
+  _mm512_store_pd(group->vz, COUPLES(yvz0, yvz4, 1, 3, 1, 3));
+  const __m512d vx0 = COUPLES(even0, even2, 2, 2, 2, 2), vx4 = COUPLES(even4, even6, 2, 2, 2, 2),
+                vy0 = COUPLES(odd0, odd2, 2, 2, 2, 2), vy4 = COUPLES(odd4, odd6, 2, 2, 2, 2);
+  _mm512_store_pd(group->vx, COUPLES(vx0, vx4, 0, 2, 0, 2));
+  _mm512_store_pd(group->vy, COUPLES(vy0, vy4, 0, 2, 0, 2));
+}
+
+#else
+
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+#define ROW(n)                                                                                               \
+  const double *i##n = lower_row(ends, k + (n)), *j##n = upper_row(ends, k + (n), wide);                     \
+  const quad d##n = *(const quad *)i##n - *(const quad *)j##n;                                               \
+  KEEP(ends, k + (n), d##n);
+  ROW(0)
+  ROW(1)
+  ROW(2)
+  ROW(3)
+  const quad even0 = PICK(d0, d1, 0, 4, 2, 6),
+             even2 = PICK(d2, d3, 0, 4, 2, 6), odd0 = PICK(d0, d1, 1, 5, 3, 7),
+             odd2 = PICK(d2, d3, 1, 5, 3, 7);
+  *(quad *)group->x = PICK(even0, even2, 0, 1, 4, 5);
+  *(quad *)group->y = PICK(odd0, odd2, 0, 1, 4, 5);
+  *(quad *)group->z = PICK(even0, even2, 2, 3, 6, 7);
+  if (!damped) return;
+  *(quad *)group->vz = PICK(odd0, odd2, 2, 3, 6, 7);
+#define FLOW(n) const couple v##n = *(const couple *)(i##n + 4) - *(const couple *)(j##n + 4);
+  FLOW(0)
+  FLOW(1) FLOW(2) FLOW(3) const quad v02 = {v0[0], v0[1], v2[0], v2[1]}, v13 = {v1[0], v1[1], v3[0], v3[1]};
+  *(quad *)group->vx = PICK(v02, v13, 0, 4, 2, 6);
+  *(quad *)group->vy = PICK(v02, v13, 1, 5, 3, 7);
+}
+
+#endif
+
+/* ---- strengths and forces ---- */
+
+HOOKE_INLINE void find_strengths(const struct hooke_net_springs *springs, ptrdiff_t from, const int count,
+                                 const struct group *group, struct batch *batch, const int damped,
+                                 const int pull, const int material) {
+  HOOKE_VECTORISE_WHOLE
+  for (ptrdiff_t n = 0; n < count; n++) {
+    const ptrdiff_t k = from + n;
+    const double dx = group->x[n], dy = group->y[n], dz = group->z[n];
+    const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
+    const double kappa = material == HOOKE_NET_MIXED    ? springs->kappas[k]
+                         : material == HOOKE_NET_STRAIN ? springs->kappa / rest_length
+                                                        : springs->kappa;
     const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
     double brake = 0.0;
     if (damped) {
-      const double gamma = material == HOOKE_NET_MIXED    ? springs.gammas[k]
-                           : material == HOOKE_NET_STRAIN ? springs.gamma / rest_length
-                                                          : springs.gamma;
-      brake = gamma * (((w[2 * k] * dx + w[2 * k + 1] * dy) + d[4 * k + 3] * dz) * ir);
+      const double gamma = material == HOOKE_NET_MIXED    ? springs->gammas[k]
+                           : material == HOOKE_NET_STRAIN ? springs->gamma / rest_length
+                                                          : springs->gamma;
+      brake = gamma * (((group->vx[n] * dx + group->vy[n] * dy) + group->vz[n] * dz) * ir);
     }
-    s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
-    lost += (r == 0.0) & (rest_length != 0.0);
-  }
-  return lost;
-}
-
-HOOKE_INLINE void write_pairs(ptrdiff_t count, const struct batch *restrict batch, double *restrict pair) {
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double s = batch->s[k];
-    const quad strength = {s, s, s, s};
-    const quad b = strength * *(const quad *)(batch->d + 4 * k);
-    *(quad *)(pair + HOOKE_NET_ROW * k) = b;
-    *(quad *)(pair + HOOKE_NET_ROW * k + 4) = -b;
+    batch->s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+    batch->lost[n] += (r == 0.0) & (rest_length != 0.0);
   }
 }
 
-HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,
-                          const double *upper, double *pair, const int damped, const int pull, const int wide,
-                          const int material) {
+HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_t to, const double *s) {
+  for (ptrdiff_t k = from; k < to; k++) {
+    const quad strength = {s[k], s[k], s[k], s[k]};
+    const quad b = strength * *(const quad *)(ends->on_upper + HOOKE_NET_FORCE * k);
+    *(quad *)(ends->on_upper + HOOKE_NET_FORCE * k) = b;
+    *(quad *)(ends->on_lower + HOOKE_NET_FORCE * k) = -b;
+  }
+}
+
+/* Forces are written so many springs after their strengths were begun, or groups would wait for roots and quotients. */
+enum { BEHIND = 3 * GROUP };
+
+HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *low,
+                          const double *up, double *on_lower, double *on_upper, const int damped,
+                          const int pull, const int wide, const int material) {
+  const struct ends ends = {springs->lower, springs->upper, low, up, on_lower, on_upper};
   struct batch batch;
-  subtract_rows(springs->lower, springs->upper, count, lower, upper, &batch, damped, wide);
-  const int64_t lost = find_strengths(*springs, count, batch.d, batch.w, batch.s, damped, pull, material);
-  write_pairs(count, &batch, pair);
+  struct group group;
+  memset(batch.lost, 0, sizeof batch.lost);
+  ptrdiff_t k = 0;
+  for (; k + GROUP <= count; k += GROUP) {
+    subtract_group(&ends, k, &group, damped, wide);
+    find_strengths(springs, k, GROUP, &group, &batch, damped, pull, material);
+    if (k >= BEHIND) write_forces(&ends, k - BEHIND, k - BEHIND + GROUP, batch.s);
+  }
+  const ptrdiff_t written = k > BEHIND ? k - BEHIND : 0;
+  for (; k < count; k++) {
+    subtract_one(&ends, k, &group, damped, wide);
+    find_strengths(springs, k, 1, &group, &batch, damped, pull, material);
+  }
+  write_forces(&ends, written, count, batch.s);
+  int64_t lost = 0;
+  for (int n = 0; n < GROUP; n++)
+    lost += batch.lost[n];
   return lost;
 }
 
 /* ---- sums ---- */
 
-HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *half,
-                             const double *restrict pair, double *const f[3], const int wide) {
+HOOKE_INLINE const quad *force_at(const double *force, const void *place, ptrdiff_t k, const int wide) {
+  return (const quad *)(force + HOOKE_NET_FORCE * index_at(place, k, wide));
+}
+
+HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *place,
+                             const double *restrict force, double *const f[3], const int wide) {
   double *restrict x = f[0], *restrict y = f[1], *restrict z = f[2];
   ptrdiff_t k = 0;
   for (ptrdiff_t p = 0; p < count; p++) {
-    const ptrdiff_t end = k + degree[p];
     quad total = {0.0, 0.0, 0.0, 0.0};
-    for (; k + 1 < end; k += 2) {
-      total += *(const quad *)(pair + 4 * index_at(half, k, wide));
-      total += *(const quad *)(pair + 4 * index_at(half, k + 1, wide));
+    ptrdiff_t left = degree[p];
+    for (; left >= 4; left -= 4, k += 4) {
+      total += *force_at(force, place, k, wide);
+      total += *force_at(force, place, k + 1, wide);
+      total += *force_at(force, place, k + 2, wide);
+      total += *force_at(force, place, k + 3, wide);
     }
-    if (k < end) total += *(const quad *)(pair + 4 * index_at(half, k++, wide));
+    if (left & 2) {
+      total += *force_at(force, place, k, wide);
+      total += *force_at(force, place, k + 1, wide);
+      k += 2;
+    }
+    if (left & 1) total += *force_at(force, place, k++, wide);
     x[p] = total[0];
     y[p] = total[1];
     z[p] = total[2];
   }
-  return wide ? (const void *)((const uint32_t *)half + k) : (const void *)((const uint16_t *)half + k);
+  return wide ? (const void *)((const uint32_t *)place + k) : (const void *)((const uint16_t *)place + k);
 }
 
-static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *half, const double *pair,
+static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
                               double *const f[3]) {
-  return sum(count, degree, half, pair, f, 0);
+  return sum(count, degree, place, force, f, 0);
 }
 
-static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *half, const double *pair,
+static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
                             double *const f[3]) {
-  return sum(count, degree, half, pair, f, 1);
+  return sum(count, degree, place, force, f, 1);
+}
+
+/* ---- rows ---- */
+
+static void row_of(ptrdiff_t p, const double *const q[3], const double *const v[3], double *restrict row) {
+  row[0] = q[0][p];
+  row[1] = q[1][p];
+  row[2] = q[2][p];
+  if (v == NULL) return;
+  row[3] = v[2][p];
+  row[4] = v[0][p];
+  row[5] = v[1][p];
+}
+
+/* Four rows from four numbers of each component; zeros for z and w where they are NULL. */
+HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, const double *w, double *row) {
+  const quad four_x = *(const loose_quad *)x, four_y = *(const loose_quad *)y;
+  quad four_z = {0.0, 0.0, 0.0, 0.0}, four_w = {0.0, 0.0, 0.0, 0.0};
+  if (z) four_z = *(const loose_quad *)z;
+  if (w) four_w = *(const loose_quad *)w;
+  const quad xy02 = PICK(four_x, four_y, 0, 4, 2, 6), xy13 = PICK(four_x, four_y, 1, 5, 3, 7),
+             zw02 = PICK(four_z, four_w, 0, 4, 2, 6), zw13 = PICK(four_z, four_w, 1, 5, 3, 7);
+  *(quad *)row = PICK(xy02, zw02, 0, 1, 4, 5);
+  *(quad *)(row + HOOKE_NET_ROW) = PICK(xy13, zw13, 0, 1, 4, 5);
+  *(quad *)(row + 2 * HOOKE_NET_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
+  *(quad *)(row + 3 * HOOKE_NET_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
+}
+
+static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
+                      const double *const v[3], double *rows) {
+  ptrdiff_t p = 0;
+  for (; p + 4 <= count && order == NULL; p += 4) {
+    double *row = rows + HOOKE_NET_ROW * p;
+    turn_four(q[0] + p, q[1] + p, q[2] + p, v ? v[2] + p : NULL, row);
+    if (v) turn_four(v[0] + p, v[1] + p, NULL, NULL, row + 4);
+  }
+  for (; p < count; p++)
+    row_of(order ? order[p] : p, q, v, rows + HOOKE_NET_ROW * p);
 }
 
 /* ---- the set ---- */
@@ -113,9 +292,9 @@ static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void 
 #define NAME(shape) fill_##shape
 #define FILL(shape)                                                                                          \
   static int64_t NAME(shape)(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,  \
-                             const double *upper, double *pair) {                                            \
-    return fill(springs, count, lower, upper, pair, (shape)&HOOKE_NET_DAMPED, (shape)&HOOKE_NET_PULL_ONLY,   \
-                (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);                                            \
+                             const double *upper, double *on_lower, double *on_upper) {                      \
+    return fill(springs, count, lower, upper, on_lower, on_upper, (shape)&HOOKE_NET_DAMPED,                  \
+                (shape)&HOOKE_NET_PULL_ONLY, (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);               \
   }
 #define FOUR(what, a, b, c, d) what(a) what(b) what(c) what(d)
 #define EVERY(what)                                                                                          \
@@ -129,4 +308,5 @@ EVERY(FILL)
 
 #define ENTRY(shape) NAME(shape),
 
-const struct hooke_net_loops HOOKE_NET_LOOPS = {.fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}};
+const struct hooke_net_loops HOOKE_NET_LOOPS = {
+    .fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}, .rows = copy_rows};
