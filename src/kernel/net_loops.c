@@ -96,14 +96,13 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
                                  const int wide) {
 #define TWO(n)                                                                                               \
   const __m512d a##n = subtract_rows(ends, k + (n), wide), b##n = subtract_rows(ends, k + (n) + 1, wide),    \
-                even##n = _mm512_unpacklo_pd(a##n, b##n), odd##n = _mm512_unpackhi_pd(a##n, b##n);
-  TWO(0)
-  TWO(2)
-  TWO(4)
-  TWO(6)
-  const __m512d xz0 = COUPLES(even0, even2, 0, 1, 0, 1),
-                xz4 = COUPLES(even4, even6, 0, 1, 0, 1), yvz0 = COUPLES(odd0, odd2, 0, 1, 0, 1),
-                yvz4 = COUPLES(odd4, odd6, 0, 1, 0, 1);
+                even##n = _mm512_unpacklo_pd(a##n, b##n), odd##n = _mm512_unpackhi_pd(a##n, b##n)
+  TWO(0);
+  TWO(2);
+  TWO(4);
+  TWO(6);
+  const __m512d xz0 = COUPLES(even0, even2, 0, 1, 0, 1), xz4 = COUPLES(even4, even6, 0, 1, 0, 1),
+                yvz0 = COUPLES(odd0, odd2, 0, 1, 0, 1), yvz4 = COUPLES(odd4, odd6, 0, 1, 0, 1);
   _mm512_store_pd(group->x, COUPLES(xz0, xz4, 0, 2, 0, 2));
   _mm512_store_pd(group->y, COUPLES(yvz0, yvz4, 0, 2, 0, 2));
   _mm512_store_pd(group->z, COUPLES(xz0, xz4, 1, 3, 1, 3));
@@ -122,22 +121,24 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
 #define ROW(n)                                                                                               \
   const double *i##n = lower_row(ends, k + (n)), *j##n = upper_row(ends, k + (n), wide);                     \
   const quad d##n = *(const quad *)i##n - *(const quad *)j##n;                                               \
-  KEEP(ends, k + (n), d##n);
-  ROW(0)
-  ROW(1)
-  ROW(2)
-  ROW(3)
-  const quad even0 = PICK(d0, d1, 0, 4, 2, 6),
-             even2 = PICK(d2, d3, 0, 4, 2, 6), odd0 = PICK(d0, d1, 1, 5, 3, 7),
-             odd2 = PICK(d2, d3, 1, 5, 3, 7);
+  KEEP(ends, k + (n), d##n)
+  ROW(0);
+  ROW(1);
+  ROW(2);
+  ROW(3);
+  const quad even0 = PICK(d0, d1, 0, 4, 2, 6), even2 = PICK(d2, d3, 0, 4, 2, 6),
+             odd0 = PICK(d0, d1, 1, 5, 3, 7), odd2 = PICK(d2, d3, 1, 5, 3, 7);
   *(quad *)group->x = PICK(even0, even2, 0, 1, 4, 5);
   *(quad *)group->y = PICK(odd0, odd2, 0, 1, 4, 5);
   *(quad *)group->z = PICK(even0, even2, 2, 3, 6, 7);
   if (!damped) return;
   *(quad *)group->vz = PICK(odd0, odd2, 2, 3, 6, 7);
-#define FLOW(n) const couple v##n = *(const couple *)(i##n + 4) - *(const couple *)(j##n + 4);
-  FLOW(0)
-  FLOW(1) FLOW(2) FLOW(3) const quad v02 = {v0[0], v0[1], v2[0], v2[1]}, v13 = {v1[0], v1[1], v3[0], v3[1]};
+#define FLOW(n) const couple v##n = *(const couple *)(i##n + 4) - *(const couple *)(j##n + 4)
+  FLOW(0);
+  FLOW(1);
+  FLOW(2);
+  FLOW(3);
+  const quad v02 = {v0[0], v0[1], v2[0], v2[1]}, v13 = {v1[0], v1[1], v3[0], v3[1]};
   *(quad *)group->vx = PICK(v02, v13, 0, 4, 2, 6);
   *(quad *)group->vy = PICK(v02, v13, 1, 5, 3, 7);
 }

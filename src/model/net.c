@@ -222,8 +222,8 @@ static int32_t fill_ends(struct maker *maker) {
   const int64_t m = net->springs, width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t);
   net->lower = hooke_new(m, 1);
   net->upper = hooke_new(m, (size_t)width);
-  net->place_of_force = hooke_new(2 * m, (size_t)width);
-  if (!net->lower || !net->upper || !net->place_of_force) return HOOKE_NO_MEMORY;
+  net->force = hooke_new(2 * m, (size_t)width);
+  if (!net->lower || !net->upper || !net->force) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < net->particles; p++)
     maker->next[p] = net->degree[p];
   sum_up(maker->next, net->particles);
@@ -233,8 +233,8 @@ static int32_t fill_ends(struct maker *maker) {
     const int64_t tile = i / HOOKE_TILE, first = tile > 0 ? net->tile[tile - 1].end : 0;
     net->lower[at] = (uint8_t)(i % HOOKE_TILE);
     put(net->upper, at, j % net->rows, net->wide);
-    put(net->place_of_force, maker->next[i]++, at - first, net->wide);
-    put(net->place_of_force, maker->next[j]++, net->list + at % net->ring, net->wide);
+    put(net->force, maker->next[i]++, at - first, net->wide);
+    put(net->force, maker->next[j]++, net->list + at % net->ring, net->wide);
   }
   return HOOKE_OK;
 }
@@ -333,9 +333,8 @@ int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, 
 }
 
 void hooke_net_release(struct hooke_net *net) {
-  void *const block[] = {net->tile,        net->order, net->inverse_mass, net->batch,
-                         net->lower,       net->upper, net->kappa,        net->gamma,
-                         net->rest_length, net->place, net->degree,       net->place_of_force};
+  void *const block[] = {net->tile,  net->order, net->inverse_mass, net->batch, net->lower,  net->upper,
+                         net->kappa, net->gamma, net->rest_length,  net->place, net->degree, net->force};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hooke_free(block[k]);
   memset(net, 0, sizeof *net);

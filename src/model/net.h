@@ -3,8 +3,10 @@
  * Particles get a working numbering in which neighbours are near each other, unless their own is good enough. Springs are
  * stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of the springs that begin in a
  * tile go, on their lower ends, into a list of the tile and, on their upper ends, into a ring, which reaches back to the
- * first spring that ends in it; each particle then takes its springs from both in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the particles of
- * a tile after that, so its positions may move at once. */
+ * first spring that ends in it; each particle then takes its springs from both in ascending spring number, so that sums
+ * have the bits of the plain order. Nothing looks at the particles of a tile after that, so its positions may move at
+ * once. Members of a crew have ranges of tiles: they do the springs that end in their range from earlier ones too, and save
+ * what they need of later ones, before anything moves. */
 #ifndef HOOKE_MODEL_NET_H
 #define HOOKE_MODEL_NET_H
 
@@ -45,7 +47,7 @@ struct hooke_net {
   /* by particle */
   uint16_t *degree;
   void *
-      place_of_force; /* as wide as `upper`: in the list (0 .. list - 1) or the ring (list ..), by spring number */
+      force; /* as wide as `upper`: places in the list, and `list` + those in the ring, in ascending spring number */
 
   int64_t rows, list, ring; /* that a window, a list of a tile and a ring hold */
 };

@@ -38,8 +38,8 @@ static const void *place_of(const struct hooke_net *net, int64_t particle) {
   int64_t at = 0;
   for (int64_t p = 0; p < particle; p++)
     at += net->degree[p];
-  return net->wide ? (const void *)((const uint32_t *)net->place_of_force + at)
-                   : (const void *)((const uint16_t *)net->place_of_force + at);
+  return net->wide ? (const void *)((const uint32_t *)net->force + at)
+                   : (const void *)((const uint16_t *)net->force + at);
 }
 
 static void place(const struct hooke_net *net, int32_t member, int32_t members,
