@@ -12,14 +12,11 @@
 #define HOOKE_JOIN(a, b)       HOOKE_JOIN_NAMES(a, b)
 #define HOOKE_OF_ISA(name)     HOOKE_JOIN(name, HOOKE_ISA)
 
-/* HOOKE_VECTORISE_WHOLE is for loops as long as a vector, which GCC would write out one by one before it thinks of vectors.
- * What the loop writes is apart from all arrays that it reads, so iterations may be reordered. */
+/* What the loop writes is apart from all arrays that it reads, so iterations may be reordered. */
 #if defined(__clang__)
-#define HOOKE_VECTORISE       _Pragma("clang loop vectorize(assume_safety)")
-#define HOOKE_VECTORISE_WHOLE HOOKE_VECTORISE
+#define HOOKE_VECTORISE _Pragma("clang loop vectorize(assume_safety)")
 #else
-#define HOOKE_VECTORISE       _Pragma("GCC ivdep")
-#define HOOKE_VECTORISE_WHOLE _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
+#define HOOKE_VECTORISE _Pragma("GCC ivdep")
 #endif
 
 #define HOOKE_SPRING_SET    HOOKE_OF_ISA(hooke_spring_set_)

@@ -1,15 +1,13 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into vectors of one
- * component each; strengths are computed on those. */
+ * component each; strengths are computed on those, and forces written some groups behind. */
 #include "kernel/net_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/vector_unit.h"
 
 #include <string.h>
 
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
+typedef hooke_vector vec;
 
 /* Four numbers of a row, and two; compilers split them where the instruction set has shorter vectors. */
 typedef double quad __attribute__((vector_size(32), may_alias));
@@ -23,17 +21,13 @@ typedef int64_t places __attribute__((vector_size(32)));
 #define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
 #endif
 
-/* As many springs as a vector has numbers are done at once. */
-#if defined(__AVX512F__)
-enum { GROUP = 8 };
-#else
-enum { GROUP = 4 };
-#endif
+/* Springs that are done at once: rows have four numbers to turn, or eight. */
+enum { GROUP = HOOKE_WIDTH == 8 ? 8 : 4 };
 
 /* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
   _Alignas(64) double s[HOOKE_NET_BATCH];
-  _Alignas(64) int64_t lost[GROUP];
+  hooke_vector_mask lost[GROUP / HOOKE_WIDTH];
 };
 
 /* Where springs are looked up, and what they do to their ends. */
@@ -79,7 +73,7 @@ HOOKE_INLINE void subtract_one(const struct ends *ends, ptrdiff_t k, struct grou
   group->vy[0] = i[5] - j[5];
 }
 
-#if defined(__AVX512F__)
+#if HOOKE_WIDTH == 8
 
 HOOKE_INLINE __m512d subtract_rows(const struct ends *ends, ptrdiff_t k, const int wide) {
   const __m512d d =
@@ -147,28 +141,53 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
 
 /* ---- strengths and forces ---- */
 
-HOOKE_INLINE void find_strengths(const struct hooke_net_springs *springs, ptrdiff_t from, const int count,
+/* Stiffness or damping of the springs from k on: their own, a share of the rest length, or one for all. */
+HOOKE_INLINE vec strength_of(const double *own, double shared, ptrdiff_t k, vec rest, const int material) {
+  if (material == HOOKE_NET_MIXED) return hooke_load(own + k);
+  if (material == HOOKE_NET_STRAIN) return hooke_all(shared) / rest;
+  return hooke_all(shared);
+}
+
+HOOKE_INLINE void find_strengths(const struct hooke_net_springs *springs, ptrdiff_t from,
                                  const struct group *group, struct batch *batch, const int damped,
                                  const int pull, const int material) {
-  HOOKE_VECTORISE_WHOLE
-  for (ptrdiff_t n = 0; n < count; n++) {
+  for (ptrdiff_t n = 0; n < GROUP; n += HOOKE_WIDTH) {
     const ptrdiff_t k = from + n;
-    const double dx = group->x[n], dy = group->y[n], dz = group->z[n];
-    const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
-    const double kappa = material == HOOKE_NET_MIXED    ? springs->kappas[k]
-                         : material == HOOKE_NET_STRAIN ? springs->kappa / rest_length
-                                                        : springs->kappa;
-    const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
-    double brake = 0.0;
+    const vec dx = hooke_load(group->x + n), dy = hooke_load(group->y + n), dz = hooke_load(group->z + n);
+    const vec rest = material ? hooke_load(springs->rest_lengths + k) : hooke_all(springs->rest_length);
+    const vec kappa = strength_of(springs->kappas, springs->kappa, k, rest, material);
+    const vec r = hooke_vector_sqrt((dx * dx + dy * dy) + dz * dz);
+    const hooke_vector_mask together = (hooke_vector_mask)(r == 0.0);
+    const vec ir = (vec)((hooke_vector_mask)(1.0 / r) & ~together);
+    vec tension = kappa * (r - rest);
     if (damped) {
-      const double gamma = material == HOOKE_NET_MIXED    ? springs->gammas[k]
-                           : material == HOOKE_NET_STRAIN ? springs->gamma / rest_length
-                                                          : springs->gamma;
-      brake = gamma * (((group->vx[n] * dx + group->vy[n] * dy) + group->vz[n] * dz) * ir);
+      const vec gamma = strength_of(springs->gammas, springs->gamma, k, rest, material);
+      const vec vx = hooke_load(group->vx + n), vy = hooke_load(group->vy + n),
+                vz = hooke_load(group->vz + n);
+      tension = tension + gamma * (((vx * dx + vy * dy) + vz * dz) * ir);
     }
-    batch->s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
-    batch->lost[n] += (r == 0.0) & (rest_length != 0.0);
+    if (pull) tension = (vec)((hooke_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
+    hooke_store(batch->s + k, tension * ir);
+    batch->lost[n / HOOKE_WIDTH] -= together & (hooke_vector_mask)(rest != 0.0);
   }
+}
+
+/* Of the first of a group alone. */
+HOOKE_INLINE int64_t find_strength(const struct hooke_net_springs *springs, ptrdiff_t k,
+                                   const struct group *group, struct batch *batch, const int damped,
+                                   const int pull, const int material) {
+  const double dx = group->x[0], dy = group->y[0], dz = group->z[0];
+  const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
+  const double share = material == HOOKE_NET_STRAIN ? rest_length : 1.0;
+  const double kappa = material == HOOKE_NET_MIXED ? springs->kappas[k] : springs->kappa / share;
+  const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+  double brake = 0.0;
+  if (damped) {
+    const double gamma = material == HOOKE_NET_MIXED ? springs->gammas[k] : springs->gamma / share;
+    brake = gamma * (((group->vx[0] * dx + group->vy[0] * dy) + group->vz[0] * dz) * ir);
+  }
+  batch->s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+  return (r == 0.0) & (rest_length != 0.0);
 }
 
 HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_t to, const double *s) {
@@ -191,20 +210,20 @@ HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t cou
   struct group group;
   memset(batch.lost, 0, sizeof batch.lost);
   ptrdiff_t k = 0;
+  int64_t lost = 0;
   for (; k + GROUP <= count; k += GROUP) {
     subtract_group(&ends, k, &group, damped, wide);
-    find_strengths(springs, k, GROUP, &group, &batch, damped, pull, material);
+    find_strengths(springs, k, &group, &batch, damped, pull, material);
     if (k >= BEHIND) write_forces(&ends, k - BEHIND, k - BEHIND + GROUP, batch.s);
   }
   const ptrdiff_t written = k > BEHIND ? k - BEHIND : 0;
   for (; k < count; k++) {
     subtract_one(&ends, k, &group, damped, wide);
-    find_strengths(springs, k, 1, &group, &batch, damped, pull, material);
+    lost += find_strength(springs, k, &group, &batch, damped, pull, material);
   }
   write_forces(&ends, written, count, batch.s);
-  int64_t lost = 0;
   for (int n = 0; n < GROUP; n++)
-    lost += batch.lost[n];
+    lost += batch.lost[n / HOOKE_WIDTH][n % HOOKE_WIDTH];
   return lost;
 }
 
