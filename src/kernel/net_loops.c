@@ -11,18 +11,10 @@ typedef hooke_vector vec;
 
 /* Four numbers of a row, and two; compilers split them where the instruction set has shorter vectors. */
 typedef double quad __attribute__((vector_size(32), may_alias));
-typedef double loose_quad __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double couple __attribute__((vector_size(16), may_alias));
 
-#if defined(__clang__)
-#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
-#else
-typedef int64_t places __attribute__((vector_size(32)));
-#define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
-#endif
-
-/* Springs that are done at once: rows have four numbers to turn, or eight. */
-enum { GROUP = HOOKE_WIDTH == 8 ? 8 : 4 };
+/* Springs that are done at once. */
+enum { GROUP = HOOKE_WIDTH };
 
 /* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
@@ -56,6 +48,15 @@ HOOKE_INLINE const double *upper_row(const struct ends *ends, ptrdiff_t k, const
 }
 
 /* ---- differences: d of each spring is left where the force on its upper end goes ---- */
+
+typedef double loose_quad __attribute__((vector_size(32), aligned(8), may_alias));
+
+#if defined(__clang__)
+#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+typedef int64_t places __attribute__((vector_size(32)));
+#define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
+#endif
 
 #define KEEP(ends, k, d) *(quad *)((ends)->on_upper + HOOKE_NET_FORCE * (k)) = (d)
 
@@ -108,7 +109,7 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
   _mm512_store_pd(group->vy, COUPLES(vy0, vy4, 0, 2, 0, 2));
 }
 
-#else
+#elif HOOKE_WIDTH == 4
 
 HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
                                  const int wide) {
@@ -135,6 +136,29 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
   const quad v02 = {v0[0], v0[1], v2[0], v2[1]}, v13 = {v1[0], v1[1], v3[0], v3[1]};
   *(quad *)group->vx = PICK(v02, v13, 0, 4, 2, 6);
   *(quad *)group->vy = PICK(v02, v13, 1, 5, 3, 7);
+}
+
+#else
+
+/* Two numbers of a row, the `at`-th and the next, of two springs. */
+HOOKE_INLINE void subtract_couples(const struct ends *ends, ptrdiff_t k, ptrdiff_t at, double *first,
+                                   double *second, const int wide) {
+  const couple a =
+      *(const couple *)(lower_row(ends, k) + at) - *(const couple *)(upper_row(ends, k, wide) + at);
+  const couple b =
+      *(const couple *)(lower_row(ends, k + 1) + at) - *(const couple *)(upper_row(ends, k + 1, wide) + at);
+  *(couple *)first = (couple){a[0], b[0]};
+  *(couple *)second = (couple){a[1], b[1]};
+  if (at >= HOOKE_NET_FORCE) return;
+  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * k + at) = a;
+  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * (k + 1) + at) = b;
+}
+
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+  subtract_couples(ends, k, 0, group->x, group->y, wide);
+  subtract_couples(ends, k, 2, group->z, group->vz, wide);
+  if (damped) subtract_couples(ends, k, 4, group->vx, group->vy, wide);
 }
 
 #endif
@@ -298,7 +322,7 @@ HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, c
 static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
                       const double *const v[3], double *rows) {
   ptrdiff_t p = 0;
-  for (; p + 4 <= count && order == NULL; p += 4) {
+  for (; HOOKE_WIDTH > 2 && p + 4 <= count && order == NULL; p += 4) {
     double *row = rows + HOOKE_NET_ROW * p;
     turn_four(q[0] + p, q[1] + p, q[2] + p, v ? v[2] + p : NULL, row);
     if (v) turn_four(v[0] + p, v[1] + p, NULL, NULL, row + 4);

@@ -48,7 +48,8 @@ static void place(const struct hooke_net *net, int32_t member, int32_t members,
   share->first = tile_at(net, work * member / members);
   share->end = tile_at(net, work * (member + 1) / members);
   share->begin = begin_of(net, share->first, share->end);
-  share->place = place_of(net, share->first * HOOKE_TILE);
+  const int64_t first = share->first * HOOKE_TILE; /* past the last particle if no tile is left */
+  share->place = place_of(net, first < net->particles ? first : net->particles);
   share->saved_end = share->end > share->first ? net->tile[share->end - 1].reach : 0;
 }
 
