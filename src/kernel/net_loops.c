@@ -1,111 +1,334 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows, strengths computed on whole
- * vectors in between. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into vectors of one
+ * component each; strengths are computed on those, and forces written some groups behind. */
 #include "kernel/net_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/vector_unit.h"
+
+#include <string.h>
+
+typedef hooke_vector vec;
 
 /* Four numbers of a row, and two; compilers split them where the instruction set has shorter vectors. */
 typedef double quad __attribute__((vector_size(32), may_alias));
 typedef double couple __attribute__((vector_size(16), may_alias));
 
-/* ---- springs ---- */
+/* Springs that are done at once. */
+enum { GROUP = HOOKE_WIDTH };
 
+/* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
-  _Alignas(64) double d[4 * HOOKE_NET_BATCH]; /* dx, dy, dz, dvz */
-  _Alignas(64) double w[2 * HOOKE_NET_BATCH]; /* dvx, dvy */
   _Alignas(64) double s[HOOKE_NET_BATCH];
+  hooke_vector_mask lost[GROUP / HOOKE_WIDTH];
+};
+
+/* Where springs are looked up, and what they do to their ends. */
+struct ends {
+  const uint8_t *lower;
+  const void *upper;
+  const double *low, *up;
+  double *on_lower, *on_upper;
+};
+
+/* Differences of GROUP springs, component by component. */
+struct group {
+  _Alignas(64) double x[GROUP], y[GROUP], z[GROUP], vx[GROUP], vy[GROUP], vz[GROUP];
 };
 
 HOOKE_INLINE size_t index_at(const void *index, ptrdiff_t k, const int wide) {
   return wide ? ((const uint32_t *)index)[k] : ((const uint16_t *)index)[k];
 }
 
-HOOKE_INLINE void subtract_rows(const uint8_t *restrict lower, const void *restrict upper, ptrdiff_t count,
-                                const double *restrict low, const double *restrict up,
-                                struct batch *restrict batch, const int damped, const int wide) {
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double *i = low + HOOKE_NET_ROW * (size_t)lower[k],
-                 *j = up + HOOKE_NET_ROW * index_at(upper, k, wide);
-    *(quad *)(batch->d + 4 * k) = *(const quad *)i - *(const quad *)j;
-    if (damped) *(couple *)(batch->w + 2 * k) = *(const couple *)(i + 4) - *(const couple *)(j + 4);
-  }
+HOOKE_INLINE const double *lower_row(const struct ends *ends, ptrdiff_t k) {
+  return ends->low + HOOKE_NET_ROW * (size_t)ends->lower[k];
 }
 
-HOOKE_INLINE int64_t find_strengths(const struct hooke_net_springs springs, ptrdiff_t count,
-                                    const double *restrict d, const double *restrict w, double *restrict s,
-                                    const int damped, const int pull, const int material) {
-  int64_t lost = 0;
-  HOOKE_VECTORISE
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double dx = d[4 * k], dy = d[4 * k + 1], dz = d[4 * k + 2];
-    const double rest_length = material ? springs.rest_lengths[k] : springs.rest_length;
-    const double kappa = material == HOOKE_NET_MIXED    ? springs.kappas[k]
-                         : material == HOOKE_NET_STRAIN ? springs.kappa / rest_length
-                                                        : springs.kappa;
-    const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
-    double brake = 0.0;
+HOOKE_INLINE const double *upper_row(const struct ends *ends, ptrdiff_t k, const int wide) {
+  return ends->up + HOOKE_NET_ROW * index_at(ends->upper, k, wide);
+}
+
+/* ---- differences: d of each spring is left where the force on its upper end goes ---- */
+
+typedef double loose_quad __attribute__((vector_size(32), aligned(8), may_alias));
+
+#if defined(__clang__)
+#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+typedef int64_t places __attribute__((vector_size(32)));
+#define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
+#endif
+
+#define KEEP(ends, k, d) *(quad *)((ends)->on_upper + HOOKE_NET_FORCE * (k)) = (d)
+
+HOOKE_INLINE void subtract_one(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                               const int wide) {
+  const double *i = lower_row(ends, k), *j = upper_row(ends, k, wide);
+  const quad d = *(const quad *)i - *(const quad *)j;
+  KEEP(ends, k, d);
+  group->x[0] = d[0];
+  group->y[0] = d[1];
+  group->z[0] = d[2];
+  group->vz[0] = d[3];
+  if (!damped) return;
+  group->vx[0] = i[4] - j[4];
+  group->vy[0] = i[5] - j[5];
+}
+
+#if HOOKE_WIDTH == 8
+
+HOOKE_INLINE __m512d subtract_rows(const struct ends *ends, ptrdiff_t k, const int wide) {
+  const __m512d d =
+      _mm512_sub_pd(_mm512_load_pd(lower_row(ends, k)), _mm512_load_pd(upper_row(ends, k, wide)));
+  KEEP(ends, k, (quad)_mm512_castpd512_pd256(d));
+  return d;
+}
+
+/* Couples of numbers: two of a, two of b. */
+#define COUPLES(a, b, a0, a1, b0, b1) _mm512_shuffle_f64x2(a, b, (a0) | (a1) << 2 | (b0) << 4 | (b1) << 6)
+
+/* Rows are x y z vz vx vy: of each two, those in even places lie couple by couple in `even`, the others in `odd`. */
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+#define TWO(n)                                                                                               \
+  const __m512d a##n = subtract_rows(ends, k + (n), wide), b##n = subtract_rows(ends, k + (n) + 1, wide),    \
+                even##n = _mm512_unpacklo_pd(a##n, b##n), odd##n = _mm512_unpackhi_pd(a##n, b##n)
+  TWO(0);
+  TWO(2);
+  TWO(4);
+  TWO(6);
+  const __m512d xz0 = COUPLES(even0, even2, 0, 1, 0, 1), xz4 = COUPLES(even4, even6, 0, 1, 0, 1),
+                yvz0 = COUPLES(odd0, odd2, 0, 1, 0, 1), yvz4 = COUPLES(odd4, odd6, 0, 1, 0, 1);
+  _mm512_store_pd(group->x, COUPLES(xz0, xz4, 0, 2, 0, 2));
+  _mm512_store_pd(group->y, COUPLES(yvz0, yvz4, 0, 2, 0, 2));
+  _mm512_store_pd(group->z, COUPLES(xz0, xz4, 1, 3, 1, 3));
+  if (!damped) return;
+  _mm512_store_pd(group->vz, COUPLES(yvz0, yvz4, 1, 3, 1, 3));
+  const __m512d vx0 = COUPLES(even0, even2, 2, 2, 2, 2), vx4 = COUPLES(even4, even6, 2, 2, 2, 2),
+                vy0 = COUPLES(odd0, odd2, 2, 2, 2, 2), vy4 = COUPLES(odd4, odd6, 2, 2, 2, 2);
+  _mm512_store_pd(group->vx, COUPLES(vx0, vx4, 0, 2, 0, 2));
+  _mm512_store_pd(group->vy, COUPLES(vy0, vy4, 0, 2, 0, 2));
+}
+
+#elif HOOKE_WIDTH == 4
+
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+#define ROW(n)                                                                                               \
+  const double *i##n = lower_row(ends, k + (n)), *j##n = upper_row(ends, k + (n), wide);                     \
+  const quad d##n = *(const quad *)i##n - *(const quad *)j##n;                                               \
+  KEEP(ends, k + (n), d##n)
+  ROW(0);
+  ROW(1);
+  ROW(2);
+  ROW(3);
+  const quad even0 = PICK(d0, d1, 0, 4, 2, 6), even2 = PICK(d2, d3, 0, 4, 2, 6),
+             odd0 = PICK(d0, d1, 1, 5, 3, 7), odd2 = PICK(d2, d3, 1, 5, 3, 7);
+  *(quad *)group->x = PICK(even0, even2, 0, 1, 4, 5);
+  *(quad *)group->y = PICK(odd0, odd2, 0, 1, 4, 5);
+  *(quad *)group->z = PICK(even0, even2, 2, 3, 6, 7);
+  if (!damped) return;
+  *(quad *)group->vz = PICK(odd0, odd2, 2, 3, 6, 7);
+#define FLOW(n) const couple v##n = *(const couple *)(i##n + 4) - *(const couple *)(j##n + 4)
+  FLOW(0);
+  FLOW(1);
+  FLOW(2);
+  FLOW(3);
+  const quad v02 = {v0[0], v0[1], v2[0], v2[1]}, v13 = {v1[0], v1[1], v3[0], v3[1]};
+  *(quad *)group->vx = PICK(v02, v13, 0, 4, 2, 6);
+  *(quad *)group->vy = PICK(v02, v13, 1, 5, 3, 7);
+}
+
+#else
+
+/* Two numbers of a row, the `at`-th and the next, of two springs. */
+HOOKE_INLINE void subtract_couples(const struct ends *ends, ptrdiff_t k, ptrdiff_t at, double *first,
+                                   double *second, const int wide) {
+  const couple a =
+      *(const couple *)(lower_row(ends, k) + at) - *(const couple *)(upper_row(ends, k, wide) + at);
+  const couple b =
+      *(const couple *)(lower_row(ends, k + 1) + at) - *(const couple *)(upper_row(ends, k + 1, wide) + at);
+  *(couple *)first = (couple){a[0], b[0]};
+  *(couple *)second = (couple){a[1], b[1]};
+  if (at >= HOOKE_NET_FORCE) return;
+  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * k + at) = a;
+  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * (k + 1) + at) = b;
+}
+
+HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
+                                 const int wide) {
+  subtract_couples(ends, k, 0, group->x, group->y, wide);
+  subtract_couples(ends, k, 2, group->z, group->vz, wide);
+  if (damped) subtract_couples(ends, k, 4, group->vx, group->vy, wide);
+}
+
+#endif
+
+/* ---- strengths and forces ---- */
+
+/* Stiffness or damping of the springs from k on: their own, a share of the rest length, or one for all. */
+HOOKE_INLINE vec strength_of(const double *own, double shared, ptrdiff_t k, vec rest, const int material) {
+  if (material == HOOKE_NET_MIXED) return hooke_load(own + k);
+  if (material == HOOKE_NET_STRAIN) return hooke_all(shared) / rest;
+  return hooke_all(shared);
+}
+
+HOOKE_INLINE void find_strengths(const struct hooke_net_springs *springs, ptrdiff_t from,
+                                 const struct group *group, struct batch *batch, const int damped,
+                                 const int pull, const int material) {
+  for (ptrdiff_t n = 0; n < GROUP; n += HOOKE_WIDTH) {
+    const ptrdiff_t k = from + n;
+    const vec dx = hooke_load(group->x + n), dy = hooke_load(group->y + n), dz = hooke_load(group->z + n);
+    const vec rest = material ? hooke_load(springs->rest_lengths + k) : hooke_all(springs->rest_length);
+    const vec kappa = strength_of(springs->kappas, springs->kappa, k, rest, material);
+    const vec r = hooke_vector_sqrt((dx * dx + dy * dy) + dz * dz);
+    const hooke_vector_mask together = (hooke_vector_mask)(r == 0.0);
+    const vec ir = (vec)((hooke_vector_mask)(1.0 / r) & ~together);
+    vec tension = kappa * (r - rest);
     if (damped) {
-      const double gamma = material == HOOKE_NET_MIXED    ? springs.gammas[k]
-                           : material == HOOKE_NET_STRAIN ? springs.gamma / rest_length
-                                                          : springs.gamma;
-      brake = gamma * (((w[2 * k] * dx + w[2 * k + 1] * dy) + d[4 * k + 3] * dz) * ir);
+      const vec gamma = strength_of(springs->gammas, springs->gamma, k, rest, material);
+      const vec vx = hooke_load(group->vx + n), vy = hooke_load(group->vy + n),
+                vz = hooke_load(group->vz + n);
+      tension = tension + gamma * (((vx * dx + vy * dy) + vz * dz) * ir);
     }
-    s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
-    lost += (r == 0.0) & (rest_length != 0.0);
-  }
-  return lost;
-}
-
-HOOKE_INLINE void write_pairs(ptrdiff_t count, const struct batch *restrict batch, double *restrict pair) {
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double s = batch->s[k];
-    const quad strength = {s, s, s, s};
-    const quad b = strength * *(const quad *)(batch->d + 4 * k);
-    *(quad *)(pair + HOOKE_NET_ROW * k) = b;
-    *(quad *)(pair + HOOKE_NET_ROW * k + 4) = -b;
+    if (pull) tension = (vec)((hooke_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
+    hooke_store(batch->s + k, tension * ir);
+    batch->lost[n / HOOKE_WIDTH] -= together & (hooke_vector_mask)(rest != 0.0);
   }
 }
 
-HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,
-                          const double *upper, double *pair, const int damped, const int pull, const int wide,
-                          const int material) {
+/* Of the first of a group alone. */
+HOOKE_INLINE int64_t find_strength(const struct hooke_net_springs *springs, ptrdiff_t k,
+                                   const struct group *group, struct batch *batch, const int damped,
+                                   const int pull, const int material) {
+  const double dx = group->x[0], dy = group->y[0], dz = group->z[0];
+  const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
+  const double share = material == HOOKE_NET_STRAIN ? rest_length : 1.0;
+  const double kappa = material == HOOKE_NET_MIXED ? springs->kappas[k] : springs->kappa / share;
+  const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+  double brake = 0.0;
+  if (damped) {
+    const double gamma = material == HOOKE_NET_MIXED ? springs->gammas[k] : springs->gamma / share;
+    brake = gamma * (((group->vx[0] * dx + group->vy[0] * dy) + group->vz[0] * dz) * ir);
+  }
+  batch->s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+  return (r == 0.0) & (rest_length != 0.0);
+}
+
+HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_t to, const double *s) {
+  for (ptrdiff_t k = from; k < to; k++) {
+    const quad strength = {s[k], s[k], s[k], s[k]};
+    const quad b = strength * *(const quad *)(ends->on_upper + HOOKE_NET_FORCE * k);
+    *(quad *)(ends->on_upper + HOOKE_NET_FORCE * k) = b;
+    *(quad *)(ends->on_lower + HOOKE_NET_FORCE * k) = -b;
+  }
+}
+
+/* Forces are written so many springs after their strengths were begun, or groups would wait for roots and quotients. */
+enum { BEHIND = 3 * GROUP };
+
+HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *low,
+                          const double *up, double *on_lower, double *on_upper, const int damped,
+                          const int pull, const int wide, const int material) {
+  const struct ends ends = {springs->lower, springs->upper, low, up, on_lower, on_upper};
   struct batch batch;
-  subtract_rows(springs->lower, springs->upper, count, lower, upper, &batch, damped, wide);
-  const int64_t lost = find_strengths(*springs, count, batch.d, batch.w, batch.s, damped, pull, material);
-  write_pairs(count, &batch, pair);
+  struct group group;
+  memset(batch.lost, 0, sizeof batch.lost);
+  ptrdiff_t k = 0;
+  int64_t lost = 0;
+  for (; k + GROUP <= count; k += GROUP) {
+    subtract_group(&ends, k, &group, damped, wide);
+    find_strengths(springs, k, &group, &batch, damped, pull, material);
+    if (k >= BEHIND) write_forces(&ends, k - BEHIND, k - BEHIND + GROUP, batch.s);
+  }
+  const ptrdiff_t written = k > BEHIND ? k - BEHIND : 0;
+  for (; k < count; k++) {
+    subtract_one(&ends, k, &group, damped, wide);
+    lost += find_strength(springs, k, &group, &batch, damped, pull, material);
+  }
+  write_forces(&ends, written, count, batch.s);
+  for (int n = 0; n < GROUP; n++)
+    lost += batch.lost[n / HOOKE_WIDTH][n % HOOKE_WIDTH];
   return lost;
 }
 
 /* ---- sums ---- */
 
-HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *half,
-                             const double *restrict pair, double *const f[3], const int wide) {
+HOOKE_INLINE const quad *force_at(const double *force, const void *place, ptrdiff_t k, const int wide) {
+  return (const quad *)(force + HOOKE_NET_FORCE * index_at(place, k, wide));
+}
+
+HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *place,
+                             const double *restrict force, double *const f[3], const int wide) {
   double *restrict x = f[0], *restrict y = f[1], *restrict z = f[2];
   ptrdiff_t k = 0;
   for (ptrdiff_t p = 0; p < count; p++) {
-    const ptrdiff_t end = k + degree[p];
     quad total = {0.0, 0.0, 0.0, 0.0};
-    for (; k + 1 < end; k += 2) {
-      total += *(const quad *)(pair + 4 * index_at(half, k, wide));
-      total += *(const quad *)(pair + 4 * index_at(half, k + 1, wide));
+    ptrdiff_t left = degree[p];
+    for (; left >= 4; left -= 4, k += 4) {
+      total += *force_at(force, place, k, wide);
+      total += *force_at(force, place, k + 1, wide);
+      total += *force_at(force, place, k + 2, wide);
+      total += *force_at(force, place, k + 3, wide);
     }
-    if (k < end) total += *(const quad *)(pair + 4 * index_at(half, k++, wide));
+    if (left & 2) {
+      total += *force_at(force, place, k, wide);
+      total += *force_at(force, place, k + 1, wide);
+      k += 2;
+    }
+    if (left & 1) total += *force_at(force, place, k++, wide);
     x[p] = total[0];
     y[p] = total[1];
     z[p] = total[2];
   }
-  return wide ? (const void *)((const uint32_t *)half + k) : (const void *)((const uint16_t *)half + k);
+  return wide ? (const void *)((const uint32_t *)place + k) : (const void *)((const uint16_t *)place + k);
 }
 
-static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *half, const double *pair,
+static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
                               double *const f[3]) {
-  return sum(count, degree, half, pair, f, 0);
+  return sum(count, degree, place, force, f, 0);
 }
 
-static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *half, const double *pair,
+static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
                             double *const f[3]) {
-  return sum(count, degree, half, pair, f, 1);
+  return sum(count, degree, place, force, f, 1);
+}
+
+/* ---- rows ---- */
+
+static void row_of(ptrdiff_t p, const double *const q[3], const double *const v[3], double *restrict row) {
+  row[0] = q[0][p];
+  row[1] = q[1][p];
+  row[2] = q[2][p];
+  if (v == NULL) return;
+  row[3] = v[2][p];
+  row[4] = v[0][p];
+  row[5] = v[1][p];
+}
+
+/* Four rows from four numbers of each component; zeros for z and w where they are NULL. */
+HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, const double *w, double *row) {
+  const quad four_x = *(const loose_quad *)x, four_y = *(const loose_quad *)y;
+  quad four_z = {0.0, 0.0, 0.0, 0.0}, four_w = {0.0, 0.0, 0.0, 0.0};
+  if (z) four_z = *(const loose_quad *)z;
+  if (w) four_w = *(const loose_quad *)w;
+  const quad xy02 = PICK(four_x, four_y, 0, 4, 2, 6), xy13 = PICK(four_x, four_y, 1, 5, 3, 7),
+             zw02 = PICK(four_z, four_w, 0, 4, 2, 6), zw13 = PICK(four_z, four_w, 1, 5, 3, 7);
+  *(quad *)row = PICK(xy02, zw02, 0, 1, 4, 5);
+  *(quad *)(row + HOOKE_NET_ROW) = PICK(xy13, zw13, 0, 1, 4, 5);
+  *(quad *)(row + 2 * HOOKE_NET_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
+  *(quad *)(row + 3 * HOOKE_NET_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
+}
+
+static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
+                      const double *const v[3], double *rows) {
+  ptrdiff_t p = 0;
+  for (; HOOKE_WIDTH > 2 && p + 4 <= count && order == NULL; p += 4) {
+    double *row = rows + HOOKE_NET_ROW * p;
+    turn_four(q[0] + p, q[1] + p, q[2] + p, v ? v[2] + p : NULL, row);
+    if (v) turn_four(v[0] + p, v[1] + p, NULL, NULL, row + 4);
+  }
+  for (; p < count; p++)
+    row_of(order ? order[p] : p, q, v, rows + HOOKE_NET_ROW * p);
 }
 
 /* ---- the set ---- */
@@ -113,9 +336,9 @@ static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void 
 #define NAME(shape) fill_##shape
 #define FILL(shape)                                                                                          \
   static int64_t NAME(shape)(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,  \
-                             const double *upper, double *pair) {                                            \
-    return fill(springs, count, lower, upper, pair, (shape)&HOOKE_NET_DAMPED, (shape)&HOOKE_NET_PULL_ONLY,   \
-                (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);                                            \
+                             const double *upper, double *on_lower, double *on_upper) {                      \
+    return fill(springs, count, lower, upper, on_lower, on_upper, (shape)&HOOKE_NET_DAMPED,                  \
+                (shape)&HOOKE_NET_PULL_ONLY, (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);               \
   }
 #define FOUR(what, a, b, c, d) what(a) what(b) what(c) what(d)
 #define EVERY(what)                                                                                          \
@@ -129,4 +352,5 @@ EVERY(FILL)
 
 #define ENTRY(shape) NAME(shape),
 
-const struct hooke_net_loops HOOKE_NET_LOOPS = {.fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}};
+const struct hooke_net_loops HOOKE_NET_LOOPS = {
+    .fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}, .rows = copy_rows};

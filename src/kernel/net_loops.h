@@ -1,6 +1,6 @@
 /* The loops of nets: springs whose ends are looked up, summed in one pass over tiles of particles. Positions and
- * velocities of the particles near a tile are in rows, forces of the springs near it in pairs b and -b, with F = -b on the
- * lower end, so that the sum at a particle is a sum of rows that are looked up. */
+ * velocities of the particles near a tile are in rows; what a spring does to its two ends is in rows of forces, so that the
+ * sum at a particle is a sum of rows that are looked up. */
 #ifndef HOOKE_KERNEL_NET_LOOPS_H
 #define HOOKE_KERNEL_NET_LOOPS_H
 
@@ -8,9 +8,9 @@
 #include <stdint.h>
 
 enum {
-  HOOKE_NET_ROW =
-      8, /* numbers in a row (x, y, z, vz, vx, vy, two unused), and in a pair (b, unused, -b, unused) */
-  HOOKE_NET_BATCH = 128 /* most springs that are filled at once */
+  HOOKE_NET_ROW = 8,    /* numbers in a row of a particle: x, y, z, vz, vx, vy, two unused */
+  HOOKE_NET_FORCE = 4,  /* in a row of a force: x, y, z, one unused */
+  HOOKE_NET_BATCH = 256 /* most springs that are filled at once */
 };
 
 /* The shape of springs that are filled together is a sum of these. */
@@ -31,21 +31,22 @@ struct hooke_net_springs {
   const double *kappas, *gammas, *rest_lengths;
 };
 
-/* Pairs of `count` springs; returns how many had a rest length but no direction. */
+/* Forces of `count` springs on their lower and upper ends; returns how many had a rest length but no direction. */
 typedef int64_t hooke_net_fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,
-                               const double *upper, double *pair);
+                               const double *upper, double *on_lower, double *on_upper);
 
-/* f = sums of halves of pairs, degree[p] of them at particle p, in the order of `half`; returns where `half` ends. */
-typedef const void *hooke_net_sum(ptrdiff_t count, const uint16_t *degree, const void *half,
-                                  const double *pair, double *const f[3]);
+/* f = sums of the rows of forces at `place`, degree[p] of them at particle p, in this order; returns where `place` ends. */
+typedef const void *hooke_net_sum(ptrdiff_t count, const uint16_t *degree, const void *place,
+                                  const double *force, double *const f[3]);
+
+/* Rows of `count` particles, those that `order` (NULL: the first ones) says; v NULL: positions alone. */
+typedef void hooke_net_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
+                            const double *const v[3], double *rows);
 
 struct hooke_net_loops {
   hooke_net_fill *fill[HOOKE_NET_SHAPES];
   hooke_net_sum *sum[2]; /* narrow, wide */
+  hooke_net_rows *rows;
 };
-
-/* Rows of `count` particles, those that `order` (NULL: the first ones) says; v NULL: positions alone. */
-void hooke_net_rows(ptrdiff_t count, const int32_t *order, const double *const q[3], const double *const v[3],
-                    double *rows);
 
 #endif

@@ -12,7 +12,7 @@ enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
   const int64_t border =
-      system->net.particles > 0 ? system->net.pairs : system->lanes.count * system->lanes.reach;
+      system->net.particles > 0 ? system->net.ring : system->lanes.count * system->lanes.reach;
   int64_t members = 1;
   if (system->net.particles > 0 || system->lanes.count > 0)
     members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);

@@ -176,12 +176,14 @@ static void measure(struct maker *maker) {
     if (net->tile[t].reach < net->tile[t - 1].reach) net->tile[t].reach = net->tile[t - 1].reach;
   }
   for (int64_t t = 0; t < net->tiles; t++) {
-    const int64_t rows = net->tile[t].reach - t * HOOKE_TILE, pairs = net->tile[t].end - net->tile[t].before;
+    const int64_t rows = net->tile[t].reach - t * HOOKE_TILE, ring = net->tile[t].end - net->tile[t].before,
+                  list = net->tile[t].end - (t > 0 ? net->tile[t - 1].end : 0);
     if (rows > net->rows) net->rows = rows;
-    if (pairs > net->pairs) net->pairs = pairs;
+    if (ring > net->ring) net->ring = ring;
+    if (list > net->list) net->list = list;
   }
   net->rows = (net->rows + HOOKE_TILE - 1) / HOOKE_TILE * HOOKE_TILE; /* no tile is cut */
-  net->wide = net->rows > UINT16_MAX || 2 * net->pairs > UINT16_MAX;
+  net->wide = net->rows > UINT16_MAX || net->list + net->ring > UINT16_MAX;
 }
 
 static void put(void *index, int64_t at, int64_t value, int32_t wide) {
@@ -189,6 +191,10 @@ static void put(void *index, int64_t at, int64_t value, int32_t wide) {
     ((uint32_t *)index)[at] = (uint32_t)value;
   else
     ((uint16_t *)index)[at] = (uint16_t)value;
+}
+
+int64_t hooke_net_numbers(const struct hooke_net *net) {
+  return HOOKE_NET_ROW * net->rows + HOOKE_NET_FORCE * (net->list + net->ring);
 }
 
 static int count_degrees(struct maker *maker) {
@@ -216,18 +222,19 @@ static int32_t fill_ends(struct maker *maker) {
   const int64_t m = net->springs, width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t);
   net->lower = hooke_new(m, 1);
   net->upper = hooke_new(m, (size_t)width);
-  net->half = hooke_new(2 * m, (size_t)width);
-  if (!net->lower || !net->upper || !net->half) return HOOKE_NO_MEMORY;
+  net->force = hooke_new(2 * m, (size_t)width);
+  if (!net->lower || !net->upper || !net->force) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < net->particles; p++)
     maker->next[p] = net->degree[p];
   sum_up(maker->next, net->particles);
   for (int64_t s = 0; s < m; s++) {
     const int32_t i = maker->lower[s], j = maker->upper[s], at = maker->at[s];
     ask_for_places(maker, ahead(s, m));
+    const int64_t tile = i / HOOKE_TILE, first = tile > 0 ? net->tile[tile - 1].end : 0;
     net->lower[at] = (uint8_t)(i % HOOKE_TILE);
     put(net->upper, at, j % net->rows, net->wide);
-    put(net->half, maker->next[i]++, 2 * (at % net->pairs) + 1, net->wide);
-    put(net->half, maker->next[j]++, 2 * (at % net->pairs), net->wide);
+    put(net->force, maker->next[i]++, at - first, net->wide);
+    put(net->force, maker->next[j]++, net->list + at % net->ring, net->wide);
   }
   return HOOKE_OK;
 }
@@ -301,7 +308,7 @@ static int32_t make(struct maker *maker, const double *inverse_mass) {
   hooke_free(sorted);
   if (status != HOOKE_OK) return status;
   measure(maker);
-  const double bytes = (double)(net->rows + net->pairs) * (HOOKE_NET_ROW * sizeof(double));
+  const double bytes = (double)(hooke_net_numbers(net) * (int64_t)sizeof(double));
   if (!count_degrees(maker) || bytes > fmax(MOST_BYTES, MOST_BYTES_A_PARTICLE * (double)net->particles)) {
     hooke_net_release(net);
     return HOOKE_OK;
@@ -327,7 +334,7 @@ int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, 
 
 void hooke_net_release(struct hooke_net *net) {
   void *const block[] = {net->tile,  net->order, net->inverse_mass, net->batch, net->lower,  net->upper,
-                         net->kappa, net->gamma, net->rest_length,  net->place, net->degree, net->half};
+                         net->kappa, net->gamma, net->rest_length,  net->place, net->degree, net->force};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hooke_free(block[k]);
   memset(net, 0, sizeof *net);

@@ -2,9 +2,11 @@
  *
  * Particles get a working numbering in which neighbours are near each other, unless their own is good enough. Springs are
  * stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of the springs that begin in a
- * tile go into a ring, which reaches back to the first spring that ends in it, and each particle then takes its springs
- * from there in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the particles of
- * a tile after that, so its positions may move at once. */
+ * tile go, on their lower ends, into a list of the tile and, on their upper ends, into a ring, which reaches back to the
+ * first spring that ends in it; each particle then takes its springs from both in ascending spring number, so that sums
+ * have the bits of the plain order. Nothing looks at the particles of a tile after that, so its positions may move at
+ * once. Members of a crew have ranges of tiles: they do the springs that end in their range from earlier ones too, and save
+ * what they need of later ones, before anything moves. */
 #ifndef HOOKE_MODEL_NET_H
 #define HOOKE_MODEL_NET_H
 
@@ -44,9 +46,10 @@ struct hooke_net {
 
   /* by particle */
   uint16_t *degree;
-  void *half; /* as wide as `upper`: halves of pairs in the ring, in ascending spring number */
+  void *
+      force; /* as wide as `upper`: places in the list, and `list` + those in the ring, in ascending spring number */
 
-  int64_t rows, pairs; /* that a window and a ring hold */
+  int64_t rows, list, ring; /* that a window, a list of a tile and a ring hold */
 };
 
 /* HOOKE_NO_MEMORY. Material goes from the springs to the net. Without a net if runs or lanes do as well. */
@@ -64,6 +67,9 @@ int32_t hooke_net_number(int64_t particles, int64_t springs, const int32_t *head
 
 /* Classes of the springs of all runs, in net->class; class_of has one for each run. */
 void hooke_net_classify(const struct hooke_springs *springs, struct hooke_net *net, int32_t *class_of);
+
+/* Numbers in window, list and ring. */
+int64_t hooke_net_numbers(const struct hooke_net *net);
 
 /* Windows and rings of one pass at a time by so many members of a crew. NULL without memory. */
 struct hooke_net_scratch;

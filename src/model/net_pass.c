@@ -25,7 +25,8 @@ static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double 
     q[a] = order ? m->q[a] : m->q[a] + from;
     v[a] = order ? m->v[a] : m->v[a] + from;
   }
-  hooke_net_rows((ptrdiff_t)(to - from), order ? order + from : NULL, q, m->net->damped ? v : NULL, rows);
+  m->net->loops->rows((ptrdiff_t)(to - from), order ? order + from : NULL, q, m->net->damped ? v : NULL,
+                      rows);
 }
 
 /* The window reaches to particle `to` - 1; those from `saved` on are taken from what was saved. */
@@ -65,12 +66,14 @@ static void fill_class(const struct pass *pass, struct hooke_net_share *share, i
   const struct hooke_net_class *class = &net->class[c];
   const double *low = share->rows + HOOKE_NET_ROW * (tile * HOOKE_TILE % net->rows);
   hooke_net_fill *fill = pass->motion->net->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
-  const int64_t end = share->done + count;
+  const int64_t first = tile > 0 ? net->tile[tile - 1].end : 0, end = share->done + count;
   while (share->done < end) {
-    const int64_t at = share->done % net->pairs,
-                  some = least(least(end - share->done, net->pairs - at), HOOKE_NET_BATCH);
+    const int64_t at = share->done % net->ring,
+                  some = least(least(end - share->done, net->ring - at), HOOKE_NET_BATCH);
     const struct hooke_net_springs springs = springs_at(net, class, share->done);
-    share->lost += fill(&springs, (ptrdiff_t)some, low, share->rows, share->pairs + HOOKE_NET_ROW * at);
+    share->lost += fill(&springs, (ptrdiff_t)some, low, share->rows,
+                        share->forces + HOOKE_NET_FORCE * (share->done - first),
+                        share->forces + HOOKE_NET_FORCE * (net->list + at));
     share->done += some;
   }
 }
@@ -100,13 +103,13 @@ static void go_over(int32_t member, int32_t members, void *ctx) {
   const struct hooke_net *net = pass->net;
   struct hooke_motion *m = pass->motion;
   struct hooke_net_share *share = &m->net->share[member];
-  const void *half = share->half;
+  const void *place = share->place;
   prepare(pass, share);
   hooke_crew_meet(m->crew);
   for (int64_t t = share->first; t < share->end; t++) {
     const int64_t from = t * HOOKE_TILE, end = least(from + HOOKE_TILE, net->particles);
     fill_tile(pass, share, t, share->end * HOOKE_TILE);
-    half = m->net->loops->sum[net->wide](end - from, net->degree + from, half, share->pairs, share->f);
+    place = m->net->loops->sum[net->wide](end - from, net->degree + from, place, share->forces, share->f);
     pass->tile(from, end - from, share->f, pass->ctx);
   }
 }

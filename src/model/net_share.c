@@ -34,12 +34,12 @@ static int64_t begin_of(const struct hooke_net *net, int64_t first, int64_t end)
   return tile;
 }
 
-static const void *half_of(const struct hooke_net *net, int64_t particle) {
+static const void *place_of(const struct hooke_net *net, int64_t particle) {
   int64_t at = 0;
   for (int64_t p = 0; p < particle; p++)
     at += net->degree[p];
-  return net->wide ? (const void *)((const uint32_t *)net->half + at)
-                   : (const void *)((const uint16_t *)net->half + at);
+  return net->wide ? (const void *)((const uint32_t *)net->force + at)
+                   : (const void *)((const uint16_t *)net->force + at);
 }
 
 static void place(const struct hooke_net *net, int32_t member, int32_t members,
@@ -48,7 +48,8 @@ static void place(const struct hooke_net *net, int32_t member, int32_t members,
   share->first = tile_at(net, work * member / members);
   share->end = tile_at(net, work * (member + 1) / members);
   share->begin = begin_of(net, share->first, share->end);
-  share->half = half_of(net, share->first * HOOKE_TILE);
+  const int64_t first = share->first * HOOKE_TILE; /* past the last particle if no tile is left */
+  share->place = place_of(net, first < net->particles ? first : net->particles);
   share->saved_end = share->end > share->first ? net->tile[share->end - 1].reach : 0;
 }
 
@@ -59,15 +60,15 @@ static int64_t saved_rows(const struct hooke_net_share *share) {
 
 /* A block of its own for each member, so that no two write to one page. */
 static int32_t new_block(const struct hooke_net *net, struct hooke_net_share *share, int64_t *memory) {
-  const int64_t numbers = HOOKE_NET_ROW * (net->rows + net->pairs + saved_rows(share)) + 3 * HOOKE_TILE;
+  const int64_t numbers = hooke_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + 3 * HOOKE_TILE;
   double *block = hooke_new(numbers, sizeof(double));
   if (block == NULL) return 0;
   *memory += numbers * (int64_t)sizeof(double);
   share->rows = block;
-  share->pairs = share->rows + HOOKE_NET_ROW * net->rows;
-  share->saved = share->pairs + HOOKE_NET_ROW * net->pairs;
+  share->saved = share->rows + HOOKE_NET_ROW * net->rows;
+  share->forces = share->saved + HOOKE_NET_ROW * saved_rows(share);
   for (int a = 0; a < 3; a++)
-    share->f[a] = share->saved + HOOKE_NET_ROW * saved_rows(share) + a * HOOKE_TILE;
+    share->f[a] = share->forces + HOOKE_NET_FORCE * (net->list + net->ring) + a * HOOKE_TILE;
   return 1;
 }
 

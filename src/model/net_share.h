@@ -8,9 +8,9 @@
  * which end in its own, and saves the rows of the particles from its last one to `saved_end` - 1, which others move. */
 struct hooke_net_share {
   int64_t begin, first, end, saved_end;
-  const void *half;                    /* of the first particle */
-  double *rows, *pairs, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
-  int64_t seen, done;                  /* particles in the window and springs in the ring so far */
+  const void *place;                    /* of the first force on the first particle */
+  double *rows, *forces, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
+  int64_t seen, done;                   /* particles in the window and springs in the ring so far */
   int64_t lost;
 };
 

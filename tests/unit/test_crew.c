@@ -4,8 +4,8 @@
 
 #include "core/crew.h"
 
-#include <signal.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -53,7 +53,7 @@ static void test_sums(void **unused) {
     sums->crew = hooke_crew_create(sizes[s]);
     assert_non_null(sums->crew);
     assert_int_equal(hooke_crew_members(sums->crew), sizes[s]);
-    sums->rounds = sizes[s] <= 3 ? 3000 : 300;
+    sums->rounds = sizes[s] <= 3 ? 1000 : 100;
     for (int32_t run = 0; run < 3; run++) {
       for (int64_t k = 0; k < COUNT; k++)
         sums->value[k] = k;
@@ -86,7 +86,7 @@ static void test_short_runs(void **unused) {
   (void)unused;
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
     struct steps steps = {.crew = hooke_crew_create(sizes[s])};
-    const int64_t runs = sizes[s] <= 3 ? 20000 : 1000;
+    const int64_t runs = sizes[s] <= 3 ? 5000 : 300;
     for (int64_t k = 1; k <= runs; k++) {
       hooke_crew_run(steps.crew, count_step, &steps);
       for (int32_t m = 0; m < sizes[s]; m++)

@@ -294,7 +294,8 @@ static void test_moves_agree(void **unused) {
 
 /* Springs of a trial whose upper ends are looked up as rows and whose lower ends are among the first rows. */
 struct net_trial {
-  double rows[PARTICLES][HOOKE_NET_ROW], pairs[HOOKE_NET_BATCH][HOOKE_NET_ROW];
+  double rows[PARTICLES][HOOKE_NET_ROW], on_lower[HOOKE_NET_BATCH][HOOKE_NET_FORCE],
+      on_upper[HOOKE_NET_BATCH][HOOKE_NET_FORCE];
   uint8_t lower[HOOKE_NET_BATCH];
   uint16_t narrow[2 * HOOKE_NET_BATCH];
   uint32_t wide[2 * HOOKE_NET_BATCH];
@@ -332,9 +333,9 @@ static void draw_net(struct random_source *source, int32_t shape, ptrdiff_t coun
   }
 }
 
-/* Each spring alone, in the plain loop: what it does to its ends are the halves of its pair. */
-static void check_pairs(const struct trial *trial, const struct net_trial *net, ptrdiff_t count,
-                        int64_t lost) {
+/* Each spring alone, in the plain loop: what it does to its ends. */
+static void check_forces(const struct trial *trial, const struct net_trial *net, ptrdiff_t count,
+                         int64_t lost) {
   double f[3][PARTICLES];
   struct trial one = *trial;
   one.run.head = one.head;
@@ -353,8 +354,8 @@ static void check_pairs(const struct trial *trial, const struct net_trial *net, 
       f[a][one.head[0]] = f[a][one.tail[0]] = 0.0;
     lost -= plain(&one, f);
     for (int a = 0; a < 3; a++) {
-      assert_true(net->pairs[k][a] == f[a][one.tail[0]]);
-      assert_true(net->pairs[k][4 + a] == f[a][one.head[0]]);
+      assert_true(net->on_upper[k][a] == f[a][one.tail[0]]);
+      assert_true(net->on_lower[k][a] == f[a][one.head[0]]);
     }
   }
   assert_int_equal(lost, 0);
@@ -375,14 +376,14 @@ static void check_sums(const struct hooke_net_loops *loops, struct random_source
   for (ptrdiff_t k = 0; k < used; k++)
     net->wide[k] = net->narrow[k] = (uint16_t)random_whole(source, 0, 2 * HOOKE_NET_BATCH - 1);
   for (int wide = 0; wide <= 1; wide++) {
-    const void *half = wide ? (const void *)net->wide : (const void *)net->narrow;
+    const void *place = wide ? (const void *)net->wide : (const void *)net->narrow;
     const void *end = wide ? (const void *)(net->wide + used) : (const void *)(net->narrow + used);
-    assert_ptr_equal(loops->sum[wide](particles, degree, half, net->pairs[0], f), end);
+    assert_ptr_equal(loops->sum[wide](particles, degree, place, net->on_lower[0], f), end);
     for (ptrdiff_t p = 0, at = 0; p < particles; p++) {
       double sum[3] = {0.0, 0.0, 0.0};
       for (int k = 0; k < degree[p]; k++, at++) {
         for (int a = 0; a < 3; a++)
-          sum[a] += net->pairs[net->wide[at] / 2][4 * (net->wide[at] % 2) + (uint32_t)a];
+          sum[a] += (&net->on_lower[0][0])[HOOKE_NET_FORCE * net->wide[at] + (uint32_t)a];
       }
       assert_true(x[p] == sum[0] && y[p] == sum[1] && z[p] == sum[2]);
     }
@@ -400,7 +401,8 @@ static void test_nets_agree(void **unused) {
     for (ptrdiff_t count = 1; count <= HOOKE_NET_BATCH; count += count < 20 ? 1 : 9) {
       for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
         draw_net(&source, shape, count, trial, net);
-        memset(net->pairs, 0, sizeof net->pairs);
+        memset(net->on_lower, 0, sizeof net->on_lower);
+        memset(net->on_upper, 0, sizeof net->on_upper);
         const struct hooke_net_springs springs = {.lower = net->lower,
                                                   .upper = shape & HOOKE_NET_WIDE ? (const void *)net->wide
                                                                                   : (const void *)net->narrow,
@@ -410,9 +412,9 @@ static void test_nets_agree(void **unused) {
                                                   .kappas = trial->kappas,
                                                   .gammas = trial->gammas,
                                                   .rest_lengths = trial->rest_lengths};
-        const int64_t lost =
-            set->net->fill[shape](&springs, count, net->rows[0], net->rows[0], net->pairs[0]);
-        check_pairs(trial, net, count, lost);
+        const int64_t lost = set->net->fill[shape](&springs, count, net->rows[0], net->rows[0],
+                                                   net->on_lower[0], net->on_upper[0]);
+        check_forces(trial, net, count, lost);
         check_sums(set->net, &source, net);
       }
     }
