@@ -46,13 +46,13 @@ static inline void relax(void) {
 #endif
 }
 
-/* Those that this process may use. */
-static int64_t processors(void) {
+int32_t hooke_crew_processors(void) {
 #if defined(__linux__)
   cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
 #endif
-  return sysconf(_SC_NPROCESSORS_ONLN);
+  const long count = sysconf(_SC_NPROCESSORS_ONLN);
+  return count > 0 ? (int32_t)count : 1;
 }
 
 /* ---- the barrier ---- */
@@ -126,7 +126,7 @@ static void start(struct hooke_crew *crew, int32_t members) {
     if (pthread_create(&seat->thread, NULL, serve, seat) != 0) break;
   }
   pthread_sigmask(SIG_SETMASK, &kept, NULL);
-  crew->spins = crew->members <= processors() ? SPINS : 0;
+  crew->spins = crew->members <= hooke_crew_processors() ? SPINS : 0;
   pthread_mutex_unlock(&crew->mutex);
 }
 

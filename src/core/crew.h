@@ -16,6 +16,9 @@ struct hooke_crew *hooke_crew_create(int32_t members);
 /* NULL is allowed. */
 void hooke_crew_destroy(struct hooke_crew *crew);
 
+/* How many processors this process may use. */
+int32_t hooke_crew_processors(void);
+
 /* 1 if crew is NULL. */
 int32_t hooke_crew_members(const struct hooke_crew *crew);
 

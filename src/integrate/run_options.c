@@ -84,7 +84,7 @@ static const struct hooke_option_row run_rows[] = {
      .high = 1024,
      .whole = 1,
      .fallback = "1",
-     .doc = "most threads that may be used; results do not depend on it"},
+     .doc = "most threads that may be used, as far as the scene is worth them; results do not depend on it"},
 };
 
 static const struct hooke_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};

@@ -11,11 +11,14 @@
 static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
+
 static int32_t row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
   hooke_options *options = NULL;
   const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
   int32_t status = hooke_options_copy(study->run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", study->method[method]);
+  /* rows side by side, each on a thread of its own */
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
   if (status == HOOKE_OK && hooke_study_is_adaptive(study, method)) {
     status = hooke_options_set_number(options, "rtol", value);
     if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", value * share);

@@ -17,6 +17,7 @@ int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
   if (system->net.particles > 0 || system->lanes.count > 0)
     members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
   if (members > most) members = most;
+  if (members > hooke_crew_processors()) members = hooke_crew_processors();
   return members > 1 ? (int32_t)members : 1;
 }
 
