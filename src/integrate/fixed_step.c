@@ -22,28 +22,51 @@ int32_t hooke_integrator_forces_without(hooke_integrator *it, double t,
   return keep_stop_value(it, hooke_motion_forces_without(it->system, it->motion, t, left_out));
 }
 
+struct sharing {
+  hooke_integrator *integrator;
+  hooke_particle_work *work;
+  void *ctx;
+};
+
+static void work_on_share(int32_t member, int32_t members, void *ctx) {
+  const struct sharing *sharing = ctx;
+  const hooke_system *system = sharing->integrator->system;
+  const int64_t n = system->particle_count, first = hooke_crew_share(n, HOOKE_TILE, member, members),
+                last = hooke_crew_share(n, HOOKE_TILE, member + 1, members);
+  for (int64_t s = 0; s < system->span_count; s++) {
+    const struct hooke_span span = system->span[s];
+    const int64_t from = span.from > first ? span.from : first,
+                  end = span.from + span.count < last ? span.from + span.count : last;
+    if (from < end) sharing->work(sharing->integrator, from, end - from, sharing->ctx);
+  }
+}
+
+void hooke_integrator_each(hooke_integrator *it, hooke_particle_work *work, void *ctx) {
+  hooke_crew_run(it->motion->crew, work_on_share, &(struct sharing){it, work, ctx});
+}
+
+static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  hooke_step_loop *loop = hooke_step_loop_of(*(const int32_t *)ctx);
+  const hooke_system *system = it->system;
+  const struct hooke_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    loop(count, it->schedule.step, system->inverse_mass + from, m->f[a] + from,
+         system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
+  }
+}
+
 int32_t hooke_integrator_move(hooke_integrator *it, int32_t kind) {
   const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
-  const double step = it->schedule.step;
-  if (m->f[0] == NULL) {
-    struct hooke_move move = {kind, system->has_gravity, step, system->drag, {0.0}};
-    memcpy(move.gravity, system->gravity, sizeof move.gravity);
+  if (it->motion->f[0] == NULL) {
+    struct hooke_move how = {kind, system->has_gravity, it->schedule.step, system->drag, {0.0}};
+    memcpy(how.gravity, system->gravity, sizeof how.gravity);
     it->count.force_evaluations++;
-    hooke_motion_pass(system, m, &move);
+    hooke_motion_pass(system, it->motion, &how);
     return HOOKE_OK;
   }
   const int32_t status = hooke_integrator_forces(it, it->t);
-  if (status != HOOKE_OK) return status;
-  hooke_step_loop *loop = hooke_step_loop_of(kind);
-  for (int64_t s = 0; s < system->span_count; s++) {
-    const int64_t from = system->span[s].from;
-    for (int a = 0; a < 3; a++) {
-      loop(system->span[s].count, step, system->inverse_mass + from, m->f[a] + from,
-           system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
-    }
-  }
-  return HOOKE_OK;
+  if (status == HOOKE_OK) hooke_integrator_each(it, move, &kind);
+  return status;
 }
 
 double hooke_integrator_next_time(const hooke_integrator *it) {

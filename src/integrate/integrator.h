@@ -82,6 +82,10 @@ int32_t hooke_integrator_forces_without(hooke_integrator *integrator, double t,
 /* Forces at the present time, and every particle moved under them in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or
  * HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
 int32_t hooke_integrator_move(hooke_integrator *integrator, int32_t kind);
+/* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
+typedef void hooke_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
+/* For all particles that are stepped. */
+void hooke_integrator_each(hooke_integrator *integrator, hooke_particle_work *work, void *ctx);
 /* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
 int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);

@@ -62,22 +62,19 @@ static int32_t step_rate(hooke_integrator *it) {
 }
 
 /* Velocities are the rate of positions, and have to be read before they move on. */
-static void move_motion(hooke_integrator *it, int stage) {
+static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const int stage = *(const int *)ctx;
   const struct rk4 *own = it->own;
   const hooke_system *system = it->system;
   struct hooke_motion *m = it->motion;
   const double h = it->schedule.step;
-  const int64_t n = m->n;
-  for (int64_t s = 0; s < system->span_count; s++) {
-    const int64_t from = system->span[s].from, count = system->span[s].count;
-    for (int a = 0; a < 3; a++) {
-      const int64_t q = a * n + from, v = (3 + a) * n + from;
-      double *f = m->f[a] + from;
-      hooke_acceleration(count, system->inverse_mass + from, system->has_gravity ? &system->gravity[a] : NULL,
-                         f);
-      move(stage, count, h, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
-      move(stage, count, h, f, own->start + v, own->sum + v, m->v[a] + from);
-    }
+  for (int a = 0; a < 3; a++) {
+    const int64_t q = a * m->n + from, v = (3 + a) * m->n + from;
+    double *f = m->f[a] + from;
+    hooke_acceleration(count, system->inverse_mass + from, system->has_gravity ? &system->gravity[a] : NULL,
+                       f);
+    move(stage, count, h, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
+    move(stage, count, h, f, own->start + v, own->sum + v, m->v[a] + from);
   }
 }
 
@@ -101,7 +98,7 @@ static int32_t step(hooke_integrator *it) {
       hooke_motion_restore(it->motion, own->start);
       return status;
     }
-    move_motion(it, stage);
+    hooke_integrator_each(it, move_motion, &stage);
   }
   return HOOKE_OK;
 }

@@ -93,46 +93,51 @@ static int32_t solve(hooke_integrator *it) {
   return status;
 }
 
-static int32_t second_kick(hooke_integrator *it) {
-  struct verlet *own = it->own;
+static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  (void)ctx;
   const hooke_system *system = it->system;
   struct hooke_motion *m = it->motion;
-  const double half = it->schedule.step / 2.0, t = hooke_integrator_next_time(it), *w = system->inverse_mass;
+  const double half = it->schedule.step / 2.0, *w = system->inverse_mass + from;
+  for (int a = 0; a < 3; a++) {
+    if (system->drag > 0.0)
+      hooke_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
+    else
+      hooke_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
+  }
+}
+
+static int32_t second_kick(hooke_integrator *it) {
+  struct verlet *own = it->own;
+  const double t = hooke_integrator_next_time(it);
   if (own->damped) {
     const int32_t status = hooke_integrator_forces(it, t);
     return status == HOOKE_OK ? solve(it) : status;
   }
   const int32_t status = hooke_integrator_forces_without(it, t, &hooke_force_drag);
-  for (int64_t s = 0; s < system->span_count && status == HOOKE_OK; s++) {
-    const int64_t from = system->span[s].from, n = system->span[s].count;
-    for (int a = 0; a < 3; a++) {
-      if (system->drag > 0.0)
-        hooke_kick_with_drag(n, half, system->drag, w + from, m->f[a] + from, gravity(system, a),
-                             m->v[a] + from);
-      else
-        hooke_kick(n, half, w + from, m->f[a] + from, gravity(system, a), m->v[a] + from);
-    }
-  }
+  if (status == HOOKE_OK) hooke_integrator_each(it, kick, NULL);
   own->kept = status == HOOKE_OK;
   return status;
 }
 
-static int32_t step(hooke_integrator *it) {
-  const struct verlet *own = it->own;
+static void kick_and_drift(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  (void)ctx;
   const hooke_system *system = it->system;
   struct hooke_motion *m = it->motion;
   const double h = it->schedule.step;
+  for (int a = 0; a < 3; a++) {
+    hooke_kick_and_drift(count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from, gravity(system, a),
+                         m->q[a] + from, m->v[a] + from);
+  }
+}
+
+static int32_t step(hooke_integrator *it) {
+  const struct verlet *own = it->own;
+  struct hooke_motion *m = it->motion;
   if (own->start) hooke_motion_save(m, own->start);
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
-  for (int64_t s = 0; s < system->span_count; s++) {
-    const int64_t from = system->span[s].from;
-    for (int a = 0; a < 3; a++) {
-      hooke_kick_and_drift(system->span[s].count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from,
-                           gravity(system, a), m->q[a] + from, m->v[a] + from);
-    }
-  }
-  if (system->held_count > 0) hooke_motion_hold(system, m);
+  hooke_integrator_each(it, kick_and_drift, NULL);
+  if (it->system->held_count > 0) hooke_motion_hold(it->system, m);
   status = second_kick(it);
   if (status != HOOKE_OK && own->start) hooke_motion_restore(m, own->start);
   return status;

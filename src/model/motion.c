@@ -237,20 +237,37 @@ int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, c
   return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
 }
 
-void hooke_motion_save(const struct hooke_motion *motion, double *place) {
-  const size_t bytes = (size_t)motion->n * sizeof(double);
-  for (int a = 0; a < 3; a++) {
-    memcpy(place + a * motion->n, motion->q[a], bytes);
-    memcpy(place + (3 + a) * motion->n, motion->v[a], bytes);
+struct copying {
+  const struct hooke_motion *motion;
+  double *place;
+  int32_t back;
+};
+
+static void copy_share(int32_t member, int32_t members, void *ctx) {
+  const struct copying *copying = ctx;
+  const struct hooke_motion *m = copying->motion;
+  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  for (int a = 0; a < 6; a++) {
+    double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->place + a * m->n + from;
+    memcpy(copying->back ? here : there, copying->back ? there : here, (size_t)count * sizeof(double));
   }
 }
 
-void hooke_motion_restore(struct hooke_motion *motion, const double *place) {
-  const size_t bytes = (size_t)motion->n * sizeof(double);
-  for (int a = 0; a < 3; a++) {
-    memcpy(motion->q[a], place + a * motion->n, bytes);
-    memcpy(motion->v[a], place + (3 + a) * motion->n, bytes);
-  }
+void hooke_motion_save(const struct hooke_motion *motion, double *place) {
+  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 0});
+}
+
+void hooke_motion_restore(struct hooke_motion *motion, double *place) {
+  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 1});
+}
+
+static void clear_forces(int32_t member, int32_t members, void *ctx) {
+  const struct hooke_motion *m = ctx;
+  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  for (int a = 0; a < 3; a++)
+    memset(m->f[a] + from, 0, (size_t)count * sizeof(double));
 }
 
 int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t) {
@@ -259,8 +276,7 @@ int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *mot
 
 int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
                                     const struct hooke_force_row *left_out) {
-  for (int a = 0; a < 3; a++)
-    memset(motion->f[a], 0, (size_t)motion->n * sizeof(double));
+  hooke_crew_run(motion->crew, clear_forces, motion);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hooke_force_row *row = system->force_row[k];
     if (row->add == NULL || row == left_out) continue;

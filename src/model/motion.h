@@ -51,7 +51,7 @@ void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v);
 int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v);
 /* Positions and velocities to and from `place`: 6 components of n each. */
 void hooke_motion_save(const struct hooke_motion *motion, double *place);
-void hooke_motion_restore(struct hooke_motion *motion, const double *place);
+void hooke_motion_restore(struct hooke_motion *motion, double *place);
 void hooke_rows_from_components(int64_t n, double *const component[3], double *rows);
 void hooke_components_from_rows(int64_t n, const double *rows, double *const component[3]);
 
