@@ -76,7 +76,7 @@ HOOKE_INLINE void fill(const struct hooke_lane_view *lane, const int lanes, cons
   }
   add(lane, lanes, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
-  EACH *shortest = hooke_lesser(*shortest, r[i]);
+  EACH *shortest = hooke_lesser(r[i], *shortest);
   EACH {
     const vec rest = mixed ? hooke_load(l[i].rest_lengths + own[i]) : hooke_all(l[i].rest_length);
     const vec kappa = mixed ? hooke_load(l[i].kappas + own[i]) : hooke_all(l[i].kappa);

@@ -2,8 +2,8 @@
  * vector of particles after the other.
  *
  * Spring l of a lane joins particles l and l + offset. Its force is written into the ring of the lane when the loop is at
- * particle l, and read once more there and at l + offset. Particles below the place of the loop are ends of no spring that is still to come, so
- * they may move at once. */
+ * particle l, and read once more there and at l + offset. Particles below the place of the loop are ends of no spring that
+ * is still to come, so they may move at once. */
 #ifndef HOOKE_KERNEL_LANE_LOOPS_H
 #define HOOKE_KERNEL_LANE_LOOPS_H
 
@@ -23,8 +23,8 @@ struct hooke_lane_view {
   ptrdiff_t offset, mask; /* mask: room of the ring less 1 */
   double *ring;           /* x of spring l at l & mask; y, z one and two strides on */
   double kappa, gamma, rest_length;
-  const double *kappas, *gammas,
-      *rest_lengths; /* mixed: those of spring l at l - base, and for a vector at `most` at most */
+  /* mixed: those of spring l at l - base; none of a unit that begins beyond `most` */
+  const double *kappas, *gammas, *rest_lengths;
   ptrdiff_t base, most;
 };
 

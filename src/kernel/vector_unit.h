@@ -35,7 +35,8 @@ HOOKE_INLINE hooke_vector hooke_all(double x) {
   return x - (hooke_vector){0}; /* x - 0 is x, the sign of a zero included */
 }
 
-/* ---- square root, the lesser of two, x where a bit is set and 0 elsewhere, 1 if some number is 0 ---- */
+/* ---- square root, the lesser of two (b if one is not a number), x where a bit is set and 0 elsewhere, 1 if some number
+ * is 0 ---- */
 
 #if HOOKE_WIDTH == 8
 

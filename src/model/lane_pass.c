@@ -66,15 +66,14 @@ struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t 
   rings->border_stride = 2 * lanes->reach + HOOKE_LANE_UNIT;
   numbers += members > 1 ? 6 * rings->border_stride : 0;
   rings->share = hooke_new(members, sizeof *rings->share);
-  rings->block = hooke_new(members * numbers + HOOKE_LANE_UNIT, sizeof(double));
+  rings->block = hooke_new(members * numbers, sizeof(double));
   rings->memory = (int64_t)sizeof *rings + members * (int64_t)sizeof *rings->share +
-                  (members * numbers + HOOKE_LANE_UNIT) * (int64_t)sizeof(double);
+                  members * numbers * (int64_t)sizeof(double);
   if (rings->share == NULL || rings->block == NULL) {
     hooke_rings_destroy(rings);
     return NULL;
   }
-  const uintptr_t line = HOOKE_LANE_UNIT * sizeof(double);
-  double *next = rings->block + (line - (uintptr_t)rings->block % line) % line / sizeof(double);
+  double *next = rings->block;
   for (int32_t m = 0; m < members; m++) {
     for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
       rings->share[m].ring[k] = next;
