@@ -1,15 +1,14 @@
 /* Trajectory files: what is written is what is read, nothing else is taken for a frame, failures are told. */
 #include "check.h"
+#include "file_limit.h"
 #include "core/memory.h"
 #include "io/array_h5.h"
 #include "run.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -292,22 +291,13 @@ static void a_link_stays_a_link(void **state) {
   check_file(f, f->copy, FRAMES);
 }
 
-/* Files may not grow beyond `size` bytes from here on; a write that tries fails. */
-static void limit_files(rlim_t size) {
-  struct rlimit limit;
-  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
-  limit.rlim_cur = size;
-  signal(SIGXFSZ, SIG_IGN);
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
-}
-
 static void an_old_file_stays_until_there_is_room(void **state) {
   struct fixture *f = *state;
   write_file(f->path, "precious");
-  for (rlim_t size = 0; size < 60000; size += 1500) {
+  for (int64_t size = 0; size < 60000; size += 1500) {
     limit_files(size);
     int32_t status = hooke_trajectory_create(f->path, f->system, f->integrator, NULL, &f->trajectory);
-    limit_files(RLIM_INFINITY);
+    lift_file_limit();
     if (status == HOOKE_OK) {
       assert_true(size > 5000);
       return;
@@ -328,7 +318,7 @@ static void a_failed_write_is_never_success(void **state) {
   check_status(hooke_trajectory_write(f->trajectory, 30, f->state), HOOKE_IO_FAILED);
   check_message(f->path);
   check_message("write frame 3: File too large");
-  limit_files(RLIM_INFINITY);
+  lift_file_limit();
   check_status(hooke_trajectory_write(f->trajectory, 30, f->state), HOOKE_IO_FAILED);
   check_message("write frame 3: File too large");
   check_status(close_file(f, HOOKE_OK), HOOKE_IO_FAILED);
@@ -343,7 +333,7 @@ static void a_failed_shortening_keeps_the_long_file(void **state) {
   run(f, HOOKE_STOPPED);
   limit_files(3000);
   const int32_t status = close_file(f, HOOKE_STOPPED);
-  limit_files(RLIM_INFINITY);
+  lift_file_limit();
   assert_int_equal(status, HOOKE_IO_FAILED);
   check_message("File too large");
   check_file(f, f->path, 5);

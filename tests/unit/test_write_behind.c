@@ -1,14 +1,13 @@
 /* Frames that a thread writes: the same bytes in the file, as many, and failures told. */
 #include "check.h"
+#include "file_limit.h"
 #include "core/memory.h"
 #include "io/array_h5.h"
 #include "run.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -145,15 +144,6 @@ static void small_frames_are_there_at_once(void **unused) {
   release(&f);
 }
 
-/* Files may not grow beyond `size` bytes from here on, and bytes behind that may not be written. */
-static void limit_files(rlim_t size) {
-  struct rlimit limit;
-  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
-  limit.rlim_cur = size;
-  signal(SIGXFSZ, SIG_IGN);
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
-}
-
 /* The frame that fails is told by the next call, and by all after it. */
 static void a_failed_write_is_told(void **unused) {
   (void)unused;
@@ -174,7 +164,7 @@ static void a_failed_write_is_told(void **unused) {
     check_status(hooke_trajectory_close(trajectory, HOOKE_OK), HOOKE_IO_FAILED);
     check_message("write frame 3: File too large");
     check_message(f.path);
-    limit_files(RLIM_INFINITY);
+    lift_file_limit();
     assert_int_equal(frames_in(f.path), 3);
   }
   release(&f);
