@@ -11,9 +11,9 @@
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
 struct share {
-  struct hooke_lane_pass pass;    /* lanes that the loop is at */
-  double *ring[HOOKE_MOST_LANES]; /* of every lane */
-  uint8_t open[HOOKE_MOST_LANES]; /* 0: has springs of another place, or none yet */
+  struct hooke_lane_view view[HOOKE_MOST_LANES]; /* every lane, with its ring here */
+  struct hooke_lane_pass pass;                   /* lanes that the loop is at */
+  uint8_t open[HOOKE_MOST_LANES];                /* 0: has springs of another place, or none yet */
   double *border; /* q and v, x y z apart, of `reach` particles at the end of the range, and of those after */
   int64_t from, to; /* the range */
   int64_t at, lost; /* the first particle that the loop has not come to */
@@ -51,6 +51,23 @@ static int64_t ring_room(const struct hooke_lane *lane) {
   return room;
 }
 
+static struct hooke_lane_view view_of(const struct hooke_lane *lane, double *ring) {
+  const int64_t base = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
+  return (struct hooke_lane_view){.shape = lane->shape,
+                                  .present = lane->present,
+                                  .offset = lane->offset,
+                                  .mask = ring_room(lane) - 1,
+                                  .ring = ring,
+                                  .kappa = lane->kappa,
+                                  .gamma = lane->gamma,
+                                  .rest_length = lane->rest_length,
+                                  .kappas = lane->kappas,
+                                  .gammas = lane->gammas,
+                                  .rest_lengths = lane->rest_lengths,
+                                  .base = base,
+                                  .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
+}
+
 static int64_t ring_size(const struct hooke_lane *lane) {
   return 3 * hooke_ring_stride(ring_room(lane) - 1);
 }
@@ -76,7 +93,7 @@ struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t 
   double *next = rings->block;
   for (int32_t m = 0; m < members; m++) {
     for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
-      rings->share[m].ring[k] = next;
+      rings->share[m].view[k] = view_of(&lanes->lane[k], next);
     rings->share[m].border = next;
     next += members > 1 ? 6 * rings->border_stride : 0;
   }
@@ -94,21 +111,16 @@ int64_t hooke_rings_memory(const struct hooke_rings *rings) {
   return rings ? rings->memory : 0;
 }
 
-static struct hooke_lane_view view_of(const struct hooke_lane *lane, double *ring) {
-  const int64_t base = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
-  return (struct hooke_lane_view){.shape = lane->shape,
-                                  .present = lane->present,
-                                  .offset = lane->offset,
-                                  .mask = ring_room(lane) - 1,
-                                  .ring = ring,
-                                  .kappa = lane->kappa,
-                                  .gamma = lane->gamma,
-                                  .rest_length = lane->rest_length,
-                                  .kappas = lane->kappas,
-                                  .gammas = lane->gammas,
-                                  .rest_lengths = lane->rest_lengths,
-                                  .base = base,
-                                  .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
+/* No springs below particle `from`, as far as the ring is read from there on. */
+static void clear_below(const struct hooke_lane_view *lane, int64_t from) {
+  const int64_t room = lane->mask + 1, first = (from - lane->offset) & lane->mask,
+                before_end = lesser(lane->offset, room - first), wrapped = lane->offset - before_end;
+  for (int a = 0; a < 3; a++) {
+    double *x = lane->ring + a * hooke_ring_stride(lane->mask);
+    memset(x + first, 0, (size_t)before_end * sizeof(double));
+    memset(x, 0, (size_t)wrapped * sizeof(double));
+    memset(x + room, 0, (size_t)lesser(wrapped, HOOKE_LANE_UNIT) * sizeof(double));
+  }
 }
 
 /* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the particle up to
@@ -122,9 +134,9 @@ static int64_t set_lanes(const struct hooke_lanes *lanes, struct share *share, i
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
-    if (!share->open[k]) memset(share->ring[k], 0, (size_t)ring_size(lane) * sizeof(double));
+    if (!share->open[k]) clear_below(&share->view[k], from);
     share->open[k] = 1;
-    share->pass.lane[share->pass.count++] = view_of(lane, share->ring[k]);
+    share->pass.lane[share->pass.count++] = share->view[k];
   }
   return to;
 }
