@@ -13,7 +13,10 @@ import pytest
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 BUILD = Path(os.environ["HOOKE_BUILD_DIR"])
 CONSUMER = Path(__file__).with_name("consumer")
-CMAKE, CC = os.environ["HOOKE_CMAKE"], os.environ["HOOKE_CC"]
+EXAMPLES = ROOT / "examples/c"
+CMAKE, CC, CXX = os.environ["HOOKE_CMAKE"], os.environ["HOOKE_CC"], os.environ["HOOKE_CXX"]
+PRESET = os.environ["HOOKE_PRESET"]
+PARTS = ("SUNDIALS", "CHOLMOD", "GSL", "ARPACK", "HDF5", "JANSSON", "CHARTJS")
 VERSION = re.search(r'#define HOOKE_VERSION +"(.+)"', (ROOT / "include/hooke/base.h").read_text()).group(1)
 
 
@@ -28,14 +31,17 @@ def needed(program):
     return "libhooke.so." in text
 
 
-def check(shared, static):
-    for program in (shared, static):
-        assert run(program).startswith(VERSION + " ")
-    assert needed(shared) and not needed(static)
+def check(folder, languages=("c", "cpp")):
+    for language in languages:
+        shared, static = folder / f"shared_{language}", folder / f"static_{language}"
+        for program in (shared, static):
+            assert run(program).startswith(VERSION + " ")
+        assert needed(shared) and not needed(static)
 
 
-def configure(folder, *arguments, expect=0):
-    return run(CMAKE, "-S", CONSUMER, "-B", folder, "-G", "Ninja", f"-DCMAKE_C_COMPILER={CC}", *arguments, expect=expect)
+def configure(folder, *arguments, expect=0, source=CONSUMER):
+    compilers = [f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}"]
+    return run(CMAKE, "-S", source, "-B", folder, "-G", "Ninja", *compilers, *arguments, expect=expect)
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +90,23 @@ def test_report(prefix, tmp_path):
 def test_find_package(prefix, tmp_path):
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DHOOKE_WANTED={VERSION}")
     run(CMAKE, "--build", tmp_path)
-    check(tmp_path / "shared", tmp_path / "static")
+    check(tmp_path)
+
+
+def test_examples(prefix, tmp_path):
+    """Each example says something, and tells by its exit code that it is right."""
+    configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release", source=EXAMPLES)
+    run(CMAKE, "--build", tmp_path)
+    lines = {}
+    for source in sorted(EXAMPLES.glob("*.c")):
+        if source.stem != "study" or PRESET != "minimal":
+            lines[source.stem] = run(tmp_path / source.stem).splitlines()
+    assert "240 particles on the floor" in lines["own_time_loop"][-1]
+    inside = [float(line.split()[-7]) for line in lines["own_force"]]
+    assert len(inside) == 2 and all(0 < mm < 1 for mm in inside)
+    assert all(line.endswith("y = +0.000 m") for line in lines["driven_particles"])
+    assert lines["many_systems"][-1] == "the same bits as in one thread"
+    assert "study" not in lines or lines["study"][-1].startswith("run with it: ")
 
 
 def test_find_package_refuses_another_version(prefix, tmp_path):
@@ -99,19 +121,22 @@ def test_pkg_config(prefix, tmp_path):
     assert run("pkg-config", "--modversion", "hooke", env=env).strip() == VERSION
     flags = shlex.split(run("pkg-config", "--cflags", "--libs", "hooke", env=env))
     rpath = f"-Wl,-rpath,{next(prefix.rglob('libhooke.so')).parent}"
-    run(CC, CONSUMER / "main.c", *flags, rpath, "-o", tmp_path / "shared")
+    run(CC, CONSUMER / "main.c", *flags, rpath, "-o", tmp_path / "shared_c")
     # with both libraries in one folder, the static one is asked for by its file name
     flags = shlex.split(run("pkg-config", "--static", "--cflags", "--libs", "hooke", env=env))
     flags = ["-l:libhooke.a" if f == "-lhooke" else f for f in flags]
-    run(CC, CONSUMER / "main.c", *flags, "-o", tmp_path / "static")
-    check(tmp_path / "shared", tmp_path / "static")
+    run(CC, CONSUMER / "main.c", *flags, "-o", tmp_path / "static_c")
+    check(tmp_path, languages=("c",))
 
 
-def test_subdirectory(tmp_path):
-    configure(tmp_path, f"-DHOOKE_SOURCES={ROOT}", "-DHOOKE_BUILD_CLI=OFF", "-DCMAKE_BUILD_TYPE=Debug",
-              *(f"-DHOOKE_{part}=OFF" for part in ("SUNDIALS", "CHOLMOD", "GSL", "HDF5", "JANSSON")))
-    run(CMAKE, "--build", tmp_path, "--target", "shared", "static", "-j2")
-    check(tmp_path / "shared", tmp_path / "static")
+@pytest.mark.parametrize("way", ["SOURCES", "FETCHED"])
+def test_sources(way, tmp_path):
+    """As a subdirectory or by FetchContent, which configure alike: it is built once, without other libraries."""
+    configure(tmp_path, f"-DHOOKE_{way}={ROOT}", "-DHOOKE_BUILD_CLI=OFF", "-DCMAKE_BUILD_TYPE=Debug",
+              *(f"-DHOOKE_{part}=OFF" for part in PARTS))
+    if way == "FETCHED" and PRESET in ("minimal", ""):
+        run(CMAKE, "--build", tmp_path, "-j2")
+        check(tmp_path)
 
 
 def test_missing_part_is_named(tmp_path):

@@ -1,0 +1,441 @@
+/* clang-format off */
+#ifndef HOOKE_H
+#define HOOKE_H
+#ifndef HOOKE_BASE_H
+#define HOOKE_BASE_H
+#include <stdint.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(_WIN32)
+#define HOOKE_API
+#else
+#define HOOKE_API __attribute__((visibility("default")))
+#endif
+#define HOOKE_VERSION "0.1.0"
+#define HOOKE_ABI     0
+#define HOOKE_OK            0
+#define HOOKE_STOPPED       1
+#define HOOKE_DIVERGED      2
+#define HOOKE_STEP_LIMIT    3
+#define HOOKE_NO_MEMORY     (-1)
+#define HOOKE_BAD_VALUE     (-2)
+#define HOOKE_BAD_CALL      (-3)
+#define HOOKE_IO_FAILED     (-4)
+#define HOOKE_NOT_BUILT     (-5)
+#define HOOKE_UNSUITED      (-6)
+#define HOOKE_SOLVER_FAILED (-7)
+HOOKE_API const char *hooke_last_error(void);
+HOOKE_API const char *hooke_status_name(int32_t status);
+HOOKE_API const char *hooke_version(void);
+HOOKE_API int32_t hooke_abi(void);
+HOOKE_API const char *hooke_build_fact(const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_OPTIONS_H
+#define HOOKE_OPTIONS_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_options hooke_options;
+HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy);
+HOOKE_API void hooke_options_destroy(hooke_options *options);
+HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);
+HOOKE_API int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
+                                            const double *values);
+HOOKE_API int32_t hooke_options_set_text(hooke_options *options, const char *name, const char *text);
+HOOKE_API int32_t hooke_options_unset(hooke_options *options, const char *name);
+HOOKE_API int32_t hooke_options_is_set(const hooke_options *options, const char *name);
+HOOKE_API int64_t hooke_options_number_count(const hooke_options *options, const char *name);
+HOOKE_API const double *hooke_options_numbers(const hooke_options *options, const char *name);
+HOOKE_API double hooke_options_number(const hooke_options *options, const char *name);
+HOOKE_API const char *hooke_options_text(const hooke_options *options, const char *name);
+HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
+HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_SYSTEM_H
+#define HOOKE_SYSTEM_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_system hooke_system;
+typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
+typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                    const double *dv, double *out, void *ctx);
+typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
+HOOKE_API int32_t hooke_system_create(hooke_system **system);
+HOOKE_API void hooke_system_destroy(hooke_system *system);
+HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const double *position,
+                                             const double *velocity, int64_t mass_count, const double *mass,
+                                             int64_t *first);
+HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
+HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *ends, const hooke_options *options);
+HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *triples, int64_t coefficient_count,
+                                           const double *coefficient);
+HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
+HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
+HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
+                                         hooke_force_product *product, void *ctx);
+HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
+                                              const double *amplitude, double frequency, double phase);
+HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,
+                                           int64_t samples, const double *time, const double *displacement);
+HOOKE_API int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const int64_t *particles,
+                                              hooke_drive *drive, void *ctx);
+HOOKE_API int32_t hooke_system_commit(hooke_system *system);
+HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
+HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_group_name(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, int64_t group);
+HOOKE_API const double *hooke_system_mass(const hooke_system *system);
+HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
+HOOKE_API int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends);
+HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
+                                               double *rest_length);
+HOOKE_API int64_t hooke_system_bending_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_bending_group_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group);
+HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
+HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
+HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
+HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
+HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
+HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
+HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
+HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
+                                     double *force);
+HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
+                                            const double *v, double *acceleration);
+HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q);
+HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
+                                                  const double *v, const double *dq, const double *dv,
+                                                  double *out);
+HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
+                                                  int64_t *column);
+HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
+                                                 double *dfdq, double *dfdv);
+HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
+HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);
+HOOKE_API double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v);
+HOOKE_API void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum);
+HOOKE_API void hooke_system_angular_momentum(const hooke_system *system, const double *q, const double *v,
+                                             double *angular_momentum);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_BUILD_H
+#define HOOKE_BUILD_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+HOOKE_API int64_t hooke_part_kind_count(void);
+HOOKE_API const char *hooke_part_kind(int64_t kind);
+HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
+HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
+                                        const hooke_options *options, int64_t *first, int64_t *count);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_STATE_H
+#define HOOKE_STATE_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_state hooke_state;
+HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **state);
+HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
+HOOKE_API void hooke_state_destroy(hooke_state *state);
+HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
+HOOKE_API double hooke_state_time(const hooke_state *state);
+HOOKE_API void hooke_state_set_time(hooke_state *state, double t);
+HOOKE_API int64_t hooke_state_size(const hooke_state *state);
+HOOKE_API double *hooke_state_position(const hooke_state *state);
+HOOKE_API double *hooke_state_velocity(const hooke_state *state);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_INTEGRATOR_H
+#define HOOKE_INTEGRATOR_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_integrator hooke_integrator;
+typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
+typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
+HOOKE_API int64_t hooke_method_count(void);
+HOOKE_API const char *hooke_method_name(int64_t method);
+HOOKE_API const char *hooke_method_summary(const char *name);
+HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
+HOOKE_API int32_t hooke_method_is_built(const char *name);
+HOOKE_API int32_t hooke_run_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
+                                          hooke_integrator **integrator);
+HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
+                                                      const hooke_options *options,
+                                                      hooke_integrator **integrator);
+HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
+HOOKE_API const hooke_options *hooke_integrator_options(const hooke_integrator *integrator);
+HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer,
+                                            void *ctx);
+HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
+                                           hooke_observer *observer, void *ctx);
+HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
+HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
+HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
+HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
+HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
+HOOKE_API int64_t hooke_integrator_recent_count(const hooke_integrator *integrator);
+HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
+                                          hooke_state *state);
+HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
+HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_MEASURE_H
+#define HOOKE_MEASURE_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
+                                   double *bound);
+typedef struct hooke_comparison hooke_comparison;
+typedef int32_t hooke_progress(double done, const char *what, void *ctx);
+typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
+                                       void *ctx);
+HOOKE_API int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,
+                                          hooke_comparison **comparison);
+HOOKE_API void hooke_comparison_destroy(hooke_comparison *comparison);
+HOOKE_API int32_t hooke_comparison_add(hooke_comparison *comparison, const char *method);
+HOOKE_API void hooke_comparison_on_progress(hooke_comparison *comparison, hooke_progress *progress,
+                                            void *ctx);
+HOOKE_API void hooke_comparison_on_frame(hooke_comparison *comparison, hooke_comparison_frame *observer,
+                                         void *ctx);
+HOOKE_API int32_t hooke_comparison_run(hooke_comparison *comparison);
+HOOKE_API int64_t hooke_comparison_row_count(const hooke_comparison *comparison);
+HOOKE_API const char *hooke_comparison_text(const hooke_comparison *comparison, int64_t row,
+                                            const char *what);
+HOOKE_API double hooke_comparison_number(const hooke_comparison *comparison, int64_t row, const char *what);
+HOOKE_API const char *hooke_comparison_reference(const hooke_comparison *comparison);
+HOOKE_API int64_t hooke_comparison_frame_count(const hooke_comparison *comparison);
+HOOKE_API const double *hooke_comparison_series(const hooke_comparison *comparison, int64_t row,
+                                                const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_STUDY_H
+#define HOOKE_STUDY_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_study hooke_study;
+HOOKE_API int32_t hooke_study_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
+                                     const hooke_options *options, hooke_study **study);
+HOOKE_API void hooke_study_destroy(hooke_study *study);
+HOOKE_API void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_study_run(hooke_study *study);
+HOOKE_API const char *hooke_study_reference(const hooke_study *study, const char *what);
+HOOKE_API double hooke_study_figure(const hooke_study *study, const char *what);
+HOOKE_API int64_t hooke_study_row_count(const hooke_study *study);
+HOOKE_API const char *hooke_study_text(const hooke_study *study, int64_t row, const char *what);
+HOOKE_API double hooke_study_number(const hooke_study *study, int64_t row, const char *what);
+HOOKE_API int64_t hooke_study_frame_count(const hooke_study *study);
+HOOKE_API const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what);
+HOOKE_API double hooke_study_order(const hooke_study *study, const char *method, const char *what);
+HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const char *method);
+HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
+HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
+HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
+HOOKE_API int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
+                                   hooke_progress *progress, void *ctx);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_LIMIT_H
+#define HOOKE_LIMIT_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_limit hooke_limit;
+HOOKE_API int32_t hooke_limit_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
+                                     const hooke_options *options, hooke_limit **limit);
+HOOKE_API void hooke_limit_destroy(hooke_limit *limit);
+HOOKE_API void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state);
+HOOKE_API int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state);
+HOOKE_API double hooke_limit_figure(const hooke_limit *limit, const char *what);
+HOOKE_API int64_t hooke_limit_row_count(const hooke_limit *limit);
+HOOKE_API const char *hooke_limit_text(const hooke_limit *limit, int64_t row, const char *what);
+HOOKE_API double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *what);
+HOOKE_API int64_t hooke_limit_blame_count(const hooke_limit *limit);
+HOOKE_API double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what);
+HOOKE_API const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what);
+HOOKE_API int64_t hooke_limit_mover_count(const hooke_limit *limit);
+HOOKE_API double hooke_limit_mover_number(const hooke_limit *limit, int64_t place, const char *what);
+HOOKE_API const char *hooke_limit_remedy_text(const hooke_limit *limit, const char *what);
+HOOKE_API double hooke_limit_remedy_number(const hooke_limit *limit, const char *what);
+HOOKE_API int64_t hooke_limit_mode_count(const hooke_limit *limit);
+HOOKE_API double hooke_limit_mode_number(const hooke_limit *limit, int64_t mode, const char *what);
+HOOKE_API const double *hooke_limit_shape(const hooke_limit *limit);
+HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_COST_H
+#define HOOKE_COST_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_cost hooke_cost;
+HOOKE_API int32_t hooke_cost_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run,
+                                    const hooke_options *options, hooke_cost **cost);
+HOOKE_API void hooke_cost_destroy(hooke_cost *cost);
+HOOKE_API void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state);
+HOOKE_API const char *hooke_cost_method(const hooke_cost *cost);
+HOOKE_API double hooke_cost_figure(const hooke_cost *cost, const char *what);
+HOOKE_API int64_t hooke_cost_row_count(const hooke_cost *cost);
+HOOKE_API const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what);
+HOOKE_API double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_WHY_H
+#define HOOKE_WHY_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                              int64_t particle, void *ctx);
+HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
+                                              void *ctx);
+typedef struct hooke_why hooke_why;
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, hooke_why **why);
+HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
+                                        const hooke_state *first, const hooke_state *last, hooke_why **why);
+HOOKE_API void hooke_why_destroy(hooke_why *why);
+HOOKE_API const char *hooke_why_text(const hooke_why *why, const char *what);
+HOOKE_API double hooke_why_number(const hooke_why *why, const char *what);
+HOOKE_API int64_t hooke_why_blame_count(const hooke_why *why);
+HOOKE_API double hooke_why_blame_number(const hooke_why *why, int64_t place, const char *what);
+HOOKE_API const char *hooke_why_blame_text(const hooke_why *why, int64_t place, const char *what);
+HOOKE_API int64_t hooke_why_advice_count(const hooke_why *why);
+HOOKE_API const char *hooke_why_advice_text(const hooke_why *why, int64_t place, const char *what);
+HOOKE_API int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_options *run);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_NEEDS_H
+#define HOOKE_NEEDS_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_needs hooke_needs;
+HOOKE_API int32_t hooke_needs_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
+                                     const hooke_options *options, hooke_needs **needs);
+HOOKE_API void hooke_needs_destroy(hooke_needs *needs);
+HOOKE_API void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_needs_find(hooke_needs *needs);
+HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
+HOOKE_API double hooke_needs_figure(const hooke_needs *needs, const char *what);
+HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *what);
+HOOKE_API int64_t hooke_needs_row_count(const hooke_needs *needs);
+HOOKE_API const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *what);
+HOOKE_API double hooke_needs_number(const hooke_needs *needs, int64_t row, const char *what);
+HOOKE_API const hooke_system *hooke_needs_lean(const hooke_needs *needs);
+HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_needs *needs);
+HOOKE_API int64_t hooke_needs_lean_particle(const hooke_needs *needs, int64_t particle);
+HOOKE_API int32_t hooke_needs_lean_position(const hooke_needs *needs, const double *q, double *position);
+HOOKE_API int64_t hooke_needs_part_count(const hooke_needs *needs);
+HOOKE_API const char *hooke_needs_part_text(const hooke_needs *needs, int64_t part, const char *what);
+HOOKE_API double hooke_needs_part_number(const hooke_needs *needs, int64_t part, const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_IO_H
+#define HOOKE_IO_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+HOOKE_API int32_t hooke_io_own_process(void);
+typedef struct hooke_scene hooke_scene;
+HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
+                                    hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
+HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
+                                    const hooke_options *run);
+HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
+HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
+HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
+HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
+HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
+typedef struct hooke_trajectory hooke_trajectory;
+HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
+                                          const hooke_integrator *integrator, const char *scene_text,
+                                          hooke_trajectory **trajectory);
+HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
+                                         const hooke_state *state);
+HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
+HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
+typedef struct hooke_record hooke_record;
+HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
+HOOKE_API void hooke_record_close(hooke_record *record);
+HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
+HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
+HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
+HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
+typedef struct hooke_comparison_file hooke_comparison_file;
+HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
+                                               hooke_comparison *comparison, const char *scene_text,
+                                               hooke_comparison_file **file);
+HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
+                                       int32_t outcome);
+HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);
+HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
+                                           const char *command);
+HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
+                                           const char *path, const char *scene);
+HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
+                                           const char *command);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#endif
