@@ -1,0 +1,24 @@
+/* Builds with a sanitizer take ten times as long: there a test may take a share of its cases, unless HOOKE_LONG is set. */
+#ifndef HOOKE_TEST_SANITIZED_H
+#define HOOKE_TEST_SANITIZED_H
+
+#include <stdint.h>
+#include <stdlib.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define HOOKE_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HOOKE_SANITIZED 1
+#endif
+#endif
+#ifndef HOOKE_SANITIZED
+#define HOOKE_SANITIZED 0
+#endif
+
+/* Whether case `k` = 0, 1, ... is left out here: all but every `share`-th. */
+static inline int left_out(int64_t k, int64_t share) {
+  return HOOKE_SANITIZED && getenv("HOOKE_LONG") == NULL && k % share != 0;
+}
+
+#endif
