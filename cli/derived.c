@@ -33,13 +33,13 @@ void hooke_derived_json(struct hooke_json *json, const hooke_system *system) {
 static void print_derived(const hooke_system *system) {
   char number[HOOKE_NUMBER_SIZE];
   if (hooke_system_derived_count(system) == 0) return;
-  printf("derived from density, damping_ratio and bending:\n");
+  printf("derived from the options of parts:\n");
   for (int64_t i = 0; i < hooke_system_derived_count(system); i++) {
-    const char *family = text_of(system, i, "family");
+    const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
     printf("  ");
     hooke_print_text(stdout, text_of(system, i, "part"));
-    printf("%s%s: %s %s %s\n", family ? "." : "", family ? family : "", text_of(system, i, "name"),
-           hooke_format_number(hooke_system_derived_value(system, i), number), text_of(system, i, "unit"));
+    printf("%s%s: %s %s%s%s\n", family ? "." : "", family ? family : "", text_of(system, i, "name"),
+           hooke_format_number(hooke_system_derived_value(system, i), number), unit[0] ? " " : "", unit);
   }
 }
 

@@ -4,8 +4,14 @@
  *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals of
  *          each cell), bend (two apart along u, then v)
  *
- * Both have bending along their lines of particles (option `bending`, hooke_system_add_bending()), as a group
- * "<name>.bending"; and one of the options `mass` (shared equally) and `density` (by the piece that each particle stands for).
+ *   lattice  nx x ny x nz particles over three edges: structural (neighbours along x, y, z), shear (all diagonals of the
+ *          faces and the body of each cell), bend (two apart along x, y, z)
+ *   mesh   particles at the vertices of a surface of triangles: structural (every edge once), bend (the two vertices
+ *          opposite to each other across every edge of two triangles)
+ *
+ * Rope and cloth have bending along their lines of particles (option `bending`, hooke_system_add_bending()), as a group
+ * "<name>.bending". All have one of the options `mass` (shared equally; in a mesh by area) and `density` (by the piece that
+ * each particle stands for).
  *
  * A family that is not named has no springs. Stiffness is that of the strain law, so a finer part of the same
  * material stretches the same. Rest lengths are one per family and direction, from the edges and not from
@@ -19,7 +25,7 @@
 extern "C" {
 #endif
 
-/* The kinds of parts there are: "rope", "cloth"; NULL past the last. */
+/* The kinds of parts there are: "rope", "cloth", "lattice", "mesh"; NULL past the last. */
 HOOKE_API int64_t hooke_part_kind_count(void);
 HOOKE_API const char *hooke_part_kind(int64_t kind);
 
@@ -31,6 +37,14 @@ HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **op
  * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
+
+/* Sets the options `vertices` and `triangles` of a mesh: rows of x y z, 3 vertex_count [m], and of three different vertices,
+ * 3 triangle_count, from 0. Vertices at the same place become one particle, the first of them (see the option `weld`); the
+ * particles are the vertices in the order of their first appearance. The mesh is checked when the part is added: triangles
+ * without area, edges of more than two triangles, a triangle given twice, vertices of no triangle are refused.
+ * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. Files: hooke_mesh_read() in io.h. */
+HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
+                                 int64_t triangle_count, const int64_t *triangles);
 
 #ifdef __cplusplus
 }

@@ -58,6 +58,15 @@ HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
 HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
 HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
 
+/* ---- meshes ---- */
+
+/* Reads an OBJ file into the options of a mesh, as hooke_mesh_set() does: its vertices `v` and its faces `f`, those of more
+ * than three corners cut into triangles from their first corner. Texture, normals, names and materials are passed over.
+ * The mesh is then checked with the `transform` and `weld` that the options have, so set these before: HOOKE_BAD_VALUE says
+ * what is wrong with "file:line: ", its vertices counted from 1 as in the file. Any build can; no library is needed.
+ * HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_mesh_read(const char *path, hooke_options *options);
+
 /* ---- trajectories ---- */
 
 typedef struct hooke_trajectory hooke_trajectory;

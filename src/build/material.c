@@ -20,7 +20,7 @@ static int32_t derive(const struct hooke_part *part, const char *family, const c
 
 /* ---- masses ---- */
 
-static int32_t check_one_given(const struct hooke_part *part) {
+int32_t hooke_part_check_masses(const struct hooke_part *part) {
   const int both = hooke_options_is_set(part->options, "density");
   if (both != hooke_options_is_set(part->options, "mass")) return HOOKE_OK;
   return hooke_fail(HOOKE_BAD_VALUE, both ? "density" : NULL,
@@ -49,7 +49,7 @@ static int32_t derive_masses(const struct hooke_part *part, int64_t rows, int64_
 
 int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
                           int64_t *mass_count, double **mass) {
-  const int32_t status = check_one_given(part);
+  const int32_t status = hooke_part_check_masses(part);
   if (status != HOOKE_OK) return status;
   const int by_density = hooke_options_is_set(part->options, "density");
   *mass_count = by_density ? rows * columns : 1;
@@ -78,30 +78,40 @@ int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns
 
 /* ---- damping ---- */
 
-void hooke_part_damping(const struct hooke_part *part, const char *family, int64_t count,
+static double reduced_mass(const struct hooke_part *part, const int64_t *ends) {
+  if (part->inner_mass > 0.0) return 0.5 * part->inner_mass;
+  const double a = part->system->mass[ends[0]], b = part->system->mass[ends[1]];
+  return a * (b / (a + b));
+}
+
+void hooke_part_damping(const struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
                         const double *rest_length, double *damping) {
   const double zeta = option_of(part, family, "damping_ratio");
   const double stiffness = option_of(part, family, "stiffness");
   const double scale = option_of(part, family, "rest_scale");
   for (int64_t k = 0; k < count; k++) {
     const double length = rest_length[k] * scale, kappa = stiffness / length;
-    damping[k] = 2.0 * zeta * sqrt(kappa * (0.5 * part->inner_mass)) * length;
+    damping[k] = 2.0 * zeta * sqrt(kappa * reduced_mass(part, ends + 2 * k)) * length;
   }
 }
 
+#define DIRECTIONS(of)                                                                                       \
+  of, of " along u", of " along v", of " along u + v", of " along u - v", /* a lattice: */                   \
+      of " along x", of " along y", of " along z", of " along x + y", of " along x - y", of " along x + z",  \
+      of " along x - z", of " along y + z", of " along y - z", of " along x + y + z", of " along x - y - z", \
+      of " along x - y + z", of " along x + y - z"
+
 int32_t hooke_part_derive_springs(const struct hooke_part *part, const char *family, int32_t strip_count,
                                   const struct hooke_part_strip *strip) {
-  static const char *const kappa[] = {"kappa", "kappa along u", "kappa along v", "kappa along u + v",
-                                      "kappa along u - v"};
-  static const char *const gamma[] = {"gamma", "gamma along u", "gamma along v", "gamma along u + v",
-                                      "gamma along u - v"};
+  static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
   const struct hooke_group *group = &part->system->group[part->system->group_count - 1];
   int32_t status = HOOKE_OK;
   for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK; s++) {
     const int64_t springs = strip[s].rows * strip[s].columns;
+    const int told = s > 0 && strip[s].direction == strip[s - 1].direction; /* layers of a lattice */
     if (springs == 0) continue;
-    status = derive(part, family, kappa[strip[s].direction], "N/m", group->kappa[first]);
-    if (status == HOOKE_OK)
+    if (!told) status = derive(part, family, kappa[strip[s].direction], "N/m", group->kappa[first]);
+    if (!told && status == HOOKE_OK)
       status = derive(part, family, gamma[strip[s].direction], "N s/m", group->gamma[first]);
     first += springs;
   }

@@ -11,12 +11,16 @@
 int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
                           int64_t *mass_count, double **mass);
 
+/* HOOKE_BAD_VALUE unless one of the options `mass` and `density` is given. */
+int32_t hooke_part_check_masses(const struct hooke_part *part);
+
 /* The option damping [N s] of every spring of a family, `count` long, from its damping_ratio: kd = gamma l0,
- * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length as the springs will have it, m the part's inner mass. */
-void hooke_part_damping(const struct hooke_part *part, const char *family, int64_t count,
+ * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length as the springs will have it, m the part's inner mass; m/2 is the
+ * reduced mass of the two `ends` where there is no inner mass. */
+void hooke_part_damping(const struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
                         const double *rest_length, double *damping);
 
-/* Puts down what the springs of the group added last have come to, one of each strip. */
+/* Puts down what the springs of the group added last have come to, one of each direction. */
 int32_t hooke_part_derive_springs(const struct hooke_part *part, const char *family, int32_t strip_count,
                                   const struct hooke_part_strip *strip);
 

@@ -12,7 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const struct hooke_part_kind *const kinds[] = {&hooke_part_rope, &hooke_part_cloth};
+static const struct hooke_part_kind *const kinds[] = {&hooke_part_rope, &hooke_part_cloth,
+                                                      &hooke_part_lattice, &hooke_part_mesh};
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hooke_option_row family_rows[] = {
@@ -135,10 +136,10 @@ static void join(const struct hooke_part *part, int64_t stride, int32_t strip_co
 }
 
 static int32_t set_damping(const struct hooke_part *part, const char *family, int64_t count,
-                           const double *rest_length, hooke_options *options) {
+                           const int64_t *ends, const double *rest_length, hooke_options *options) {
   double *damping = hooke_new(count, sizeof(double));
   if (damping == NULL) return HOOKE_NO_MEMORY;
-  hooke_part_damping(part, family, count, rest_length, damping);
+  hooke_part_damping(part, family, count, ends, rest_length, damping);
   const int32_t status = hooke_options_set_numbers(options, "damping", count, damping);
   hooke_free(damping);
   return status;
@@ -146,7 +147,7 @@ static int32_t set_damping(const struct hooke_part *part, const char *family, in
 
 /* Options of a spring group with the values of a family. */
 static int32_t material(const struct hooke_part *part, const char *family, int by_ratio, int64_t count,
-                        const double *rest_length, hooke_options **options) {
+                        const int64_t *ends, const double *rest_length, hooke_options **options) {
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
   int32_t status = hooke_spring_options_create(options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
@@ -154,7 +155,7 @@ static int32_t material(const struct hooke_part *part, const char *family, int b
     snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
     status = hooke_options_set_number(*options, keys[k], hooke_options_number(part->options, dotted));
   }
-  if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, rest_length, *options);
+  if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, ends, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
   return status;
 }
@@ -171,55 +172,80 @@ static int is_given(const struct hooke_part *part, const char *family, const cha
   return hooke_options_is_set(part->options, dotted);
 }
 
+/* How many rest lengths (and dampings) say it all: one if they are equal to the bit. */
+static int64_t count_given(const struct hooke_part *part, int by_ratio, int64_t count,
+                           const double *rest_length) {
+  if (by_ratio && part->inner_mass == 0.0) return count; /* the masses differ, too */
+  int64_t same = 1;
+  while (same < count && rest_length[same] == rest_length[0])
+    same++;
+  return same == count ? 1 : count;
+}
+
 static int32_t add_group(struct hooke_part *part, const char *family, int by_ratio, int64_t count,
                          const int64_t *ends, const double *rest_length) {
-  int64_t different = 1;
-  while (different < count && rest_length[different] == rest_length[0])
-    different++;
+  const int64_t given = count_given(part, by_ratio, count, rest_length);
 
   char *name = hooke_part_group_name(part, family);
   if (name == NULL) return HOOKE_NO_MEMORY;
   hooke_options *options = NULL;
-  int32_t status = material(part, family, by_ratio, different == count ? 1 : count, rest_length, &options);
+  int32_t status = material(part, family, by_ratio, given, ends, rest_length, &options);
   if (status == HOOKE_OK) status = hooke_system_add_part_springs(part->system, name, count, ends, options);
   hooke_options_destroy(options);
   hooke_free(name);
   return status;
 }
+static int32_t check_rest_length(const char *family, double length) {
+  if (length > 0.0 && isfinite(length)) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, family,
+                    "its springs would have a rest length of %g m; allowed: finite "
+                    "and > 0, so let the ends and edges of the part lie apart",
+                    length);
+}
+
+static int32_t check_damping(const struct hooke_part *part, const char *family) {
+  if (!is_given(part, family, "damping_ratio") || !is_given(part, family, "damping")) return HOOKE_OK;
+  hooke_fail(HOOKE_BAD_VALUE, "damping_ratio",
+             "damping and damping_ratio are both given; a family has one of them");
+  return hooke_fail_within(HOOKE_BAD_VALUE, "%s", family);
+}
+
+int32_t hooke_part_add_pairs(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
+                             const double *rest_length) {
+  if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
+  int32_t status = check_damping(part, family);
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
+    status = check_rest_length(family, rest_length[k]);
+  if (status != HOOKE_OK || count == 0) return status;
+  status = add_group(part, family, is_given(part, family, "damping_ratio"), count, ends, rest_length);
+  return status == HOOKE_OK ? status : hooke_fail_within(status, "%s", family);
+}
 
 int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
                               int32_t strip_count, const struct hooke_part_strip *strip) {
   if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
-  const int by_ratio = is_given(part, family, "damping_ratio");
-  if (by_ratio && is_given(part, family, "damping")) {
-    hooke_fail(HOOKE_BAD_VALUE, "damping_ratio",
-               "damping and damping_ratio are both given; a family has one of them");
-    return hooke_fail_within(HOOKE_BAD_VALUE, "%s", family);
-  }
+  int32_t status = check_damping(part, family);
   int64_t count = 0;
-  for (int32_t s = 0; s < strip_count; s++) {
+  for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
     const int64_t springs = strip[s].rows * strip[s].columns;
     count += springs;
-    if (springs > 0 && (!(strip[s].rest_length > 0.0) || !isfinite(strip[s].rest_length))) {
-      return hooke_fail(HOOKE_BAD_VALUE, family,
-                        "its springs would have a rest length of %g m; allowed: finite "
-                        "and > 0, so let the ends and edges of the part lie apart",
-                        strip[s].rest_length);
-    }
+    if (springs > 0) status = check_rest_length(family, strip[s].rest_length);
   }
-  if (count == 0) return HOOKE_OK; /* too short for springs two apart */
+  if (status != HOOKE_OK || count == 0) return status; /* 0: too short for springs two apart */
 
   int64_t *ends = hooke_new(2 * count, sizeof(int64_t));
   double *rest_length = hooke_new(count, sizeof(double));
-  int32_t status = HOOKE_NO_MEMORY;
+  status = HOOKE_NO_MEMORY;
   if (ends && rest_length) {
     join(part, stride, strip_count, strip, ends, rest_length);
-    status = add_group(part, family, by_ratio, count, ends, rest_length);
-    if (status == HOOKE_OK && by_ratio) status = hooke_part_derive_springs(part, family, strip_count, strip);
+    status = hooke_part_add_pairs(part, family, count, ends, rest_length);
+    if (status == HOOKE_OK && is_given(part, family, "damping_ratio")) {
+      status = hooke_part_derive_springs(part, family, strip_count, strip);
+    }
   }
   hooke_free(ends);
   hooke_free(rest_length);
-  return status == HOOKE_OK ? status : hooke_fail_within(status, "%s", family);
+  return status;
 }
 
 static int32_t pin_numbers(const struct hooke_part *part) {

@@ -12,7 +12,7 @@ struct hooke_part {
   const char *name;
   const hooke_options *options;
   int64_t first, count;
-  double inner_mass; /* of a particle that is on no edge [kg], once particles are added */
+  double inner_mass; /* of a particle that is on no edge [kg], once particles are added; 0: they differ */
 };
 
 struct hooke_part_kind {
@@ -25,6 +25,8 @@ struct hooke_part_kind {
 
 extern const struct hooke_part_kind hooke_part_rope;
 extern const struct hooke_part_kind hooke_part_cloth;
+extern const struct hooke_part_kind hooke_part_lattice;
+extern const struct hooke_part_kind hooke_part_mesh;
 
 /* Rows that kinds have in common: a point [m], the total mass or the density, bending stiffness, held particles, a
  * family of springs. */
@@ -67,7 +69,8 @@ enum hooke_part_direction {
   HOOKE_PART_U,
   HOOKE_PART_V,
   HOOKE_PART_DIAGONAL,
-  HOOKE_PART_OTHER_DIAGONAL
+  HOOKE_PART_OTHER_DIAGONAL,
+  HOOKE_PART_LATTICE /* and those after it: the directions of a lattice, in its order */
 };
 struct hooke_part_strip {
   int64_t rows, columns, low, high;
@@ -98,6 +101,10 @@ int32_t hooke_part_add_particles(struct hooke_part *part, int64_t rows, int64_t 
 /* Adds the springs of a family, strip after strip, as one group; nothing if the family is not named. */
 int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
                               int32_t strip_count, const struct hooke_part_strip *strip);
+
+/* The same from pairs of particles and a rest length for each. */
+int32_t hooke_part_add_pairs(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
+                             const double *rest_length);
 
 /* Adds bending along the beams, one after the other, as one group; nothing if the option `bending` is 0. */
 int32_t hooke_part_add_bending(struct hooke_part *part, int64_t stride, int32_t count,

@@ -14,7 +14,7 @@ static const int64_t largest_file = (int64_t)1 << 31;
 
 static int32_t refuse_open(int number) {
   const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a scene file that can be read", advice,
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a file that can be read", advice,
                     strerror(number));
 }
 
@@ -33,7 +33,7 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
                         strerror(errno));
     }
     if (got == 0) break;
-    if (hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
+    if (guard && hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
     if (*length > largest_file)
       return hooke_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; keep long arrays in HDF5 files");
@@ -43,7 +43,7 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     capacity *= 2;
   }
   (*text)[*length] = '\0';
-  return hooke_json_guard_end(guard);
+  return guard ? hooke_json_guard_end(guard) : HOOKE_OK;
 }
 
 int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, char **text,

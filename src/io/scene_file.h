@@ -4,7 +4,7 @@
 
 #include "io/json_scan.h"
 
-/* Reads a whole file, checking it on the way, so that a hopeless one is refused early. `text` is the caller's
+/* Reads a whole file, checking it on the way, so that a hopeless one is refused early (a guard of NULL takes any bytes). `text` is the caller's
  * to free and ends with a NUL. HOOKE_BAD_VALUE if there is no such file or the guard refuses it,
  * HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. The message is without the name of the file. */
 int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, char **text, int64_t *length);

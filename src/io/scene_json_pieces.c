@@ -5,6 +5,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/mesh.h"
+#include "io/scene_file.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -179,6 +181,20 @@ static int32_t note_part(struct hooke_scene_reader *reader, const char *kind, co
   return HOOKE_OK;
 }
 
+/* The file of a mesh becomes its vertices and triangles, so that a system does not hang on files. */
+static int32_t read_file(const struct hooke_scene_reader *reader, hooke_options *options) {
+  if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
+  const char *file = hooke_options_text(options, "file");
+  char *path = NULL;
+  int32_t status = hooke_scene_find_file(reader->folder, file, &path);
+  if (status == HOOKE_OK) status = hooke_mesh_read_as(path, file, options);
+  hooke_free(path);
+  if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
+  if (hooke_fail_place()[0]) return status;
+  /* a file that a scene names and that cannot be used is the scene's fault */
+  return hooke_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
+}
+
 static int32_t add_part(struct hooke_scene_reader *reader, const json_t *object, int64_t index) {
   const char *kind = NULL, *name = "";
   hooke_options *options = NULL;
@@ -187,6 +203,7 @@ static int32_t add_part(struct hooke_scene_reader *reader, const json_t *object,
   if (status == HOOKE_OK) status = note_part(reader, kind, name, index);
   if (status == HOOKE_OK) status = hooke_part_options_create(kind, &options);
   if (status == HOOKE_OK) status = hooke_scene_read_options(reader, object, "kind name", options);
+  if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
     struct hooke_scene_part *part = &reader->part[index];
     status = hooke_system_add_part(reader->scene->system, kind, name, options, &part->first, &part->count);

@@ -133,6 +133,7 @@ PROTOTYPES = {
     "hooke_part_kind": (TEXT, INT64),
     "hooke_part_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_system_add_part": (STATUS, SYSTEM, TEXT, TEXT, OPTIONS, INTEGERS, INTEGERS),
+    "hooke_mesh_set": (STATUS, OPTIONS, INT64, DOUBLES, INT64, INTEGERS),
     # state.h
     "hooke_state_create": (STATUS, SYSTEM, POINTER(STATE)),
     "hooke_state_create_first_order": (STATUS, INT64, POINTER(STATE)),
@@ -274,6 +275,7 @@ PROTOTYPES = {
     "hooke_scene_run_options": (OPTIONS, SCENE),
     "hooke_scene_title": (TEXT, SCENE),
     "hooke_scene_text": (TEXT, SCENE),
+    "hooke_mesh_read": (STATUS, TEXT, OPTIONS),
     "hooke_trajectory_create": (STATUS, TEXT, SYSTEM, INTEGRATOR, TEXT, POINTER(TRAJECTORY)),
     "hooke_trajectory_write": (STATUS, TRAJECTORY, INT64, STATE),
     "hooke_trajectory_write_behind": (STATUS, TRAJECTORY),

@@ -132,15 +132,20 @@ class System(Queries):
         )
 
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
-        """Adds a part, a "rope" or a "cloth", with the options that ``hooke.describe(kind)`` lists
-        (``from_`` stands for ``from``); a family of springs is a dict: ``structural={"stiffness": 50}``.
-        Returns the numbers of its particles."""
+        """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
+        ``hooke.describe(kind)`` lists (``from_`` stands for ``from``); a family of springs is a dict:
+        ``structural={"stiffness": 50}``. A mesh takes ``vertices`` (n, 3) [m] and ``triangles`` (m, 3), or an OBJ
+        ``file``. Returns the numbers of its particles."""
+        file = options.pop("file", None)
+        part = Options.for_part(kind).set(**options)
+        if file is not None:
+            lib.hooke_mesh_read(os.fsencode(file), part._handle)
         first, count = ctypes.c_int64(), ctypes.c_int64()
         lib.hooke_system_add_part(
             self._handle,
             kind.encode(),
             None if name is None else name.encode(),
-            Options.for_part(kind).set(**options)._handle,
+            part._handle,
             ctypes.byref(first),
             ctypes.byref(count),
         )

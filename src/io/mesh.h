@@ -1,0 +1,10 @@
+/* Meshes from files. */
+#ifndef HOOKE_IO_MESH_H
+#define HOOKE_IO_MESH_H
+
+#include "hooke/io.h"
+
+/* hooke_mesh_read() of a file that messages call `name`. */
+int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options);
+
+#endif
