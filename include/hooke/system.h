@@ -152,7 +152,7 @@ HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, in
 HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
 HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
 
-/* Numbers that parts derived from their `density`, `damping_ratio` and `bending`: a list of texts "part", "family" (NULL:
+/* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part", "family" (NULL:
  * of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not there. */
 HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);

@@ -238,7 +238,7 @@ void hooke_surface_describe(const struct hooke_surface_fault *fault, int64_t bas
   case HOOKE_SURFACE_CORNERS:
     snprintf(text, (size_t)size,
              v[0] == v[1] ? "vertex %lld is two of its corners; allowed: three different ones"
-                          : "its corners %lld and %lld are at one place; allowed: three places",
+                          : "its corners %lld and %lld become one particle; allowed: three different ones",
              v[0], v[1]);
     break;
   case HOOKE_SURFACE_FLAT:

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-static int32_t check_given(const hooke_options *options) {
+int32_t hooke_mesh_check_alone(const hooke_options *options) {
   static const char *const others[] = {"vertices", "triangles"};
   for (int k = 0; k < 2; k++) {
     if (hooke_options_is_set(options, others[k]))
@@ -48,7 +48,7 @@ static int32_t read_text(const char *text, int64_t length, hooke_options *option
 int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options) {
   char shown[HOOKE_OPTION_SHOWN], *text = NULL;
   int64_t length = 0, line = 0;
-  int32_t status = check_given(options);
+  int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hooke_scene_read_file(path, NULL, &text, &length);
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);

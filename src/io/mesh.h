@@ -4,6 +4,9 @@
 
 #include "hooke/io.h"
 
+/* HOOKE_BAD_VALUE if the options have vertices or triangles beside their file. */
+int32_t hooke_mesh_check_alone(const hooke_options *options);
+
 /* hooke_mesh_read() of a file that messages call `name`. */
 int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options);
 

@@ -12,10 +12,10 @@
 static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
-static int32_t refuse_open(int number) {
+static int32_t refuse_open(int number, const struct hooke_json_guard *guard) {
   const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a file that can be read", advice,
-                    strerror(number));
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
+                    strerror(number), guard ? "scene " : "");
 }
 
 /* Reads up to the end; `text` has `capacity` bytes, the last kept for the NUL. */
@@ -28,7 +28,7 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     errno = 0;
     int64_t got = (int64_t)fread(*text + *length, 1, (size_t)(capacity - *length - 1), file);
     if (got == 0 && ferror(file)) {
-      if (errno == EISDIR) return refuse_open(errno);
+      if (errno == EISDIR) return refuse_open(errno, guard);
       return hooke_fail(HOOKE_IO_FAILED, NULL, "reading broke off after %lld bytes: %s", (long long)*length,
                         strerror(errno));
     }
@@ -50,7 +50,7 @@ int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, 
                               int64_t *length) {
   *text = NULL;
   FILE *file = fopen(path, "rb");
-  if (file == NULL) return refuse_open(errno);
+  if (file == NULL) return refuse_open(errno, guard);
   int32_t status = read_all(file, guard, text, length);
   fclose(file);
   if (status) {

@@ -186,7 +186,9 @@ static int32_t read_file(const struct hooke_scene_reader *reader, hooke_options 
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
-  int32_t status = hooke_scene_find_file(reader->folder, file, &path);
+  int32_t status = hooke_mesh_check_alone(options);
+  if (status != HOOKE_OK) return status;
+  status = hooke_scene_find_file(reader->folder, file, &path);
   if (status == HOOKE_OK) status = hooke_mesh_read_as(path, file, options);
   hooke_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
