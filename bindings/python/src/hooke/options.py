@@ -166,7 +166,7 @@ class Options(MutableMapping):
 
 
 def part_kinds() -> list[str]:
-    """The kinds of parts there are: "rope", "cloth"."""
+    """The kinds of parts there are: "rope", "cloth", "lattice", "mesh"."""
     return [text(lib.hooke_part_kind(kind)) for kind in range(lib.hooke_part_kind_count())]
 
 
