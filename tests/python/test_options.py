@@ -13,7 +13,7 @@ def test_the_tables_are_those_of_the_library():
     assert {"law", "stiffness", "damping", "rest_length", "rest_scale", "compression"} == set(
         hooke.Options.for_springs()
     )
-    assert hooke.part_kinds() == ["rope", "cloth"]
+    assert {"rope", "cloth", "lattice", "mesh"} <= set(hooke.part_kinds())
     step = next(row for row in hooke.Options.for_run().rows if row.name == "step")
     assert step.unit == "s" and step.type == "number" and step.doc
     for what, options in [
