@@ -7,6 +7,7 @@
 #include "model/system.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
@@ -72,21 +73,20 @@ static double springs_along(const struct lattice *lattice, const int32_t *step, 
   return springs;
 }
 
-/* In numbers that cannot overflow, before anything is allocated. */
-static int32_t check_size(const hooke_options *options, const struct lattice *lattice) {
+/* In numbers that cannot overflow, before anything is allocated. A lattice has more springs to a particle than other parts. */
+static int32_t check_size(const struct hooke_part *part, const struct lattice *lattice, const char *what) {
   double particles = 1.0, springs = 0.0;
   for (int a = 0; a < 3; a++) {
     particles *= (double)lattice->size[a];
-    if (hooke_options_has_family(options, "structural")) springs += springs_along(lattice, axis[a], 1);
-    if (hooke_options_has_family(options, "bend")) springs += springs_along(lattice, axis[a], 2);
+    if (hooke_options_has_family(part->options, "structural")) springs += springs_along(lattice, axis[a], 1);
+    if (hooke_options_has_family(part->options, "bend")) springs += springs_along(lattice, axis[a], 2);
   }
-  for (int d = 0; d < DIAGONALS && hooke_options_has_family(options, "shear"); d++)
+  for (int d = 0; d < DIAGONALS && hooke_options_has_family(part->options, "shear"); d++)
     springs += springs_along(lattice, diagonal[d], 1);
-  if (particles <= INT32_MAX && springs <= INT32_MAX) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "size",
-                    "a lattice of %lld x %lld x %lld has %.10g particles and %.10g springs; allowed: up to "
-                    "2147483647 of each",
-                    (long long)lattice->size[0], (long long)lattice->size[1], (long long)lattice->size[2],
+  if (particles <= INT32_MAX && springs <= INT32_MAX)
+    return hooke_part_check_room(part, (int64_t)particles, 200.0 * particles + 50.0 * springs, what);
+  return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                    "%s has %.10g particles and %.10g springs; allowed: up to 2147483647 of each", what,
                     particles, springs);
 }
 
@@ -198,7 +198,7 @@ static void fill_strips(const struct lattice *lattice, const int32_t *step, int3
                                          .low = first,
                                          .high = first + jump,
                                          .rest_length = rest_length(lattice, step, apart),
-                                         .direction = direction};
+                                         .direction = (enum hooke_part_direction)direction};
   }
 }
 
@@ -231,11 +231,12 @@ static int32_t build(struct hooke_part *part) {
   const struct lattice lattice = lattice_of(part->options);
   const int64_t *size = lattice.size;
   double *position;
-  int32_t status = check_size(part->options, &lattice);
-  if (status != HOOKE_OK) return status;
-  status = hooke_part_new_positions(part, size[0] * size[1] * size[2], &position,
-                                    "a lattice of %lld x %lld x %lld particles", (long long)size[0],
-                                    (long long)size[1], (long long)size[2]);
+  char what[96];
+  snprintf(what, sizeof what, "a lattice of %lld x %lld x %lld", (long long)size[0], (long long)size[1],
+           (long long)size[2]);
+  int32_t status = check_size(part, &lattice, what);
+  if (status == HOOKE_OK)
+    status = hooke_part_new_positions(part, size[0] * size[1] * size[2], &position, "%s", what);
   if (status != HOOKE_OK) return hooke_fail_within(status, "size");
   place_particles(part->options, &lattice, position);
   status = add_particles(part, &lattice, position);

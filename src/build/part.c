@@ -83,18 +83,9 @@ double hooke_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
 }
 
-int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
-                                 const char *format, ...) {
-  /* system, springs of every family, a state and an integrator's scratch, roughly */
-  const double gigabytes = 400.0 * (double)count / 1e9;
+int32_t hooke_part_check_room(const struct hooke_part *part, int64_t count, double bytes, const char *what) {
+  const double gigabytes = bytes / 1e9;
   const double machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
-  char what[128];
-  va_list args;
-  va_start(args, format);
-  vsnprintf(what, sizeof what, format, args);
-  va_end(args);
-
-  *position = NULL;
   if (count > INT32_MAX - hooke_system_particle_count(part->system)) {
     return hooke_fail(HOOKE_BAD_VALUE, NULL,
                       "%s needs about %.3g GB; a system holds up to 2147483647 particles", what, gigabytes);
@@ -103,6 +94,21 @@ int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double 
     return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s needs about %.3g GB; this machine has %.3g GB", what,
                       gigabytes, machine);
   }
+  return HOOKE_OK;
+}
+
+int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
+                                 const char *format, ...) {
+  char what[128];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(what, sizeof what, format, args);
+  va_end(args);
+
+  *position = NULL;
+  /* system, springs of every family, a state and an integrator's scratch, roughly */
+  const int32_t status = hooke_part_check_room(part, count, 400.0 * (double)count, what);
+  if (status != HOOKE_OK) return status;
   part->count = count;
   *position = hooke_new(3 * count, sizeof(double));
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;

@@ -88,6 +88,9 @@ struct hooke_part_beams {
   enum hooke_part_beam_order side_by_side;
 };
 
+/* HOOKE_BAD_VALUE or HOOKE_NO_MEMORY if the system cannot hold so many particles more, or the machine so many bytes. */
+int32_t hooke_part_check_room(const struct hooke_part *part, int64_t count, double bytes, const char *what);
+
 /* Checks `count` before anything is allocated and gives an array of 3 count coordinates, to be freed. The
  * format says what is too large: "a cloth of 3 x 4 particles". */
 int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,

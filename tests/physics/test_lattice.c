@@ -230,6 +230,29 @@ static void density_makes_the_mass_of_the_volume(void **unused) {
   }
 }
 
+static void check_size_refused(double nx, double ny, double nz, int32_t status, const char *message) {
+  hooke_options *options = lattice_options((double[]){nx, ny, nz}, EDGES);
+  hooke_system *system;
+  check_ok(hooke_options_set_number(options, "mass", 1));
+  set_springs(options);
+  check_ok(hooke_system_create(&system));
+  check_status(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL), status);
+  check_message(message);
+  assert_int_equal(hooke_system_particle_count(system), 0);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
+  (void)unused;
+  check_size_refused(2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE,
+                     "2147483647 x 2147483647 x 2147483647 has");
+  /* 1e9 particles, but more springs than can be numbered */
+  check_size_refused(1000, 1000, 1000, HOOKE_BAD_VALUE,
+                     "size: a lattice of 1000 x 1000 x 1000 has 1000000000 particles and 1.5967018e+10 "
+                     "springs; allowed: up to 2147483647");
+}
+
 static void check_held(const char *pinned, int64_t from, int64_t to) {
   hooke_options *options = lattice_options((double[]){3, 2, 4}, EDGES);
   check_ok(hooke_options_set_number(options, "mass", 1));
@@ -283,6 +306,7 @@ int main(void) {
       cmocka_unit_test(a_part_runs_as_its_springs_do),
       cmocka_unit_test(a_stretched_block_pulls_with_the_sum_of_its_springs),
       cmocka_unit_test(density_makes_the_mass_of_the_volume),
+      cmocka_unit_test(impossible_sizes_are_refused_before_anything_is_allocated),
       cmocka_unit_test(pinned_layers_have_names),
       cmocka_unit_test(a_layer_can_be_driven),
   };
