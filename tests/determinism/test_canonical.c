@@ -99,6 +99,22 @@ static void test_parts(void **unused) {
   }
 }
 
+/* With other particles and springs, and alone, where its springs form lanes. */
+static void test_lattices(void **unused) {
+  (void)unused;
+  static const int32_t size[][3] = {{2, 2, 2},  {3, 2, 4}, {2, 17, 4},  {5, 4, 3},
+                                    {16, 3, 5}, {9, 8, 7}, {13, 12, 11}};
+  for (uint64_t k = 0; k < sizeof size / sizeof size[0]; k++) {
+    const int32_t *n = size[k];
+    const int alone = k % 2;
+    compare_scene((struct random_scene_request){.seed = 12000 + k,
+                                                .particles = alone ? 7 : 40,
+                                                .springs = alone ? 0 : 30,
+                                                .features = (int32_t)(k * 53) & SCENE_EVERYTHING,
+                                                .lattice = {n[0], n[1], n[2]}});
+  }
+}
+
 /* A scene listed spring by spring is summed like the same scene made of parts. */
 static void test_parts_are_springs(void **unused) {
   (void)unused;
@@ -281,6 +297,7 @@ int main(void) {
       cmocka_unit_test(test_small_scenes),
       cmocka_unit_test(test_large_scenes),
       cmocka_unit_test(test_parts),
+      cmocka_unit_test(test_lattices),
       cmocka_unit_test(test_parts_are_springs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -312,29 +312,37 @@ static void set_family(struct random_source *source, hooke_options *options, con
   }
 }
 
-static void add_part(struct random_source *source, struct random_scene_request request, const char *kind,
-                     hooke_system *system) {
-  hooke_options *options = NULL;
-  const int cloth = strcmp(kind, "cloth") == 0;
-  check_ok(hooke_part_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
-  if (cloth) {
-    const double origin[] = {-1, 2, 0.5}, edges[] = {2, 0.1, 0, 0, 0.2, 3};
-    const double size[] = {(double)request.cloth[0], (double)request.cloth[1]};
-    check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
-    check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-    check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  } else {
-    const double from[] = {0, 1, 0}, to[] = {3, 1.5, -0.7};
+static void set_shape(struct random_scene_request request, const char *kind, hooke_options *options) {
+  const double origin[] = {-1, 2, 0.5}, edges[] = {2, 0.1, 0, 0, 0.2, 3, 0.1, 2.5, 0};
+  const double sizes[] = {(double)request.cloth[0], (double)request.cloth[1]};
+  const double lattice[] = {(double)request.lattice[0], (double)request.lattice[1],
+                            (double)request.lattice[2]};
+  const double from[] = {0, 1, 0}, to[] = {3, 1.5, -0.7};
+  const int axes = strcmp(kind, "lattice") == 0 ? 3 : 2;
+  if (strcmp(kind, "rope") == 0) {
     check_ok(hooke_options_set_numbers(options, "from", 3, from));
     check_ok(hooke_options_set_numbers(options, "to", 3, to));
     check_ok(hooke_options_set_number(options, "segments", (double)request.rope));
+    return;
   }
-  const char *family[2][3] = {{"stretch", "bend", NULL}, {"structural", "shear", "bend"}};
-  for (int k = 0; k < 3 && family[cloth][k] != NULL; k++) {
-    if (k == 0 || random_whole(source, 0, 3)) set_family(source, options, family[cloth][k], request.features);
+  check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
+  check_ok(hooke_options_set_numbers(options, "edges", 3 * axes, edges));
+  check_ok(hooke_options_set_numbers(options, "size", axes, axes == 3 ? lattice : sizes));
+}
+
+static void add_part(struct random_source *source, struct random_scene_request request, const char *kind,
+                     hooke_system *system) {
+  hooke_options *options = NULL;
+  const int rope = strcmp(kind, "rope") == 0;
+  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
+  set_shape(request, kind, options);
+  const char *family[2][3] = {{"structural", "shear", "bend"}, {"stretch", "bend", NULL}};
+  for (int k = 0; k < 3 && family[rope][k] != NULL; k++) {
+    if (k == 0 || random_whole(source, 0, 3)) set_family(source, options, family[rope][k], request.features);
   }
-  if (request.triples > 0) check_ok(hooke_options_set_number(options, "bending", 0.3));
+  if (request.triples > 0 && strcmp(kind, "lattice") != 0)
+    check_ok(hooke_options_set_number(options, "bending", 0.3));
   char name[32];
   snprintf(name, sizeof name, "%s-%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind);
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
@@ -364,6 +372,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   hold_particles(&source, request, scene);
   if (request.rope > 0) add_part(&source, request, "rope", scene->system);
   if (request.cloth[0] > 0) add_part(&source, request, "cloth", scene->system);
+  if (request.lattice[0] > 0) add_part(&source, request, "lattice", scene->system);
   struct wanted wanted = {0};
   add_groups(&source, request, position, scene->system, &wanted);
   free(position);

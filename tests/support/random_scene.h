@@ -24,6 +24,7 @@ struct random_scene_request {
   int64_t triples; /* of bending; if there are any, parts have bending as well */
   int32_t features;
   int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
+  int32_t lattice[3];   /* size of a lattice that is added as a part; 0: none */
   int32_t rope;         /* segments of a rope that is added as a part; 0: none */
   int32_t with_product; /* the callback brings its derivative */
 };

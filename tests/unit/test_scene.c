@@ -411,8 +411,8 @@ static void parts_are_named_and_counted(void **state) {
   snprintf(text, sizeof text, "{'hooke': 1,\n'parts': [{%s, 'name': 'rope1'},\n{%s}]}", rope, rope);
   refuse(text,
          "t.json:3:1: parts[1].name: 'rope1' is the name of part 0 already; allowed: a name of its own");
-  refuse("{'hooke': 1,\n'parts': [{'kind': 'lattice'}]}",
-         "t.json:2:20: parts[0].kind: 'lattice' is not a kind of part; allowed: rope, cloth");
+  refuse("{'hooke': 1,\n'parts': [{'kind': 'trellis'}]}",
+         "t.json:2:20: parts[0].kind: 'trellis' is not a kind of part; allowed: rope, cloth, lattice, mesh");
 }
 
 /* Words between the numbers of a list do not shift the place. */

@@ -70,10 +70,14 @@ static void random_systems_come_back(void **state) {
     const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
     struct random_scene scene;
     hooke_scene *read;
-    random_scene_create(
-        (struct random_scene_request){
-            .seed = seed, .particles = 20, .springs = 40, .features = features, .cloth = {5, 4}, .rope = 7},
-        &scene);
+    random_scene_create((struct random_scene_request){.seed = seed,
+                                                      .particles = 20,
+                                                      .springs = 40,
+                                                      .features = features,
+                                                      .cloth = {5, 4},
+                                                      .lattice = {3, 4, 2},
+                                                      .rope = 7},
+                        &scene);
     write_and_read(scene.system, &read);
     check_same_system(hooke_scene_system(read), scene.system);
     hooke_scene_destroy(read);
