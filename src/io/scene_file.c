@@ -36,7 +36,8 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     if (guard && hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
     if (*length > largest_file)
-      return hooke_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; keep long arrays in HDF5 files");
+      return hooke_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",
+                        guard ? "keep long arrays in HDF5 files" : "allowed: up to that");
     if (*length < capacity - 1) continue;
     int32_t status = hooke_grow((void **)text, *length, 2 * capacity, 1);
     if (status) return status;
