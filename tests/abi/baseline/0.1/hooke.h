@@ -155,6 +155,8 @@ HOOKE_API const char *hooke_part_kind(int64_t kind);
 HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
+HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
+                                 int64_t triangle_count, const int64_t *triangles);
 #ifdef __cplusplus
 }
 #endif
@@ -405,6 +407,7 @@ HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
 HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
 HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
 HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
+HOOKE_API int32_t hooke_mesh_read(const char *path, hooke_options *options);
 typedef struct hooke_trajectory hooke_trajectory;
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,
