@@ -20,8 +20,10 @@ struct hooke_factor {
   int32_t free_count;
   int32_t *particle,
       *position; /* the free particles in order; where each is in it, -1 for those that are held */
-  struct hooke_columns matrix;   /* S, in order */
-  struct place *spring, *triple; /* of each spring, and of the pairs 01, 12, 20 of each triple of bending */
+  struct hooke_columns matrix; /* S, in order */
+  struct place *spring, *triple,
+      *tetrahedron; /* of each spring; of the pairs 01, 12, 20 of each triple of bending; of the pairs
+                                                  01, 02, 12, 03, 13, 23 of each tetrahedron */
   struct hooke_cholmod *cholmod;
   struct hooke_triangle triangle;
   double *vector;
@@ -124,7 +126,8 @@ static int locate_blocks(struct hooke_factor *x) {
   const struct hooke_springs *springs = &x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
   x->triple = take(x, 3 * x->system->bending.count, sizeof *x->triple);
-  if (x->spring == NULL || x->triple == NULL) return 0;
+  x->tetrahedron = take(x, 6 * x->system->altitudes.count, sizeof *x->tetrahedron);
+  if (x->spring == NULL || x->triple == NULL || x->tetrahedron == NULL) return 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hooke_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
@@ -137,6 +140,14 @@ static int locate_blocks(struct hooke_factor *x) {
   for (struct hooke_triples at = {&x->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++)
       *place++ = find_place(x, triple.particle[e], triple.particle[(e + 1) % 3]);
+  }
+  place = x->tetrahedron;
+  for (int64_t k = 0; k < x->system->altitudes.count; k++) {
+    const int32_t *p = x->system->altitudes.tetrahedron[k].particle;
+    for (int j = 1; j < 4; j++) {
+      for (int e = 0; e < j; e++)
+        *place++ = find_place(x, p[e], p[j]);
+    }
   }
   return 1;
 }
@@ -217,9 +228,10 @@ int32_t hooke_factor_create(const hooke_system *system, int64_t most, struct hoo
 void hooke_factor_destroy(struct hooke_factor *x) {
   if (x == NULL) return;
   hooke_cholmod_destroy(x->cholmod);
-  void *const blocks[] = {x->particle,       x->position,     x->matrix.start,   x->matrix.row,
-                          x->matrix.number,  x->spring,       x->triple,         x->vector,
-                          x->triangle.begin, x->triangle.row, x->triangle.block, x->triangle.corner};
+  void *const blocks[] = {x->particle,       x->position,       x->matrix.start, x->matrix.row,
+                          x->matrix.number,  x->spring,         x->triple,       x->tetrahedron,
+                          x->vector,         x->triangle.begin, x->triangle.row, x->triangle.block,
+                          x->triangle.corner};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
     hooke_free(blocks[k]);
   hooke_free(x);
@@ -282,6 +294,22 @@ static void add_bending(const struct hooke_factor *x, double alpha) {
   }
 }
 
+static void add_altitude(const struct hooke_factor *x, const struct hooke_altitude_tangent *altitude) {
+  const struct place *place = x->tetrahedron;
+  for (const struct hooke_altitude_tangent *t = altitude; t < altitude + x->system->altitudes.count; t++) {
+    for (int j = 1; j < 4; j++) {
+      for (int e = 0; e < j; e++, place++) {
+        const double s = t->size * (t->weight[e] * t->weight[j]);
+        if (place->column < 0) continue;
+        for (int c = 0; c < 3; c++) {
+          for (int a = 0; a < 3; a++)
+            column_of(&x->matrix, *place, c)[a] += s * t->u[a] * t->u[c];
+        }
+      }
+    }
+  }
+}
+
 /* Takes L over block by block. 0 where a number on its diagonal is not finite. */
 static int32_t fill_triangle(struct hooke_factor *x) {
   const struct hooke_columns l = hooke_cholmod_factor(x->cholmod);
@@ -304,11 +332,13 @@ static int32_t fill_triangle(struct hooke_factor *x) {
 }
 
 int32_t hooke_factor_compute(struct hooke_factor *x, const double *diagonal,
-                             const struct hooke_tangent *tangent, double alpha) {
+                             const struct hooke_tangent *tangent,
+                             const struct hooke_altitude_tangent *altitude, double alpha) {
   memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
   add_diagonal(x, diagonal);
   add_springs(x, tangent);
   add_bending(x, alpha);
+  add_altitude(x, altitude);
   return hooke_cholmod_compute(x->cholmod, &x->matrix) && fill_triangle(x);
 }
 

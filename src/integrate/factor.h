@@ -26,7 +26,8 @@ double hooke_factor_products(const struct hooke_factor *factor); /* multiplicati
 /* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 0 where rounding or numbers
  * that are not finite leave it not positive, or where there is no memory. */
 int32_t hooke_factor_compute(struct hooke_factor *factor, const double *diagonal,
-                             const struct hooke_tangent *tangent, double alpha);
+                             const struct hooke_tangent *tangent,
+                             const struct hooke_altitude_tangent *altitude, double alpha);
 
 /* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and between that order
  * and vectors of all particles, x, y and z apart, where held ones become 0. */

@@ -11,9 +11,10 @@
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 /* Numbers of a factor that is still made: 2 GB. */
 static const int64_t MOST_NUMBERS = 100000000;
-/* Nanoseconds, as measured; only their ratios count: of a product for each spring, of work on a vector for each number, of a
+/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of work on a vector for each number, of a
  * solve with a factor for each of its numbers, of a factor for each of its multiplications. */
-static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84;
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84,
+                    OF_TETRAHEDRON = 150.0;
 /* Of BiCGSTAB(4), an iteration. */
 static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
 enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
@@ -37,8 +38,14 @@ int32_t hooke_reduced_create(hooke_integrator *it, int32_t kind, struct hooke_re
   const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + (symmetric ? 0 : 15 * n);
   double *block = hooke_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += numbers * (int64_t)sizeof(double);
   *reduced = (struct hooke_reduced){.integrator = it, .symmetric = symmetric};
+  reduced->altitude = hooke_new(system->altitudes.count, sizeof *reduced->altitude);
+  if (reduced->altitude == NULL) {
+    hooke_free(block);
+    return HOOKE_NO_MEMORY;
+  }
+  it->own_memory +=
+      numbers * (int64_t)sizeof(double) + system->altitudes.count * (int64_t)sizeof *reduced->altitude;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++)
     reduced->rows_needed |= !is_own(system->force_row[k]) && system->force_row[k]->add_product;
   reduced->diagonal = part(&block, n);
@@ -60,6 +67,7 @@ int32_t hooke_reduced_create(hooke_integrator *it, int32_t kind, struct hooke_re
 
 void hooke_reduced_release(struct hooke_reduced *reduced) {
   hooke_free(reduced->diagonal);
+  hooke_free(reduced->altitude);
   hooke_factor_destroy(reduced->whole);
   memset(reduced, 0, sizeof *reduced);
 }
@@ -111,6 +119,7 @@ static void fill_diagonal(struct hooke_reduced *reduced) {
       hooke_tangent_diagonal(run, &reduced->tangent, block);
   }
   if (reduced->alpha != 0.0) add_bending(&system->bending, reduced->alpha, block);
+  hooke_altitude_tangent_diagonal(system->altitudes.count, reduced->altitude, block);
   memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
   for (int64_t p = 0; p < n; p++)
     factorise(n, p, reduced->factor);
@@ -136,6 +145,7 @@ void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, do
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hooke_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
   }
+  hooke_altitude_tangents(&system->altitudes, fields.q, fields.v, alpha, beta, reduced->altitude);
   fill_diagonal(reduced);
   if (reduced->rows) hooke_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
 }
@@ -202,6 +212,7 @@ static int32_t multiply_matrix(struct hooke_reduced *reduced, const double *x, d
       hooke_tangent_product(run, &reduced->tangent, from, to);
   }
   if (reduced->alpha != 0.0) hooke_bending_add(&system->bending, -reduced->alpha, from, to);
+  if (reduced->symmetric) hooke_altitude_tangent_add(system->altitudes.count, reduced->altitude, from, to);
   return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
 }
 
@@ -346,8 +357,8 @@ int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced) {
 }
 
 int32_t hooke_reduced_factorise(struct hooke_reduced *reduced) {
-  const int32_t positive =
-      hooke_factor_compute(reduced->whole, reduced->block, &reduced->tangent, reduced->alpha);
+  const int32_t positive = hooke_factor_compute(reduced->whole, reduced->block, &reduced->tangent,
+                                                reduced->altitude, reduced->alpha);
   reduced->whole_state = positive ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
 }
@@ -358,7 +369,9 @@ void hooke_reduced_drop_factor(struct hooke_reduced *reduced) {
 
 double hooke_reduced_cost_by_blocks(const struct hooke_reduced *reduced, double products, double vectors) {
   const hooke_integrator *it = reduced->integrator;
-  return products * OF_SPRING * (double)it->system->springs.count + vectors * OF_UNKNOWN * (double)it->size;
+  return products * (OF_SPRING * (double)it->system->springs.count +
+                     OF_TETRAHEDRON * (double)it->system->altitudes.count) +
+         vectors * OF_UNKNOWN * (double)it->size;
 }
 
 double hooke_reduced_cost_of_solve(const struct hooke_reduced *reduced) {

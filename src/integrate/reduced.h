@@ -1,7 +1,8 @@
 /* The linear equations of an implicit step, (M - beta df/dv - alpha df/dq) x = b over the free particles.
  *
  * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, alpha c (1, -2, 1)^T (1, -2, 1)
- * of each triple of bending, and of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T); by its
+ * of each triple of bending, of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T), and of each
+ * altitude spring (alpha kappa + beta gamma) (g g^T) (u u^T); by its
  * 3x3 blocks on the diagonal (block Jacobi), or by all of it (integrate/factor.h). With S = L L^T what is iterated on is
  * L^-1 (...) L^-T, whose residual weighs particles by their mass. */
 #ifndef HOOKE_INTEGRATE_REDUCED_H
@@ -20,10 +21,11 @@ enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_N
 
 struct hooke_reduced {
   hooke_integrator *integrator;
-  int32_t symmetric;   /* alpha = 0, and springs, bending and drag alone */
+  int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t rows_needed; /* some force is none of springs, bending and drag */
   double t, alpha, beta;
   struct hooke_tangent tangent;
+  struct hooke_altitude_tangent *altitude; /* one a tetrahedron */
   double *diagonal;                        /* n: m + beta c */
   double *block;                           /* 6 n: diagonal blocks of S, zero where a particle is held */
   double *factor;                          /* 6 n: L^-1 of these */

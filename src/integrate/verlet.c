@@ -3,7 +3,7 @@
  * The second kick takes the damping at the new velocity, which keeps the order and the limit h w = 2. With spring damping
  * it is solved for, with D = df/dv at (q', v_half):
  *   (M - h/2 D) (v' - v_half) = h/2 (f(t + h, q', v_half) + M g)
- * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs and drag: a
+ * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs, altitude springs and drag: a
  * callback sees v_half. A spring that only pulls counts if it pulls at (q', v_half), else not at all. Drag alone is a
  * division. */
 #include "core/memory.h"
@@ -28,7 +28,7 @@ static int32_t create(hooke_integrator *it) {
   struct verlet *own = hooke_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->damped = hooke_springs_are_damped(&it->system->springs);
+  own->damped = hooke_springs_are_damped(&it->system->springs) || it->system->altitudes.damped;
   own->callback = it->system->force != NULL;
   if (!own->damped && !own->callback) return HOOKE_OK;
   const int64_t numbers = (own->damped ? 4 : 2) * it->size;

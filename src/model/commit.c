@@ -77,6 +77,8 @@ static void drop_building_arrays(hooke_system *system) {
     hooke_group_release_arrays(&system->group[k]);
   for (int64_t k = 0; k < system->bending_group_count; k++)
     hooke_bending_group_strip(&system->bending_group[k]);
+  for (int64_t k = 0; k < system->altitude_group_count; k++)
+    hooke_altitude_group_strip(&system->altitude_group[k]);
 }
 
 static int32_t fill_particles(hooke_system *system) {
@@ -107,6 +109,8 @@ void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched) {
     for (int e = 0; e < 3; e++)
       touched[triple.particle[e]] = 1;
   }
+  for (int64_t k = 0; k < 4 * system->altitudes.count; k++)
+    touched[system->altitudes.tetrahedron[k / 4].particle[k % 4]] = 1;
 }
 
 /* A net numbers particles its own way; it goes over all of them. */
@@ -179,6 +183,7 @@ static void undo(hooke_system *system) {
   hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_bending_release(&system->bending);
+  hooke_altitudes_release(&system->altitudes);
   hooke_free(system->inverse_mass);
   hooke_free(system->held_particle);
   hooke_free(system->force_row);
@@ -205,6 +210,9 @@ int32_t hooke_system_commit(hooke_system *system) {
   }
   if (status == HOOKE_OK) {
     status = hooke_bending_create(system->bending_group, system->bending_group_count, &system->bending);
+  }
+  if (status == HOOKE_OK) {
+    status = hooke_altitudes_create(system->altitude_group, system->altitude_group_count, &system->altitudes);
   }
   if (status == HOOKE_OK && system->lanes.count == 0) {
     status = hooke_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);

@@ -29,6 +29,10 @@ double hooke_system_bending_energy(const hooke_system *system, const double *q) 
   return energy_of(system, &hooke_force_bending, q);
 }
 
+double hooke_system_altitude_energy(const hooke_system *system, const double *q) {
+  return energy_of(system, &hooke_force_altitude, q);
+}
+
 double hooke_system_gravity_energy(const hooke_system *system, const double *q) {
   return energy_of(system, &hooke_force_gravity, q);
 }

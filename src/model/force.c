@@ -8,8 +8,8 @@
 
 /* The order of the rows is the order of the sum at a particle. Gravity is last: a = w f + g. */
 static const struct hooke_force_row *const table[] = {
-    &hooke_force_springs,  &hooke_force_bending, &hooke_force_drag,
-    &hooke_force_callback, &hooke_force_gravity,
+    &hooke_force_springs, &hooke_force_bending,  &hooke_force_altitude,
+    &hooke_force_drag,    &hooke_force_callback, &hooke_force_gravity,
 };
 
 const struct hooke_force_row *hooke_force_table(int32_t k) {

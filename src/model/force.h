@@ -29,8 +29,8 @@ struct hooke_force_row {
                      const struct hooke_pattern *pattern, double *dfdq, double *dfdv);
 };
 
-extern const struct hooke_force_row hooke_force_springs, hooke_force_bending, hooke_force_drag,
-    hooke_force_callback, hooke_force_gravity;
+extern const struct hooke_force_row hooke_force_springs, hooke_force_bending, hooke_force_altitude,
+    hooke_force_drag, hooke_force_callback, hooke_force_gravity;
 
 /* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out` (NULL: none) says.
  * HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */

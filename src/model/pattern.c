@@ -27,6 +27,21 @@ static void visit_triples(const struct hooke_bending *bending, int64_t *count, i
   }
 }
 
+/* And of every pair of a tetrahedron. */
+static void visit_tetrahedra(const struct hooke_altitudes *altitudes, int64_t *count, int64_t *column,
+                             int64_t *next) {
+  for (int64_t k = 0; k < altitudes->count; k++) {
+    const int32_t *p = altitudes->tetrahedron[k].particle;
+    for (int e = 0; e < 16; e++) {
+      if (e / 4 == e % 4) continue;
+      if (column)
+        column[next[p[e / 4]]++] = p[e % 4];
+      else
+        count[p[e / 4]]++;
+    }
+  }
+}
+
 /* Calls for both directions of every spring; `next` is where the row's next column goes (NULL: count only).
  */
 static void visit_pairs(const struct hooke_springs *springs, int64_t *count, int64_t *column, int64_t *next) {
@@ -61,7 +76,8 @@ static void sort_rows(struct hooke_pattern *pattern) {
 }
 
 int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pattern *pattern) {
-  const int64_t n = system->particle_count, most = n + 2 * system->springs.count + 6 * system->bending.count;
+  const int64_t n = system->particle_count, most = n + 2 * system->springs.count + 6 * system->bending.count +
+                                                   12 * system->altitudes.count;
   *pattern = (struct hooke_pattern){.rows = n};
   pattern->row_start = hooke_new(n + 1, sizeof(int64_t));
   pattern->column = hooke_new(most, sizeof(int64_t));
@@ -73,6 +89,7 @@ int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pat
   }
   visit_pairs(&system->springs, next, NULL, NULL);
   visit_triples(&system->bending, next, NULL, NULL);
+  visit_tetrahedra(&system->altitudes, next, NULL, NULL);
   for (int64_t p = 0, start = 0; p < n; p++) {
     pattern->row_start[p] = start;
     pattern->column[start] = p;
@@ -82,6 +99,7 @@ int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pat
   }
   visit_pairs(&system->springs, NULL, pattern->column, next);
   visit_triples(&system->bending, NULL, pattern->column, next);
+  visit_tetrahedra(&system->altitudes, NULL, pattern->column, next);
   hooke_free(next);
   sort_rows(pattern);
   return HOOKE_OK;

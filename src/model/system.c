@@ -23,8 +23,11 @@ void hooke_system_destroy(hooke_system *system) {
     hooke_drive_release(&system->drive[k]);
   for (int64_t k = 0; k < system->bending_group_count; k++)
     hooke_bending_group_release(&system->bending_group[k]);
+  for (int64_t k = 0; k < system->altitude_group_count; k++)
+    hooke_altitude_group_release(&system->altitude_group[k]);
   hooke_lanes_release(&system->lanes);
   hooke_bending_release(&system->bending);
+  hooke_altitudes_release(&system->altitudes);
   hooke_net_release(&system->net);
   hooke_springs_release(&system->springs);
   hooke_free(system->position);
@@ -38,6 +41,7 @@ void hooke_system_destroy(hooke_system *system) {
   hooke_free(system->group);
   hooke_free(system->part);
   hooke_free(system->bending_group);
+  hooke_free(system->altitude_group);
   hooke_system_drop_derived(system, 0);
   hooke_free(system->derived);
   hooke_free(system->drive);
@@ -201,8 +205,9 @@ int64_t hooke_system_next_part(hooke_system *system) {
 }
 
 struct hooke_system_mark hooke_system_mark(const hooke_system *system) {
-  return (struct hooke_system_mark){system->particle_count, system->group_count, system->bending_group_count,
-                                    system->derived_count, system->part_count};
+  return (struct hooke_system_mark){system->particle_count,      system->group_count,
+                                    system->bending_group_count, system->altitude_group_count,
+                                    system->derived_count,       system->part_count};
 }
 
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark) {
@@ -210,6 +215,8 @@ void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark)
     hooke_group_release(&system->group[--system->group_count]);
   while (system->bending_group_count > mark.bending_group_count)
     hooke_bending_group_release(&system->bending_group[--system->bending_group_count]);
+  while (system->altitude_group_count > mark.altitude_group_count)
+    hooke_altitude_group_release(&system->altitude_group[--system->altitude_group_count]);
   hooke_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;

@@ -3,6 +3,7 @@
 #define HOOKE_MODEL_SYSTEM_H
 
 #include "hooke/system.h"
+#include "model/altitude.h"
 #include "model/bending.h"
 #include "model/derived.h"
 #include "model/drive.h"
@@ -52,6 +53,11 @@ struct hooke_system {
   struct hooke_bending_group *bending_group;
   struct hooke_bending bending; /* from commit on */
 
+  /* the same of tetrahedra */
+  int64_t altitude_group_count, altitude_group_capacity;
+  struct hooke_altitude_group *altitude_group;
+  struct hooke_altitudes altitudes; /* from commit on */
+
   int64_t derived_count, derived_capacity;
   struct hooke_derived *derived;
 
@@ -78,7 +84,7 @@ int32_t hooke_system_require_committed(const hooke_system *system);
 int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
                                      const int64_t *particles, int32_t refused);
 
-/* Sets touched[p] to 1 for every particle that a spring or a triple is at. */
+/* Sets touched[p] to 1 for every particle that a spring, a triple or a tetrahedron is at. */
 void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched);
 
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
@@ -97,7 +103,7 @@ int64_t hooke_system_next_part(hooke_system *system);
 
 /* A builder that fails half-way takes back what it added since the mark. */
 struct hooke_system_mark {
-  int64_t particle_count, group_count, bending_group_count, derived_count, part_count;
+  int64_t particle_count, group_count, bending_group_count, altitude_group_count, derived_count, part_count;
 };
 struct hooke_system_mark hooke_system_mark(const hooke_system *system);
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark);

@@ -115,12 +115,14 @@ int64_t hooke_system_spring_memory(const hooke_system *system) {
 
 int64_t hooke_system_memory(const hooke_system *system) {
   int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs) + system->lanes.memory +
-                  hooke_net_memory(&system->net) + hooke_bending_memory(&system->bending);
+                  hooke_net_memory(&system->net) + hooke_bending_memory(&system->bending) +
+                  hooke_altitudes_memory(&system->altitudes);
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
            (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->bending_group_count * (int64_t)sizeof *system->bending_group +
+           system->altitude_group_count * (int64_t)sizeof *system->altitude_group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {

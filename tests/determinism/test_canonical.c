@@ -65,6 +65,7 @@ static void test_small_scenes(void **unused) {
                                                   .particles = 7 + (int64_t)(seed * 37 % 900),
                                                   .springs = (int64_t)(seed * 53 % 1500),
                                                   .triples = (int64_t)(round * (seed * 71 % 400)),
+                                                  .tetrahedra = (int64_t)(round * (seed * 37 % 90)),
                                                   .features = features});
     }
   }
@@ -75,8 +76,12 @@ static void test_large_scenes(void **unused) {
   const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
   for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
-    compare_scene((struct random_scene_request){
-        .seed = 7001 + k, .particles = 30011, .springs = 100003, .triples = 10007, .features = features[k]});
+    compare_scene((struct random_scene_request){.seed = 7001 + k,
+                                                .particles = 30011,
+                                                .springs = 100003,
+                                                .triples = 10007,
+                                                .tetrahedra = 3001,
+                                                .features = features[k]});
   }
 }
 
@@ -92,6 +97,7 @@ static void test_parts(void **unused) {
                                                   .particles = 7 + m,
                                                   .springs = k == m ? 0 : 20,
                                                   .triples = m % 2 ? 5 : 0,
+                                                  .tetrahedra = k % 3 == 1 && m % 2 ? 4 : 0,
                                                   .features = features,
                                                   .cloth = {size[k], size[m]},
                                                   .rope = 1 + (k * sizes + m) % 70});

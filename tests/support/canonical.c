@@ -27,6 +27,21 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   check_ok(hooke_system_spring_ends(system, canonical->ends));
   check_ok(hooke_system_spring_material(system, canonical->kappa, canonical->gamma, canonical->rest_length));
   memcpy(canonical->inverse_mass, hooke_system_inverse_mass(system), (size_t)n * sizeof(double));
+  const int64_t t = canonical->tetrahedron_count = hooke_system_altitude_count(system);
+  canonical->corners = new_block(4 * t, (int64_t)sizeof(int64_t));
+  for (int k = 0; k < 3; k++)
+    canonical->altitude[k] = new_doubles(k < 2 ? t : 7 * t);
+  canonical->altitude_pull_only = new_block(t, 1);
+  check_ok(hooke_system_altitude_ends(system, canonical->corners));
+  check_ok(hooke_system_altitude_material(system, canonical->altitude[0], canonical->altitude[1],
+                                          canonical->altitude[2]));
+  for (int64_t g = 0, at = 0; g < hooke_system_altitude_group_count(system); g++) {
+    const int64_t size = hooke_system_altitude_group_size(system, g);
+    const int pulls = strncmp(hooke_system_altitude_group_name(system, g), "pull", 4) == 0;
+    assert_true(at + size <= t);
+    if (size > 0) memset(canonical->altitude_pull_only + at, pulls, (size_t)size);
+    at += size;
+  }
   int64_t spring = 0;
   for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
     const int64_t size = hooke_system_group_size(system, g);
@@ -46,6 +61,10 @@ void canonical_destroy(struct canonical *canonical) {
   free(canonical->pull_only);
   free(canonical->triples);
   free(canonical->coefficient);
+  free(canonical->corners);
+  for (int k = 0; k < 3; k++)
+    free(canonical->altitude[k]);
+  free(canonical->altitude_pull_only);
   free(canonical->inverse_mass);
   memset(canonical, 0, sizeof *canonical);
 }
@@ -87,6 +106,88 @@ static void add_triple(const struct canonical *canonical, int64_t k, const doubl
   }
 }
 
+/* ---- altitude springs ---- */
+
+/* The corners i0 .. i3 of each altitude. */
+static const int role[7][4] = {{1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3},
+                               {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
+
+static double dot(const double a[3], const double b[3]) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double n[3]) {
+  n[0] = a[1] * b[2] - a[2] * b[1];
+  n[1] = a[2] * b[0] - a[0] * b[2];
+  n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void altitude_vectors(const double *const x[4], int k, double e[3], double f[3], double r[3]) {
+  const double *x0 = x[role[k][0]], *x1 = x[role[k][1]], *x2 = x[role[k][2]], *x3 = x[role[k][3]];
+  for (int a = 0; a < 3; a++) {
+    e[a] = x1[a] - x0[a];
+    f[a] = k < 4 ? x2[a] - x0[a] : x3[a] - x2[a];
+    r[a] = k < 4 ? x3[a] - x0[a] : x2[a] - x0[a];
+  }
+}
+
+void canonical_altitudes(const double *const x[4], double square[7]) {
+  for (int k = 0; k < 7; k++) {
+    double e[3], f[3], r[3], n[3];
+    altitude_vectors(x, k, e, f, r);
+    cross(e, f, n);
+    square[k] = dot(n, n);
+  }
+}
+
+static double altitude_tension(const struct canonical *canonical, int64_t k, double h, double l,
+                               double rate) {
+  return (canonical->altitude[0][k] * (h - l) + canonical->altitude[1][k] * rate) / l;
+}
+
+/* The rate of an altitude with weights g. */
+static double altitude_rate(const int64_t *p, const double g[4], const double u[3], const double *v) {
+  double w[3];
+  for (int a = 0; a < 3; a++)
+    w[a] =
+        ((g[0] * v[3 * p[0] + a] + g[1] * v[3 * p[1] + a]) + g[2] * v[3 * p[2] + a]) + g[3] * v[3 * p[3] + a];
+  return dot(u, w);
+}
+
+static void add_tetrahedron(const struct canonical *canonical, int64_t number, const double *q,
+                            const double *v, const double *seen, double *force) {
+  const int64_t *p = canonical->corners + 4 * number;
+  const double *const x[4] = {q + 3 * p[0], q + 3 * p[1], q + 3 * p[2], q + 3 * p[3]};
+  double square[7], e[3], f[3], r[3], n[3], rf[3], re[3], u[3], g[4];
+  canonical_altitudes(x, square);
+  int k = 0;
+  for (int other = 1; other < 7; other++) {
+    if (square[other] > square[k]) k = other;
+  }
+  if (!(square[k] > 0.0)) return;
+  altitude_vectors(x, k, e, f, r);
+  cross(e, f, n);
+  cross(r, f, rf);
+  cross(r, e, re);
+  const double rest = canonical->altitude[2][7 * number + k], side = rest < 0.0 ? -1.0 : 1.0;
+  const double l = fabs(rest), c = side * (1.0 / sqrt(square[k]));
+  for (int a = 0; a < 3; a++)
+    u[a] = c * n[a];
+  const double h = dot(u, r), a = dot(rf, n) / square[k], b = dot(re, n) / square[k];
+  g[role[k][0]] = k < 4 ? (a - b) - 1.0 : a - 1.0;
+  g[role[k][1]] = -a;
+  g[role[k][2]] = k < 4 ? b : 1.0 - b;
+  g[role[k][3]] = k < 4 ? 1.0 : b;
+  double tension = altitude_tension(canonical, number, h, l, altitude_rate(p, g, u, v));
+  const double tension_seen = altitude_tension(canonical, number, h, l, altitude_rate(p, g, u, seen));
+  if (canonical->altitude_pull_only[number] && (h <= l || tension_seen < 0.0)) tension = 0.0;
+  for (int j = 0; j < 4; j++) {
+    const double s = tension * g[j];
+    for (int axis = 0; axis < 3; axis++)
+      force[3 * p[j] + axis] -= s * u[axis];
+  }
+}
+
 /* Damping at v, with springs that only pull and the callback at `seen`. */
 static void accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                        const double *seen, double *acceleration) {
@@ -98,6 +199,8 @@ static void accelerate(const struct canonical *canonical, double t, const double
     add_spring(canonical, k, q, v, seen, force);
   for (int64_t k = 0; k < canonical->triple_count; k++)
     add_triple(canonical, k, q, force);
+  for (int64_t k = 0; k < canonical->tetrahedron_count; k++)
+    add_tetrahedron(canonical, k, q, v, seen, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
@@ -215,6 +318,9 @@ static int is_damped(const struct canonical *canonical) {
   for (int64_t k = 0; k < canonical->spring_count; k++) {
     if (canonical->gamma[k] != 0.0) return 1;
   }
+  for (int64_t k = 0; k < canonical->tetrahedron_count; k++) {
+    if (canonical->altitude[1][k] != 0.0) return 1;
+  }
   return 0;
 }
 
@@ -255,6 +361,13 @@ static double rounding(const struct canonical *canonical, double h, const double
   }
   for (int64_t k = 0; k < canonical->triple_count; k++)
     stiffness = fmax(stiffness, 4.0 * canonical->coefficient[k]);
+  for (int64_t k = 0; k < canonical->tetrahedron_count; k++) {
+    for (int a = 0; a < 7; a++) {
+      const double l = fabs(canonical->altitude[2][7 * k + a]);
+      stiffness = fmax(stiffness, canonical->altitude[0][k] / l);
+      damping = fmax(damping, canonical->altitude[1][k] / l);
+    }
+  }
   return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
 }
 

@@ -1,7 +1,7 @@
 /* The definition of the sums that every path of the library reproduces to the bit.
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first end,
- * subtracted from the second), triples of bending in ascending number, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
+ * subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs likewise, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
  * are held (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
@@ -14,22 +14,30 @@ struct canonical {
   double *kappa, *gamma, *rest_length; /* spring_count */
   unsigned char *pull_only;            /* spring_count */
   int64_t triple_count;
-  int64_t *triples;      /* 3 triple_count */
-  double *coefficient;   /* triple_count */
-  double *inverse_mass;  /* particle_count */
-  const double *gravity; /* NULL: none */
-  double drag;           /* 0: none */
-  hooke_force *force;    /* NULL: none */
+  int64_t *triples;    /* 3 triple_count */
+  double *coefficient; /* triple_count */
+  int64_t tetrahedron_count;
+  int64_t *corners;                  /* 4 tetrahedron_count */
+  double *altitude[3];               /* stiffness, damping; 7 rest lengths, with a sign */
+  unsigned char *altitude_pull_only; /* tetrahedron_count */
+  double *inverse_mass;              /* particle_count */
+  const double *gravity;             /* NULL: none */
+  double drag;                       /* 0: none */
+  hooke_force *force;                /* NULL: none */
   void *ctx;
   /* puts driven particles where they are at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);
   void *place_ctx;
 };
 
-/* Numbers of a committed system. Springs of groups whose name begins with "pull" only pull; gravity, drag and callback
+/* Numbers of a committed system. Springs of all kinds, of groups whose name begins with "pull" only pull; gravity, drag and callback
  * are for the caller to fill in. */
 void canonical_create(const hooke_system *system, struct canonical *canonical);
 void canonical_destroy(struct canonical *canonical);
+
+/* A = n.n of the seven altitudes of a tetrahedron with these corners, each of three numbers: six times the volume over the
+ * root of A is the altitude. */
+void canonical_altitudes(const double *const x[4], double square[7]);
 
 /* Accelerations, 3 particle_count. */
 void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,

@@ -22,6 +22,18 @@ const struct law laws[LAW_COUNT] = {
     {.name = "callback with product", .law = "length", .damped = 1, .gravity = 1, .drag = 1, .callback = 2},
     {.name = "bending", .law = "strain", .bending = 1},
     {.name = "bending of all kinds", .law = "length", .damped = 1, .gravity = 1, .drag = 1, .bending = 1},
+    {.name = "altitude springs", .law = "strain", .altitude = 1},
+    {.name = "altitude springs, damped",
+     .law = "length",
+     .damped = 1,
+     .gravity = 1,
+     .drag = 1,
+     .altitude = 1},
+    {.name = "altitude springs, pull only, damped",
+     .law = "strain",
+     .pull_only = 1,
+     .damped = 1,
+     .altitude = 1},
 };
 
 struct material {
@@ -88,6 +100,50 @@ static void add_bending(struct random_source *source, hooke_system *system) {
   check_ok(hooke_system_add_bending(system, "bending", LAW_TRIPLES, triples, LAW_TRIPLES, coefficient));
 }
 
+/* The shortest altitude, 0 if another one is nearly as short. */
+static double clear_altitude(const double *const x[4]) {
+  double square[7], first = 0.0, second = 0.0, volume = 0.0;
+  canonical_altitudes(x, square);
+  for (int k = 0; k < 7; k++) {
+    second = fmax(second, fmin(first, square[k]));
+    first = fmax(first, square[k]);
+  }
+  for (int a = 0; a < 3; a++) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    volume += (x[3][a] - x[0][a]) *
+              ((x[1][b] - x[0][b]) * (x[2][c] - x[0][c]) - (x[1][c] - x[0][c]) * (x[2][b] - x[0][b]));
+  }
+  return second < 0.75 * first ? fabs(volume) / sqrt(first) : 0.0;
+}
+
+/* Both longer and shorter than at rest; damping does not come near to cancelling the tension of those that only pull. */
+static void add_altitude(const struct law *law, struct random_source *source, const double *q,
+                         hooke_system *system) {
+  for (int group = 0; group < 2; group++) {
+    int64_t corners[4 * LAW_TETRAHEDRA];
+    double stiffness[LAW_TETRAHEDRA], damping[LAW_TETRAHEDRA];
+    for (int64_t k = 0, tries = 0; k < LAW_TETRAHEDRA; tries++) {
+      const double *x[4];
+      assert_true(tries < 100000);
+      for (int64_t e = 0; e < 4; e++) {
+        corners[4 * k + e] = random_whole(source, 0, LAW_PARTICLES - 1);
+        x[e] = q + 3 * corners[4 * k + e];
+      }
+      if (!(clear_altitude(x) > 0.35)) continue;
+      stiffness[k] = random_between(source, 15.0, 30.0);
+      damping[k++] = law->pull_only ? random_between(source, 0.02, 0.08) : random_between(source, 0.1, 2.0);
+    }
+    hooke_options *options = NULL;
+    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_set_numbers(options, "stiffness", LAW_TETRAHEDRA, stiffness));
+    if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_TETRAHEDRA, damping));
+    if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
+    check_ok(hooke_options_set_number(options, "rest_scale", group ? 1.4 : 0.7));
+    check_ok(hooke_system_add_altitude(system, "altitude", LAW_TETRAHEDRA, corners, options));
+    hooke_options_destroy(options);
+  }
+}
+
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
   struct random_source source = {seed};
   struct material material;
@@ -108,6 +164,7 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
   check_ok(hooke_system_pin(scene->system, 1, &last));
   add_springs(law, &material, scene);
   if (law->bending) add_bending(&source, scene->system);
+  if (law->altitude) add_altitude(law, &source, scene->q, scene->system);
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

@@ -4,16 +4,22 @@
 
 #include "hooke/system.h"
 
-enum { LAW_PARTICLES = 12, LAW_SPRINGS = 24, LAW_TRIPLES = 10, LAW_SIZE = 3 * LAW_PARTICLES };
+enum {
+  LAW_PARTICLES = 12,
+  LAW_SPRINGS = 24,
+  LAW_TRIPLES = 10,
+  LAW_TETRAHEDRA = 6,
+  LAW_SIZE = 3 * LAW_PARTICLES
+};
 
 struct law {
   const char *name, *law;
   int32_t zero_rest, damped, pull_only, gravity, drag;
   int32_t callback; /* 1: without a product, 2: with one */
-  int32_t bending;
+  int32_t bending, altitude;
 };
 
-enum { LAW_COUNT = 13 };
+enum { LAW_COUNT = 16 };
 extern const struct law laws[LAW_COUNT];
 
 struct law_scene {

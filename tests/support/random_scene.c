@@ -295,6 +295,62 @@ static int64_t add_triples(struct random_source *source, struct random_scene_req
   return kept_count;
 }
 
+/* ---- altitude springs ---- */
+
+/* Four particles that are not near a plane: the altitudes are above a tenth. */
+static void draw_corners(struct random_source *source, int64_t particles, const double *position,
+                         int64_t *corner) {
+  for (int tries = 0;; tries++) {
+    assert_true(tries < 10000);
+    const int64_t first = random_whole(source, 0, particles - 1);
+    const double *x[4];
+    double square[7], most = 0.0;
+    for (int64_t e = 0; e < 4; e++) {
+      corner[e] = (first + (e ? random_whole(source, 1, 7) : 0)) % particles;
+      x[e] = position + 3 * corner[e];
+    }
+    canonical_altitudes(x, square);
+    for (int k = 0; k < 7; k++)
+      most = fmax(most, square[k]);
+    double n[3], d[3], volume = 0.0;
+    for (int a = 0; a < 3; a++) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      n[a] = (x[1][b] - x[0][b]) * (x[2][c] - x[0][c]) - (x[1][c] - x[0][c]) * (x[2][b] - x[0][b]);
+      d[a] = x[3][a] - x[0][a];
+      volume += n[a] * d[a];
+    }
+    if (fabs(volume) > 0.1 * sqrt(most)) return;
+  }
+}
+
+static void add_tetrahedra(struct random_source *source, struct random_scene_request request,
+                           const double *position, hooke_system *system) {
+  int64_t *corners = new_block(4 * request.tetrahedra, (int64_t)sizeof(int64_t));
+  double *stiffness = new_doubles(request.tetrahedra), *damping = new_doubles(request.tetrahedra);
+  for (int64_t done = 0, count; done < request.tetrahedra; done += count) {
+    hooke_options *options = NULL;
+    count = random_whole(source, 1, request.tetrahedra - done);
+    for (int64_t k = 0; k < count; k++) {
+      draw_corners(source, request.particles, position, corners + 4 * k);
+      stiffness[k] = random_whole(source, 0, 5) ? random_between(source, 1.0, 9.0) : 0.0;
+      damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
+    }
+    const int pulls = request.features & SCENE_PULL_ONLY && random_whole(source, 0, 1);
+    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
+    if (request.features & SCENE_DAMPING)
+      check_ok(hooke_options_set_numbers(options, "damping", count, damping));
+    check_ok(hooke_options_set_number(options, "rest_scale", random_between(source, 0.8, 1.2)));
+    check_ok(hooke_options_set_number(options, "compression", !pulls));
+    check_ok(
+        hooke_system_add_altitude(system, pulls ? "pull altitude" : "altitude", count, corners, options));
+    hooke_options_destroy(options);
+  }
+  free(corners);
+  free(stiffness);
+  free(damping);
+}
+
 /* ---- parts ---- */
 
 static void set_family(struct random_source *source, hooke_options *options, const char *family,
@@ -375,6 +431,8 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   if (request.lattice[0] > 0) add_part(&source, request, "lattice", scene->system);
   struct wanted wanted = {0};
   add_groups(&source, request, position, scene->system, &wanted);
+  struct random_source heights = {request.seed + 177};
+  add_tetrahedra(&heights, request, position, scene->system);
   free(position);
   struct random_source bends = {request.seed + 77};
   int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));

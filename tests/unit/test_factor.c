@@ -36,6 +36,31 @@ static void tear_down(struct bench *bench) {
   random_scene_destroy(&bench->scene);
 }
 
+/* A K + b C of altitude springs in their directions, by their definition. */
+static void multiply_altitude(const struct bench *bench, const double *x, double *out) {
+  const hooke_system *system = bench->scene.system;
+  const int64_t n = bench->n;
+  double *q = new_doubles(6 * n), *v = q + 3 * n;
+  hooke_motion_store(bench->integrator->motion, q, v);
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    struct hooke_tautness s;
+    double along = 0.0;
+    if (!hooke_tautness_find(t, q, v, &s) || s.slack) continue;
+    for (int j = 0; j < 4; j++) {
+      for (int a = 0; a < 3; a++)
+        along += s.altitude.weight[j] * s.altitude.u[a] * x[a * n + t->particle[j]];
+    }
+    along *=
+        (bench->reduced.alpha * t->stiffness + bench->reduced.beta * t->damping) / t->rest[s.altitude.choice];
+    for (int j = 0; j < 4; j++) {
+      for (int a = 0; a < 3; a++)
+        out[a * n + t->particle[j]] += s.altitude.weight[j] * s.altitude.u[a] * along;
+    }
+  }
+  free(q);
+}
+
 /* out = S x over the free particles, spring by spring. */
 static void multiply(const struct bench *bench, const double *x, double *out) {
   const hooke_system *system = bench->scene.system;
@@ -82,6 +107,7 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
       out[a * n + t.particle[2]] += alpha * t.coefficient * bend;
     }
   }
+  multiply_altitude(bench, x, out);
 }
 
 static void needs_factor(void) {
@@ -98,6 +124,7 @@ static void solves_s(void **unused) {
                                          .particles = 20 + 17 * k,
                                          .springs = 5 + 40 * k,
                                          .triples = k % 3 == 0 ? 9 : 0,
+                                         .tetrahedra = k % 4 == 1 ? 3 * k : 0,
                                          .features = k * 53 & SCENE_EVERYTHING,
                                          .cloth = {k % 2 ? k + 3 : 0, 11},
                                          .rope = k % 5 ? 0 : 60},
@@ -187,6 +214,7 @@ static void implicit_equation(void **unused) {
                                          .particles = 40,
                                          .springs = 90,
                                          .triples = k % 2 ? 12 : 0,
+                                         .tetrahedra = k % 3 ? 12 : 0,
                                          .with_product = 1,
                                          .features = SCENE_EVERYTHING & ~(k % 3 ? SCENE_CALLBACK : 0)},
            gamma * gamma, gamma, &b);

@@ -110,6 +110,7 @@ static void random_scenes(void **unused) {
                                                       .particles = 20 + 13 * k,
                                                       .springs = 60 + 20 * k,
                                                       .triples = k % 3 * 40,
+                                                      .tetrahedra = k % 4 * 10,
                                                       .features = k * 37 & SCENE_EVERYTHING,
                                                       .cloth = {k % 9 + 2, 9},
                                                       .with_product = 1},

@@ -1,0 +1,66 @@
+/* Altitude springs as parts of a matrix. */
+#include "model/altitude.h"
+
+#include <string.h>
+
+static void gather(const int32_t particle[4], const double *const from[3], double to[4][3]) {
+  for (int j = 0; j < 4; j++) {
+    for (int a = 0; a < 3; a++)
+      to[j][a] = from[a][particle[j]];
+  }
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+void hooke_altitude_tangents(const struct hooke_altitudes *altitudes, const double *const q[3],
+                             const double *const v[3], double alpha, double beta,
+                             struct hooke_altitude_tangent *tangent) {
+  for (int64_t k = 0; k < altitudes->count; k++) {
+    const struct hooke_tetrahedron *t = &altitudes->tetrahedron[k];
+    struct hooke_altitude_tangent *out = &tangent[k];
+    struct hooke_altitude altitude;
+    double x[4][3], w[3];
+    int32_t slack;
+    memset(out, 0, sizeof *out);
+    memcpy(out->particle, t->particle, sizeof out->particle);
+    gather(t->particle, q, x);
+    if (!hooke_altitude_find(t, (const double(*)[3])x, &altitude)) continue;
+    gather(t->particle, v, x);
+    hooke_altitude_weigh(&altitude, (const double(*)[3])x, w);
+    hooke_altitude_tension(t, &altitude, dot(altitude.u, w), &slack);
+    if (slack) continue;
+    out->size = (alpha * t->stiffness + beta * t->damping) / t->rest[altitude.choice];
+    memcpy(out->u, altitude.u, sizeof out->u);
+    memcpy(out->weight, altitude.weight, sizeof out->weight);
+  }
+}
+
+void hooke_altitude_tangent_add(int64_t count, const struct hooke_altitude_tangent *tangent,
+                                const double *const x[3], double *const out[3]) {
+  for (const struct hooke_altitude_tangent *t = tangent; t < tangent + count; t++) {
+    double along = 0.0;
+    for (int j = 0; j < 4; j++) {
+      const int32_t p = t->particle[j];
+      along += t->weight[j] * ((t->u[0] * x[0][p] + t->u[1] * x[1][p]) + t->u[2] * x[2][p]);
+    }
+    for (int j = 0; j < 4; j++) {
+      const double s = t->size * along * t->weight[j];
+      for (int a = 0; a < 3; a++)
+        out[a][t->particle[j]] += s * t->u[a];
+    }
+  }
+}
+
+void hooke_altitude_tangent_diagonal(int64_t count, const struct hooke_altitude_tangent *tangent,
+                                     double *const block[6]) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (const struct hooke_altitude_tangent *t = tangent; t < tangent + count; t++) {
+    for (int j = 0; j < 4; j++) {
+      const double s = t->size * (t->weight[j] * t->weight[j]);
+      for (int c = 0; c < 6; c++)
+        block[c][t->particle[j]] += s * t->u[row[c]] * t->u[column[c]];
+    }
+  }
+}
