@@ -86,7 +86,18 @@ static int32_t mark_triples(const hooke_system *system, char *held) {
   return status;
 }
 
-/* Particles that neither a spring nor bending holds. */
+/* Marks the corners of tetrahedra. */
+static int32_t mark_tetrahedra(const hooke_system *system, char *held) {
+  const int64_t count = 4 * hooke_system_altitude_count(system);
+  int64_t *corners = malloc((size_t)(count + 1) * sizeof *corners);
+  const int32_t status = corners ? hooke_system_altitude_ends(system, corners) : HOOKE_NO_MEMORY;
+  for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
+    held[corners[i]] = 1;
+  free(corners);
+  return status;
+}
+
+/* Particles that no spring, no bending and no altitude spring holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
   int64_t particles = hooke_system_particle_count(check->setup.system);
   int64_t springs = hooke_system_spring_count(check->setup.system);
@@ -94,6 +105,7 @@ static int32_t warn_of_loose_particles(struct check *check) {
   char *held = calloc((size_t)particles + 1, 1);
   int32_t status = ends && held ? hooke_system_spring_ends(check->setup.system, ends) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = mark_triples(check->setup.system, held);
+  if (status == HOOKE_OK) status = mark_tetrahedra(check->setup.system, held);
   if (status == HOOKE_OK) {
     int64_t count = 0, first = 0;
     for (int64_t i = 0; i < 2 * springs; i++)

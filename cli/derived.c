@@ -17,6 +17,15 @@ void hooke_derived_json(struct hooke_json *json, const hooke_system *system) {
     hooke_json_close(json);
   }
   hooke_json_close(json);
+  hooke_json_count(json, "tetrahedra", hooke_system_altitude_count(system));
+  hooke_json_open(json, "altitude_groups", '[');
+  for (int64_t i = 0; i < hooke_system_altitude_group_count(system); i++) {
+    hooke_json_open(json, NULL, '{');
+    hooke_json_text(json, "name", hooke_system_altitude_group_name(system, i));
+    hooke_json_count(json, "tetrahedra", hooke_system_altitude_group_size(system, i));
+    hooke_json_close(json);
+  }
+  hooke_json_close(json);
   hooke_json_open(json, "derived", '[');
   for (int64_t i = 0; i < hooke_system_derived_count(system); i++) {
     hooke_json_open(json, NULL, '{');
@@ -43,14 +52,20 @@ static void print_derived(const hooke_system *system) {
   }
 }
 
+static void print_group(int64_t size, const char *name) {
+  printf("  %10" PRId64 " ", size);
+  hooke_print_text(stdout, name[0] ? name : "(no name)");
+  printf("\n");
+}
+
 void hooke_derived_words(const hooke_system *system) {
   if (hooke_system_bending_group_count(system) > 0)
     printf("triples      %" PRId64 "\n", hooke_system_bending_count(system));
-  for (int64_t i = 0; i < hooke_system_bending_group_count(system); i++) {
-    const char *name = hooke_system_bending_group_name(system, i);
-    printf("  %10" PRId64 " ", hooke_system_bending_group_size(system, i));
-    hooke_print_text(stdout, name[0] ? name : "(no name)");
-    printf("\n");
-  }
+  for (int64_t i = 0; i < hooke_system_bending_group_count(system); i++)
+    print_group(hooke_system_bending_group_size(system, i), hooke_system_bending_group_name(system, i));
+  if (hooke_system_altitude_group_count(system) > 0)
+    printf("tetrahedra   %" PRId64 "\n", hooke_system_altitude_count(system));
+  for (int64_t i = 0; i < hooke_system_altitude_group_count(system); i++)
+    print_group(hooke_system_altitude_group_size(system, i), hooke_system_altitude_group_name(system, i));
   print_derived(system);
 }

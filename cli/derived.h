@@ -1,4 +1,4 @@
-/* What `hooke check` tells of bending, and of the numbers that parts derived from their materials. */
+/* What `hooke check` tells of bending, of altitude springs, and of the numbers that parts derived from their materials. */
 #ifndef HOOKE_CLI_DERIVED_H
 #define HOOKE_CLI_DERIVED_H
 
@@ -6,7 +6,7 @@
 
 #include "hooke.h"
 
-/* The keys "triples", "bending_groups" and "derived". */
+/* The keys "triples", "bending_groups", "tetrahedra", "altitude_groups" and "derived". */
 void hooke_derived_json(struct hooke_json *json, const hooke_system *system);
 
 /* The same in lines; nothing where there is nothing. */

@@ -12,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const struct hooke_part_kind *const kinds[] = {&hooke_part_rope, &hooke_part_cloth,
-                                                      &hooke_part_lattice, &hooke_part_mesh};
+static const struct hooke_part_kind *const kinds[] = {
+    &hooke_part_rope, &hooke_part_cloth, &hooke_part_lattice, &hooke_part_mesh, &hooke_part_strand};
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hooke_option_row family_rows[] = {

@@ -27,6 +27,7 @@ extern const struct hooke_part_kind hooke_part_rope;
 extern const struct hooke_part_kind hooke_part_cloth;
 extern const struct hooke_part_kind hooke_part_lattice;
 extern const struct hooke_part_kind hooke_part_mesh;
+extern const struct hooke_part_kind hooke_part_strand;
 
 /* Rows that kinds have in common: a point [m], the total mass or the density, bending stiffness, held particles, a
  * family of springs. */

@@ -3,7 +3,7 @@
  * has given since:
  *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
  * The last terms are what a scene at rest may have all the same: what gravity gives it in one step (forward Euler has it
- * in v before q has moved), and what errors do: U is that of springs and bending, K the sum of all kappa and 16 c, d = 1e-12 times the largest coordinate, which
+ * in v before q has moved), and what errors do: U is that of springs, bending and altitude springs, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate, which
  * rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is atol_velocity. Energies
  * below the smallest normal number prove nothing, and neither do those of a scene that begins with energies
  * above the largest.
@@ -49,6 +49,8 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   struct hooke_triple triple;
   for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
     stiffness += 16.0 * triple.coefficient;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    stiffness += 4.0 * hooke_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {
@@ -60,9 +62,10 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
 }
 
-/* Of springs and bending, which is never below 0. */
+/* Of springs, bending and altitude springs, which is never below 0. */
 static double elastic_energy(const hooke_system *system, const double *q) {
-  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q);
+  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q) +
+         hooke_system_altitude_energy(system, q);
 }
 
 int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {

@@ -230,6 +230,12 @@ static int32_t check_words(const hooke_system *system) {
     return hooke_fail(HOOKE_UNSUITED, NULL,
                       "a scene file has bending in its parts alone, and this system has triples of its own");
   }
+  for (int64_t g = 0; g < system->altitude_group_count; g++) {
+    if (system->altitude_group[g].from_part || system->altitude_group[g].count == 0) continue;
+    return hooke_fail(
+        HOOKE_UNSUITED, NULL,
+        "a scene file has altitude springs in its parts alone, and this system has tetrahedra of its own");
+  }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
   if (!callbacks) return HOOKE_OK;

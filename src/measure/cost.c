@@ -56,13 +56,17 @@ static void add_row(hooke_cost *cost, int32_t is_there, const char *kind, int64_
 static int32_t list_rows(hooke_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
-  cost->row = hooke_new(system->group_count + system->bending_group_count + OTHERS, sizeof *cost->row);
+  cost->row =
+      hooke_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
+                sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   for (int64_t g = 0; g < system->group_count; g++)
     add_row(cost, system->group[g].count > 0, "springs", g);
   for (int64_t g = 0; g < system->bending_group_count; g++)
     add_row(cost, system->bending_group[g].count > 0, "bending", g);
-  add_row(cost, hooke_springs_are_damped(&system->springs), "damping", -1);
+  for (int64_t g = 0; g < system->altitude_group_count; g++)
+    add_row(cost, system->altitude_group[g].count > 0, "altitude", g);
+  add_row(cost, hooke_springs_are_damped(&system->springs) || system->altitudes.damped, "damping", -1);
   add_row(cost, system->drag > 0.0, "drag", -1);
   add_row(cost, system->force != NULL, "callback", -1);
   add_row(cost, system->has_gravity, "gravity", -1);
@@ -153,13 +157,19 @@ static int is_bending(const struct hooke_cost_row *row) {
   return strcmp(row->kind, "bending") == 0;
 }
 
+static int is_altitude(const struct hooke_cost_row *row) {
+  return strcmp(row->kind, "altitude") == 0;
+}
+
 /* The system without the ingredient of a row; NULL: without nothing. */
 static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row *row, hooke_system **made) {
   struct hooke_variant variant;
   struct hooke_variant_map map;
   int32_t status = hooke_variant_create(cost->system, &variant);
   if (status != HOOKE_OK) return status;
-  if (row && row->group >= 0) (is_bending(row) ? variant.bending : variant.group)[row->group] = 1;
+  if (row && row->group >= 0) {
+    (is_bending(row) ? variant.bending : is_altitude(row) ? variant.altitude : variant.group)[row->group] = 1;
+  }
   variant.damping = row && strcmp(row->kind, "damping") == 0;
   variant.drag = row && strcmp(row->kind, "drag") == 0;
   variant.force = row && strcmp(row->kind, "callback") == 0;
@@ -250,6 +260,7 @@ const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *wha
   if (strcmp(what, "kind") == 0) return r->kind;
   if (strcmp(what, "name") != 0) return NULL;
   if (r->group < 0) return r->kind;
+  if (is_altitude(r)) return hooke_system_altitude_group_name(cost->system, r->group);
   return is_bending(r) ? hooke_system_bending_group_name(cost->system, r->group)
                        : hooke_system_group_name(cost->system, r->group);
 }
@@ -257,7 +268,7 @@ const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *wha
 double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
   const struct hooke_cost_row *r = row_at(cost, row);
   if (r == NULL) return NAN;
-  const int32_t grouped = r->group >= 0, sprung = grouped && !is_bending(r);
+  const int32_t grouped = r->group >= 0, sprung = grouped && !is_bending(r) && !is_altitude(r);
   const struct hooke_figure figures[] = {
       {"group", grouped ? (double)r->group : (double)NAN},
       {"springs", sprung ? (double)hooke_system_group_size(cost->system, r->group) : (double)NAN},

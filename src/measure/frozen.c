@@ -35,6 +35,7 @@ struct thaw {
   int64_t count;
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
+  struct hooke_tetrahedron *tetrahedron; /* those that act, as many as the frozen ones */
 };
 
 /* Calls `see` for every spring with a free end. */
@@ -59,6 +60,35 @@ static void see_length(struct thaw *thaw, struct hooke_frozen *frozen, const str
   const double r = length_at(spring, thaw->q);
   frozen->damped |= spring->gamma > 0.0;
   if (r > 0.0) thaw->shortest = fmin(thaw->shortest, r);
+}
+
+/* Those that act, each with the altitude that is shortest now for good. */
+static void see_tetrahedra(struct thaw *thaw, struct hooke_frozen *frozen) {
+  const struct hooke_altitudes *altitudes = &thaw->system->altitudes;
+  for (int64_t k = 0; k < altitudes->count; k++) {
+    struct hooke_altitude_view *view = &frozen->altitude[frozen->altitude_count];
+    struct hooke_tetrahedron *t = &thaw->tetrahedron[frozen->altitude_count];
+    *t = altitudes->tetrahedron[k];
+    if (!hooke_tetrahedron_moves(thaw->system, t) || !hooke_altitude_see(t, thaw->q, view)) continue;
+    frozen->altitude_count++;
+    frozen->damped |= view->gamma > 0.0;
+    t->choice = view->choice;
+    t->pull_only = 0;
+    if (view->length < 0.0) t->side = -t->side;
+    if (view->length != 0.0) thaw->shortest = fmin(thaw->shortest, fabs(view->length));
+  }
+}
+
+/* Without tension where they are; one that is flat has so short a rest length that its tension is that of a displacement. */
+static void place_tetrahedra(const struct thaw *thaw, const struct hooke_frozen *frozen) {
+  for (int64_t k = 0; k < frozen->altitude_count; k++) {
+    struct hooke_tetrahedron *t = &thaw->tetrahedron[k];
+    struct hooke_tautness s;
+    const double length = hooke_tautness_find(t, frozen->place, NULL, &s) ? fabs(s.altitude.length) : 0.0;
+    const double rest = t->rest[t->choice] = fmax(length, 1.0);
+    t->stiffness = frozen->altitude[k].kappa * rest;
+    t->damping = frozen->altitude[k].gamma * rest;
+  }
 }
 
 static void find_extent(struct thaw *thaw) {
@@ -113,8 +143,11 @@ static int32_t new_thaw(struct thaw *thaw, struct hooke_frozen *frozen) {
   frozen->balance = hooke_new(3 * n, sizeof(double));
   frozen->spring = hooke_new(springs, sizeof *frozen->spring);
   thaw->ends = hooke_new(2 * springs, sizeof(int64_t));
+  thaw->tetrahedron = hooke_new(thaw->system->altitudes.count, sizeof *thaw->tetrahedron);
+  frozen->altitude = hooke_new(thaw->system->altitudes.count, sizeof *frozen->altitude);
   thaw->kappa = hooke_new(3 * springs, sizeof(double));
-  if (!frozen->place || !frozen->balance || !frozen->spring || !thaw->ends || !thaw->kappa)
+  if (!frozen->place || !frozen->balance || !frozen->spring || !thaw->ends || !thaw->kappa ||
+      !thaw->tetrahedron || !frozen->altitude)
     return HOOKE_NO_MEMORY;
   thaw->gamma = thaw->kappa + springs;
   thaw->rest_length = thaw->gamma + springs;
@@ -188,6 +221,8 @@ static int32_t build(const struct thaw *thaw, const struct hooke_frozen *frozen,
   }
   if (status == HOOKE_OK && thaw->count > 0) status = add_springs(thaw, system);
   if (status == HOOKE_OK && old->bending.count > 0) status = add_bending(&old->bending, system);
+  if (status == HOOKE_OK && frozen->altitude_count > 0)
+    status = hooke_system_add_tetrahedra(system, NULL, 0, frozen->altitude_count, thaw->tetrahedron);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && balance)
     status = hooke_system_set_force(system, hold, hold_product, (void *)(uintptr_t)balance);
@@ -229,6 +264,14 @@ static int32_t find_slow_step(struct hooke_frozen *frozen) {
     for (int e = 0; e < 3; e++)
       sum[2 * triple.particle[e]] += 0.5 * hooke_triple_row(system, &triple, e) * triple.coefficient;
   }
+  for (int64_t k = 0; k < frozen->altitude_count; k++) {
+    const struct hooke_altitude_view *view = &frozen->altitude[k];
+    for (int j = 0; j < 4; j++) {
+      const int64_t p = view->tangent.particle[j];
+      const double row = 0.5 * hooke_altitude_row(system, view->tangent.particle, view->tangent.weight, j);
+      sum[2 * p] += row * view->kappa, sum[2 * p + 1] += row * view->gamma;
+    }
+  }
   for (int64_t p = 0; p < system->particle_count; p++) {
     stiff = fmax(stiff, 2.0 * sum[2 * p] * system->inverse_mass[p]);
     damp = fmax(damp, (2.0 * sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
@@ -243,9 +286,11 @@ static int32_t freeze(struct thaw *thaw, struct hooke_frozen *frozen) {
   if (status != HOOKE_OK) return status;
   find_extent(thaw);
   each_spring(thaw, frozen, see_length);
+  see_tetrahedra(thaw, frozen);
   find_factor(thaw);
   place_particles(thaw, frozen->place);
   each_spring(thaw, frozen, keep_spring);
+  place_tetrahedra(thaw, frozen);
   int needed = 0;
   status = build(thaw, frozen, NULL, &frozen->system);
   if (status == HOOKE_OK) status = find_balance(frozen, &needed);
@@ -263,6 +308,7 @@ int32_t hooke_frozen_create(const hooke_system *system, const double *q, struct 
   const int32_t status = freeze(&thaw, frozen);
   hooke_free(thaw.ends);
   hooke_free(thaw.kappa);
+  hooke_free(thaw.tetrahedron);
   if (status != HOOKE_OK) hooke_frozen_release(frozen);
   return status;
 }
@@ -272,6 +318,7 @@ void hooke_frozen_release(struct hooke_frozen *frozen) {
   hooke_free(frozen->place);
   hooke_free(frozen->balance);
   hooke_free(frozen->spring);
+  hooke_free(frozen->altitude);
   memset(frozen, 0, sizeof *frozen);
 }
 
@@ -294,6 +341,17 @@ static double bending_energy(const struct hooke_frozen *frozen, const double *q)
   return sum;
 }
 
+/* How far displacements x (rows), from `place` (NULL: none), stretch an altitude. */
+static double stretch_of(const struct hooke_altitude_view *view, const double *x, const double *place) {
+  double sum = 0.0;
+  for (int j = 0; j < 4; j++) {
+    const int64_t k = 3 * (int64_t)view->tangent.particle[j];
+    for (int a = 0; a < 3; a++)
+      sum += view->tangent.weight[j] * view->tangent.u[a] * (x[k + a] - (place ? place[k + a] : 0.0));
+  }
+  return sum;
+}
+
 double hooke_frozen_energy(const struct hooke_frozen *frozen, const double *q, const double *v) {
   const double *mass = frozen->system->mass, *place = frozen->place;
   double sum = bending_energy(frozen, q);
@@ -312,6 +370,10 @@ double hooke_frozen_energy(const struct hooke_frozen *frozen, const double *q, c
     }
     sum += s->across * square + (s->kappa - s->across) * along * along;
   }
+  for (int64_t k = 0; k < frozen->altitude_count; k++) {
+    const double along = stretch_of(&frozen->altitude[k], q, place);
+    sum += frozen->altitude[k].kappa * along * along;
+  }
   return sum;
 }
 
@@ -328,6 +390,15 @@ void hooke_frozen_push(const struct hooke_frozen *frozen, const double *x, doubl
       const double factor = t * t * triple.coefficient * hooke_triple_factor(e) * w[triple.particle[e]];
       for (int a = 0; a < 3; a++)
         out[3 * triple.particle[e] + a] += factor * d[a];
+    }
+  }
+  for (int64_t k = 0; k < frozen->altitude_count; k++) {
+    const struct hooke_altitude_view *view = &frozen->altitude[k];
+    const double f = t * (t * view->kappa + view->gamma) * stretch_of(view, x, NULL);
+    for (int j = 0; j < 4; j++) {
+      const int64_t p = view->tangent.particle[j];
+      for (int b = 0; b < 3; b++)
+        out[3 * p + b] += w[p] * f * view->tangent.weight[j] * view->tangent.u[b];
     }
   }
   for (int64_t k = 0; k < frozen->spring_count; k++) {

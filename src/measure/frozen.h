@@ -28,6 +28,8 @@ struct hooke_frozen {
   double *balance;      /* the constant force, 3n; NULL: none is needed */
   int64_t spring_count;
   struct hooke_frozen_spring *spring; /* those with a free end */
+  int64_t altitude_count;
+  struct hooke_altitude_view *altitude; /* those with a free corner */
   int64_t clamped, left_out,
       turning;      /* springs compressed; without force; of length 0 and damped, not linear */
   int32_t damped;   /* damping along springs, or drag */

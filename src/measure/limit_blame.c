@@ -93,6 +93,27 @@ static void find_bending(const hooke_system *system, const double *mode, double 
   }
 }
 
+static void find_altitude(const hooke_system *system, const double *q, const double *mode, double h2,
+                          double h, struct whole *whole, struct hooke_blame *blame) {
+  const struct hooke_tetrahedron *t = system->altitudes.tetrahedron;
+  for (int64_t g = 0; g < system->altitude_group_count; g++) {
+    double *share = &blame->group_share[system->group_count + system->bending_group_count + g];
+    for (int64_t k = 0; k < system->altitude_group[g].count; k++, t++) {
+      struct hooke_altitude_view view;
+      double along = 0.0;
+      if (!hooke_altitude_see(t, q, &view)) continue;
+      for (int j = 0; j < 4; j++) {
+        const int64_t p = t->particle[j];
+        for (int a = 0; a < 3 && !system->held[p]; a++)
+          along += view.tangent.weight[j] * view.tangent.u[a] * mode[3 * p + a];
+      }
+      *share += (h2 * view.kappa + 2.0 * h * view.gamma) * along * along;
+      whole->stiffness += h2 * view.kappa * along * along;
+    }
+    whole->all += *share;
+  }
+}
+
 static void find_particles(const hooke_system *system, const double *mode, double h, struct whole *whole,
                            struct hooke_blame *blame) {
   for (int64_t p = 0; p < system->particle_count; p++) {
@@ -109,12 +130,14 @@ static void find_particles(const hooke_system *system, const double *mode, doubl
 int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                          struct hooke_blame *blame) {
   struct whole whole = {0.0, 0.0, 0.0};
-  *blame = (struct hooke_blame){.group_count = system->group_count + system->bending_group_count};
+  *blame = (struct hooke_blame){.group_count = system->group_count + system->bending_group_count +
+                                               system->altitude_group_count};
   blame->group_share = hooke_new(blame->group_count, sizeof(double));
   if (blame->group_share == NULL) return HOOKE_NO_MEMORY;
   if (mode == NULL) return HOOKE_OK;
   find_springs(system, q, mode, h2, h, &whole, blame);
   find_bending(system, mode, h2, &whole, blame);
+  find_altitude(system, q, mode, h2, h, &whole, blame);
   find_particles(system, mode, h, &whole, blame);
   for (int64_t k = 0; k < blame->spring_count; k++) {
     blame->spring[k].share /= whole.all;
@@ -129,9 +152,10 @@ int32_t hooke_blame_find(const hooke_system *system, const double *q, const doub
 }
 
 const char *hooke_blame_group_name(const hooke_system *system, int64_t group) {
-  const int64_t bending = group - system->group_count;
-  const char *name =
-      bending < 0 ? hooke_system_group_name(system, group) : hooke_system_bending_group_name(system, bending);
+  const int64_t bending = group - system->group_count, altitude = bending - system->bending_group_count;
+  const char *name = bending < 0    ? hooke_system_group_name(system, group)
+                     : altitude < 0 ? hooke_system_bending_group_name(system, bending)
+                                    : hooke_system_altitude_group_name(system, altitude);
   return name ? name : "";
 }
 

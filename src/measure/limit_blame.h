@@ -8,7 +8,7 @@ enum { HOOKE_BLAME_MOST = 100 };
 
 struct hooke_blamed_spring {
   int64_t spring, first, second, group;
-  double share;           /* of x.(h^2 K + 2 h C)x, bending and drag included in the whole */
+  double share; /* of x.(h^2 K + 2 h C)x, bending, altitude springs and drag included in the whole */
   double stiffness_share; /* the part of `share` that is of h^2 K */
 };
 
@@ -25,10 +25,11 @@ struct hooke_blame {
   struct hooke_blamed_particle particle[HOOKE_BLAME_MOST];
   double stiffness_share; /* of h^2 K in the whole */
   int64_t group_count;
-  double *group_share; /* one a group of springs, then one a group of triples */
+  double
+      *group_share; /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
 };
 
-/* Shares of the springs, triples (by group) and particles of a committed system at q (3n) in a mode (3n displacements, NULL: none is known),
+/* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a mode (3n displacements, NULL: none is known),
  * `h2` being the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
 int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                          struct hooke_blame *blame);

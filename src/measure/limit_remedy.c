@@ -196,8 +196,11 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
       add(text, size, "group `%.60s`", hooke_blame_group_name(system, best));
     else if (best < system->group_count)
       add(text, size, "group %lld", (long long)best);
-    else
+    else if (best < system->group_count + system->bending_group_count)
       add(text, size, "group %lld of triples", (long long)(best - system->group_count));
+    else
+      add(text, size, "group %lld of tetrahedra",
+          (long long)(best - system->group_count - system->bending_group_count));
     add(text, size, " has %.0f %% of it", 100.0 * before);
   }
   if (isfinite(before)) add(text, size, ")");

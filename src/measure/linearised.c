@@ -91,11 +91,29 @@ static void see_triples(struct hooke_linearised *lin) {
   }
 }
 
+static int32_t see_tetrahedra(struct hooke_linearised *lin, const double *q) {
+  const struct hooke_altitudes *altitudes = &lin->system->altitudes;
+  lin->tetrahedron = hooke_new(altitudes->count, sizeof *lin->tetrahedron);
+  lin->altitude_kappa = hooke_new(2 * altitudes->count, sizeof(double));
+  if (lin->tetrahedron == NULL || lin->altitude_kappa == NULL) return HOOKE_NO_MEMORY;
+  lin->altitude_gamma = lin->altitude_kappa + altitudes->count;
+  for (int64_t k = 0; k < altitudes->count; k++) {
+    struct hooke_altitude_view view;
+    if (!hooke_tetrahedron_moves(lin->system, &altitudes->tetrahedron[k]) ||
+        !hooke_altitude_see(&altitudes->tetrahedron[k], q, &view))
+      continue;
+    lin->altitude_kappa[lin->tetrahedra] = view.kappa;
+    lin->altitude_gamma[lin->tetrahedra] = view.gamma;
+    lin->tetrahedron[lin->tetrahedra++] = view.tangent;
+  }
+  return HOOKE_OK;
+}
+
 /* ---- units ---- */
 
 /* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
-static double largest_row(const struct hooke_linearised *lin, const double *weight, double bending,
-                          double drag, double *sum) {
+static double largest_row(const struct hooke_linearised *lin, const double *weight, const double *altitude,
+                          double bending, double drag, double *sum) {
   const hooke_system *system = lin->system;
   double most = 0.0;
   memset(sum, 0, (size_t)system->particle_count * sizeof(double));
@@ -114,14 +132,19 @@ static double largest_row(const struct hooke_linearised *lin, const double *weig
     for (int e = 0; e < 3; e++)
       sum[triple.particle[e]] += bending * hooke_triple_row(system, &triple, e) * triple.coefficient;
   }
+  for (int64_t k = 0; k < lin->tetrahedra; k++) {
+    const struct hooke_altitude_tangent *t = &lin->tetrahedron[k];
+    for (int j = 0; j < 4; j++)
+      sum[t->particle[j]] += altitude[k] * hooke_altitude_row(system, t->particle, t->weight, j);
+  }
   for (int64_t p = 0; p < system->particle_count; p++)
     most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   return most;
 }
 
 static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
-  const double stiffest = largest_row(lin, lin->kappa, 1.0, 0.0, sum);
-  const double quickest = largest_row(lin, lin->gamma, 0.0, lin->drag, sum);
+  const double stiffest = largest_row(lin, lin->kappa, lin->altitude_kappa, 1.0, 0.0, sum);
+  const double quickest = largest_row(lin, lin->gamma, lin->altitude_gamma, 0.0, lin->drag, sum);
   lin->damped = quickest > 0.0;
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
@@ -137,6 +160,10 @@ static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
     lin->across[s] *= k;
     lin->gamma[s] *= c;
     lin->across_any |= lin->across[s] > 0.0;
+  }
+  for (int64_t t = 0; t < lin->tetrahedra; t++) {
+    lin->altitude_kappa[t] *= k;
+    lin->altitude_gamma[t] *= c;
   }
   lin->drag *= c;
   lin->bending = k;
@@ -180,6 +207,7 @@ int32_t hooke_linearised_create(const hooke_system *system, const double *q, con
   }
   int32_t status = see_springs(lin, q, spring_scale);
   see_triples(lin);
+  if (status == HOOKE_OK) status = see_tetrahedra(lin, q);
   if (status == HOOKE_OK) status = choose_rate(lin, sum);
   if (status != HOOKE_OK) hooke_linearised_release(lin);
   return status;
@@ -188,6 +216,8 @@ int32_t hooke_linearised_create(const hooke_system *system, const double *q, con
 void hooke_linearised_release(struct hooke_linearised *lin) {
   hooke_free(lin->mass);
   hooke_free(lin->ends);
+  hooke_free(lin->tetrahedron);
+  hooke_free(lin->altitude_kappa);
   memset(lin, 0, sizeof *lin);
 }
 
@@ -205,6 +235,8 @@ void hooke_linearised_weigh(struct hooke_linearised *lin, double a, double b) {
   const int32_t across = lin->across_any && a > 0.0;
   for (int64_t s = 0; s < m && across; s++)
     lin->g_across[s] = a * lin->across[s];
+  for (int64_t t = 0; t < lin->tetrahedra; t++)
+    lin->tetrahedron[t].size = a * lin->altitude_kappa[t] + b * lin->altitude_gamma[t];
   lin->brake = b * lin->drag;
   lin->bent = lin->bends ? a * lin->bending : 0.0;
   lin->tangent = (struct hooke_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
@@ -220,6 +252,7 @@ void hooke_linearised_add_product(struct hooke_linearised *lin, const double *x,
   for (int64_t k = 0; k < lin->run_count; k++)
     hooke_tangent_product(&lin->run[k], &lin->tangent, from, to);
   if (lin->bent > 0.0) hooke_bending_add(&lin->system->bending, -lin->bent, from, to);
+  hooke_altitude_tangent_add(lin->tetrahedra, lin->tetrahedron, from, to);
   if (lin->brake > 0.0) hooke_add_multiple(lin->size, lin->brake, x, out);
 }
 
@@ -249,10 +282,21 @@ static double bending_energy(const struct hooke_linearised *lin, const double *x
   return sum;
 }
 
+static double altitude_energy(const struct hooke_linearised *lin, const double *x) {
+  const int64_t n = lin->system->particle_count;
+  const double *const from[3] = {x, x + n, x + 2 * n};
+  double sum = 0.0;
+  for (int64_t k = 0; k < lin->tetrahedra; k++) {
+    const double along = hooke_altitude_tangent_along(&lin->tetrahedron[k], from);
+    sum += lin->tetrahedron[k].size * along * along;
+  }
+  return sum;
+}
+
 /* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
 double hooke_linearised_energy(const struct hooke_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
-  double sum = bending_energy(lin, x);
+  double sum = bending_energy(lin, x) + altitude_energy(lin, x);
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hooke_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {

@@ -3,7 +3,8 @@
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
  * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple of bending in
- * K, the same in all directions. A compressed spring is clamped: its stiffness across, which
+ * K, the same in all directions; kappa (g g^T)(u u^T) in K and gamma (g g^T)(u u^T) in C of every altitude spring, g its
+ * weights, without what its tension adds. A compressed spring is clamped: its stiffness across, which
  * is negative, counts as 0. A spring that only pulls counts as taut; one of no length as stiff in all directions.
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues come in units
@@ -30,6 +31,10 @@ struct hooke_linearised {
   int32_t *ends;                         /* of that */
   double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
   double drag, bending;                  /* of coefficients: 1 over rate^2 */
+  /* altitude springs that move something: their tangents, weighed too, kappa and gamma */
+  int64_t tetrahedra;
+  struct hooke_altitude_tangent *tetrahedron;
+  double *altitude_kappa, *altitude_gamma;
   /* a K + b C, from the last hooke_linearised_weigh() */
   struct hooke_tangent tangent;
   double *g[3], *g_across, brake, bent;

@@ -45,6 +45,17 @@ static void triple_words(const hooke_system *system, int64_t number, const struc
            name[0] ? " (group " : "", name, name[0] ? ")" : "");
 }
 
+/* "the altitude springs of particles 1, 2, 3 and 4 (group hair.altitude)" */
+static void tetrahedron_words(const hooke_system *system, int64_t number, char text[HOOKE_NAMING_SIZE]) {
+  const int32_t *p = system->altitudes.tetrahedron[number].particle;
+  int64_t group = 0;
+  while (number >= system->altitude_group[group].count)
+    number -= system->altitude_group[group++].count;
+  const char *name = system->altitude_group[group].name;
+  snprintf(text, HOOKE_NAMING_SIZE, "the altitude springs of particles %d, %d, %d and %d%s%.60s%s", (int)p[0],
+           (int)p[1], (int)p[2], (int)p[3], name[0] ? " (group " : "", name, name[0] ? ")" : "");
+}
+
 int64_t hooke_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                     char text[HOOKE_NAMING_SIZE]) {
   int64_t spring = hooke_naming_heaviest(system, particle, h);
@@ -65,6 +76,14 @@ int64_t hooke_naming_heaviest_words(const hooke_system *system, int64_t particle
       spring = -1;
       triple_words(system, k, &triple, text);
     }
+  }
+  for (int64_t k = 0; k < 4 * system->altitudes.count; k++) {
+    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
+    const double weight = h * h * hooke_tetrahedron_kappa(t) + 2.0 * h * hooke_tetrahedron_gamma(t);
+    if (t->particle[k % 4] != particle || !(weight > most)) continue;
+    most = weight;
+    spring = -1;
+    tetrahedron_words(system, k / 4, text);
   }
   return spring;
 }

@@ -14,7 +14,7 @@ struct hooke_spring hooke_naming_spring(const hooke_system *system, int64_t spri
 enum { HOOKE_NAMING_SIZE = 160 };
 const char *hooke_naming_words(const hooke_system *system, int64_t spring, char text[HOOKE_NAMING_SIZE]);
 
-/* The spring or the bending that weighs most on a particle in a step h, in words ("" if there is none); returns the
+/* The spring, the bending or the altitude spring that weighs most on a particle in a step h, in words ("" if there is none); returns the
  * spring, -1 where it is none. */
 int64_t hooke_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                     char text[HOOKE_NAMING_SIZE]);

@@ -71,10 +71,26 @@ static int32_t list_bending(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
+static int32_t list_altitude(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t g = 0; g < system->altitude_group_count; g++) {
+    const struct hooke_altitude_group *group = &system->altitude_group[g];
+    struct hooke_needs_row *row;
+    if (group->count == 0) continue;
+    const int32_t status = group->name[0] ? add_row(needs, "altitude", &row, "%s", group->name)
+                                          : add_row(needs, "altitude", &row, "altitude[%lld]", (long long)g);
+    if (status != HOOKE_OK) return status;
+    row->variant.altitude[g] = 1;
+  }
+  return HOOKE_OK;
+}
+
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++)
     resists |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    resists |= !system->altitudes.tetrahedron[k].pull_only;
   return resists;
 }
 
@@ -82,7 +98,7 @@ static int32_t list_whole_forces(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   struct hooke_needs_row *row;
   int32_t status = HOOKE_OK;
-  if (hooke_springs_are_damped(&system->springs)) {
+  if (hooke_springs_are_damped(&system->springs) || system->altitudes.damped) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
@@ -163,6 +179,7 @@ int32_t hooke_needs_list(hooke_needs *needs) {
     watched[needs->watch[k]] = 1;
   int32_t status = list_groups(needs);
   if (status == HOOKE_OK) status = list_bending(needs);
+  if (status == HOOKE_OK) status = list_altitude(needs);
   if (status == HOOKE_OK) status = list_whole_forces(needs);
   struct hooke_needs_row *row;
   if (status == HOOKE_OK && needs->system->springs.count > 0) {

@@ -45,6 +45,21 @@ static void add_triple(struct hooke_node_blocks *blocks, const struct hooke_trip
   }
 }
 
+static void add_tetrahedron(struct hooke_node_blocks *blocks, const struct hooke_tetrahedron *t,
+                            const double *q) {
+  const hooke_system *system = blocks->system;
+  struct hooke_altitude_view view;
+  if (!hooke_tetrahedron_moves(system, t) || !hooke_altitude_see(t, q, &view)) return;
+  if (view.kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, view.gamma / view.kappa);
+  for (int j = 0; j < 4; j++) {
+    const int64_t p = t->particle[j];
+    const double row = hooke_altitude_row(system, t->particle, view.tangent.weight, j);
+    if (system->held[p]) continue;
+    add_axial(blocks->stiffness + 6 * p, view.tangent.u, row * view.kappa, 0.0);
+    add_axial(blocks->damping + 6 * p, view.tangent.u, row * view.gamma, 0.0);
+  }
+}
+
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks) {
   *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
@@ -77,6 +92,8 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
   struct hooke_triple triple;
   for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
     add_triple(blocks, &triple);
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    add_tetrahedron(blocks, &system->altitudes.tetrahedron[k], q);
   for (int64_t p = 0; p < system->particle_count; p++) {
     for (int a = 0; a < 3 && !system->held[p]; a++)
       blocks->damping[6 * p + a] += system->drag;

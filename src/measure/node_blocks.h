@@ -1,6 +1,7 @@
 /* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
  *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
  *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
+ * of every altitude spring its rows: 2 |g_j| kappa u u^T and 2 |g_j| gamma u u^T, less where some corners are held;
  * and of every triple of bending its rows: c times 4, 8, 4 at its particles, less where some of them are held;
  * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I. */
 #ifndef HOOKE_MEASURE_NODE_BLOCKS_H

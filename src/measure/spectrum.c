@@ -66,7 +66,7 @@ static void add_both(struct hooke_spectrum *s, double c, double k, const double 
 
 /* ---- proportional damping ---- */
 
-/* C = beta K + delta M: every spring is damped in proportion to its stiffness and has none across, nothing bends, and drag
+/* C = beta K + delta M: every spring, of altitudes too, is damped in proportion to its stiffness and has none across, nothing bends, and drag
  * meets one mass. */
 static int32_t find_proportion(struct hooke_spectrum *s) {
   const struct hooke_linearised *lin = s->linearised;
@@ -75,8 +75,16 @@ static int32_t find_proportion(struct hooke_spectrum *s) {
   for (int64_t k = 0; k < system->springs.count && s->beta == 0.0; k++) {
     if (lin->kappa[k] > 0.0) s->beta = lin->gamma[k] / lin->kappa[k];
   }
+  for (int64_t k = 0; k < lin->tetrahedra && s->beta == 0.0; k++) {
+    if (lin->altitude_kappa[k] > 0.0) s->beta = lin->altitude_gamma[k] / lin->altitude_kappa[k];
+  }
   for (int64_t k = 0; k < system->springs.count; k++) {
     if (fabs(lin->gamma[k] - s->beta * lin->kappa[k]) > OUT_OF_PROPORTION * lin->gamma[k]) return 0;
+  }
+  for (int64_t k = 0; k < lin->tetrahedra; k++) {
+    if (fabs(lin->altitude_gamma[k] - s->beta * lin->altitude_kappa[k]) >
+        OUT_OF_PROPORTION * lin->altitude_gamma[k])
+      return 0;
   }
   for (int64_t p = 0; p < system->particle_count && lin->drag > 0.0; p++) {
     if (system->held[p]) continue;

@@ -61,7 +61,7 @@ struct hooke_inquiry {
   int64_t flips,
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
-  int32_t bent;     /* the limiting mode has most of its force from bending */
+  int32_t bent;     /* the limiting mode has most of its force from bending or altitude springs */
   char remedy[400]; /* what it would buy to change the scene; "" if nothing is known */
 };
 

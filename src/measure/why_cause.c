@@ -157,7 +157,7 @@ static int32_t judge_excess(struct hooke_inquiry *inquiry) {
   return status;
 }
 
-/* The particle that bending accelerates most, if it does so by more than `most`; -1 if not. */
+/* The particle that bending or an altitude spring accelerates most, if by more than `most`; -1 if not. */
 static int64_t steepest_bending(const hooke_system *system, double most) {
   struct hooke_triple triple;
   int64_t found = -1;
@@ -170,6 +170,15 @@ static int64_t steepest_bending(const hooke_system *system, double most) {
       most = steepness;
       found = triple.particle[e];
     }
+  }
+  for (int64_t k = 0; k < 4 * system->altitudes.count; k++) {
+    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
+    const int32_t p = t->particle[k % 4];
+    const double steepness =
+        (hooke_tetrahedron_kappa(t) + hooke_tetrahedron_gamma(t)) * system->inverse_mass[p];
+    if (!(steepness > most)) continue;
+    most = steepness;
+    found = p;
   }
   return found;
 }

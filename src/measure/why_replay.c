@@ -236,7 +236,7 @@ static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) 
   int64_t from = 0;
   const hooke_state *kept = hooke_recent_state(&run->recent, 0, &from);
   const double size = (double)(inquiry->system->particle_count + inquiry->system->springs.count +
-                               inquiry->system->bending.count);
+                               inquiry->system->bending.count + inquiry->system->altitudes.count);
   if (!run->method->adaptive && run->recent.first && (double)run->k * size <= WHOLE_RUN) {
     kept = run->recent.first;
     from = 0;

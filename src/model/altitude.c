@@ -96,11 +96,11 @@ int64_t hooke_altitudes_memory(const struct hooke_altitudes *altitudes) {
   return altitudes->count * (int64_t)sizeof *altitudes->tetrahedron;
 }
 
-double hooke_altitude_row(const hooke_system *system, const struct hooke_tetrahedron *tetrahedron,
-                          const double weight[4], int j) {
+double hooke_altitude_row(const hooke_system *system, const int32_t particle[4], const double weight[4],
+                          int j) {
   double sum = 0.0;
   for (int k = 0; k < 4; k++)
-    sum += system->held[tetrahedron->particle[k]] ? 0.0 : fabs(weight[k]);
+    sum += system->held[particle[k]] ? 0.0 : fabs(weight[k]);
   return fabs(weight[j]) * sum;
 }
 

@@ -49,6 +49,8 @@ struct hooke_altitude_tangent {
 void hooke_altitude_tangents(const struct hooke_altitudes *altitudes, const double *const q[3],
                              const double *const v[3], double alpha, double beta,
                              struct hooke_altitude_tangent *tangent);
+/* u.(sum of g_j x_j) */
+double hooke_altitude_tangent_along(const struct hooke_altitude_tangent *tangent, const double *const x[3]);
 /* out += the matrix times x. */
 void hooke_altitude_tangent_add(int64_t count, const struct hooke_altitude_tangent *tangent,
                                 const double *const x[3], double *const out[3]);
@@ -56,9 +58,27 @@ void hooke_altitude_tangent_add(int64_t count, const struct hooke_altitude_tange
 void hooke_altitude_tangent_diagonal(int64_t count, const struct hooke_altitude_tangent *tangent,
                                      double *const block[6]);
 
+/* A tetrahedron at q as small displacements from rest see it: stiffness and damping along its altitude, those that only pull
+ * being taut, and what tension does to the stiffness left out. The tangent has size 0. 0 if no altitude acts. */
+struct hooke_altitude_view {
+  struct hooke_altitude_tangent tangent;
+  int32_t choice;
+  double kappa, gamma, length, tension;
+};
+int32_t hooke_altitude_see(const struct hooke_tetrahedron *tetrahedron, const double *q,
+                           struct hooke_altitude_view *view);
+
+/* 1 if a corner is not held. */
+int32_t hooke_tetrahedron_moves(const struct hooke_system *system,
+                                const struct hooke_tetrahedron *tetrahedron);
+
+/* ks/l and kd/l of the altitude that is shortest at rest: the largest that there are. */
+double hooke_tetrahedron_kappa(const struct hooke_tetrahedron *tetrahedron);
+double hooke_tetrahedron_gamma(const struct hooke_tetrahedron *tetrahedron);
+
 /* Particle j's row of g g^T, summed in size over the particles that are not held: the diagonal matrix of these is at least
  * g g^T. */
-double hooke_altitude_row(const struct hooke_system *system, const struct hooke_tetrahedron *tetrahedron,
+double hooke_altitude_row(const struct hooke_system *system, const int32_t particle[4],
                           const double weight[4], int j);
 
 /* Rest lengths and the side of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE, said of the particles

@@ -1,6 +1,7 @@
 /* Altitude springs as parts of a matrix. */
-#include "model/altitude.h"
+#include "model/system.h"
 
+#include <math.h>
 #include <string.h>
 
 static void gather(const int32_t particle[4], const double *const from[3], double to[4][3]) {
@@ -37,14 +38,19 @@ void hooke_altitude_tangents(const struct hooke_altitudes *altitudes, const doub
   }
 }
 
+double hooke_altitude_tangent_along(const struct hooke_altitude_tangent *t, const double *const x[3]) {
+  double along = 0.0;
+  for (int j = 0; j < 4; j++) {
+    const int32_t p = t->particle[j];
+    along += t->weight[j] * ((t->u[0] * x[0][p] + t->u[1] * x[1][p]) + t->u[2] * x[2][p]);
+  }
+  return along;
+}
+
 void hooke_altitude_tangent_add(int64_t count, const struct hooke_altitude_tangent *tangent,
                                 const double *const x[3], double *const out[3]) {
   for (const struct hooke_altitude_tangent *t = tangent; t < tangent + count; t++) {
-    double along = 0.0;
-    for (int j = 0; j < 4; j++) {
-      const int32_t p = t->particle[j];
-      along += t->weight[j] * ((t->u[0] * x[0][p] + t->u[1] * x[1][p]) + t->u[2] * x[2][p]);
-    }
+    const double along = hooke_altitude_tangent_along(t, x);
     for (int j = 0; j < 4; j++) {
       const double s = t->size * along * t->weight[j];
       for (int a = 0; a < 3; a++)
@@ -63,4 +69,44 @@ void hooke_altitude_tangent_diagonal(int64_t count, const struct hooke_altitude_
         block[c][t->particle[j]] += s * t->u[row[c]] * t->u[column[c]];
     }
   }
+}
+
+int32_t hooke_altitude_see(const struct hooke_tetrahedron *t, const double *q,
+                           struct hooke_altitude_view *view) {
+  struct hooke_tetrahedron taut = *t;
+  struct hooke_tautness s;
+  taut.pull_only = 0;
+  memset(view, 0, sizeof *view);
+  memcpy(view->tangent.particle, t->particle, sizeof t->particle);
+  if (!hooke_tautness_find(&taut, q, NULL, &s)) return 0;
+  memcpy(view->tangent.u, s.altitude.u, sizeof s.altitude.u);
+  memcpy(view->tangent.weight, s.altitude.weight, sizeof s.altitude.weight);
+  view->choice = s.altitude.choice;
+  view->kappa = t->stiffness / t->rest[view->choice];
+  view->gamma = t->damping / t->rest[view->choice];
+  view->length = s.altitude.length;
+  view->tension = s.tension;
+  return 1;
+}
+
+int32_t hooke_tetrahedron_moves(const hooke_system *system, const struct hooke_tetrahedron *t) {
+  int32_t moves = 0;
+  for (int j = 0; j < 4; j++)
+    moves |= !system->held[t->particle[j]];
+  return moves;
+}
+
+static double shortest(const struct hooke_tetrahedron *t) {
+  double least = t->rest[0];
+  for (int k = 1; k < HOOKE_ALTITUDES; k++)
+    least = fmin(least, t->rest[k]);
+  return least;
+}
+
+double hooke_tetrahedron_kappa(const struct hooke_tetrahedron *t) {
+  return t->stiffness / shortest(t);
+}
+
+double hooke_tetrahedron_gamma(const struct hooke_tetrahedron *t) {
+  return t->damping / shortest(t);
 }

@@ -9,6 +9,7 @@ void hooke_variant_release(struct hooke_variant *variant) {
   hooke_free(variant->group);
   hooke_free(variant->spring);
   hooke_free(variant->bending);
+  hooke_free(variant->altitude);
   hooke_free(variant->particle);
   hooke_free(variant->part);
   hooke_free(variant->scale);
@@ -20,11 +21,12 @@ int32_t hooke_variant_create(const hooke_system *system, struct hooke_variant *v
   variant->group = hooke_new(system->group_count, 1);
   variant->spring = hooke_new(system->springs.count, 1);
   variant->bending = hooke_new(system->bending_group_count, 1);
+  variant->altitude = hooke_new(system->altitude_group_count, 1);
   variant->particle = hooke_new(system->particle_count, 1);
   variant->part = hooke_new(system->part_count, 1);
   variant->scale = hooke_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->bending || !variant->particle || !variant->part ||
-      !variant->scale) {
+  if (!variant->group || !variant->spring || !variant->bending || !variant->altitude || !variant->particle ||
+      !variant->part || !variant->scale) {
     hooke_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
@@ -48,6 +50,7 @@ void hooke_variant_join(const hooke_system *system, struct hooke_variant *varian
   join(system->group_count, variant->group, other->group);
   join(system->springs.count, variant->spring, other->spring);
   join(system->bending_group_count, variant->bending, other->bending);
+  join(system->altitude_group_count, variant->altitude, other->altitude);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
   for (int64_t k = 0; k < system->part_count; k++)
@@ -78,6 +81,10 @@ int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_vari
   for (int64_t g = 0; g < system->bending_group_count && covered; g++) {
     const struct hooke_bending_group *group = &system->bending_group[g];
     covered = other->bending[g] <= variant->bending[g] || (group->from_part && variant->part[group->part]);
+  }
+  for (int64_t g = 0; g < system->altitude_group_count && covered; g++) {
+    const struct hooke_altitude_group *group = &system->altitude_group[g];
+    covered = other->altitude[g] <= variant->altitude[g] || (group->from_part && variant->part[group->part]);
   }
   for (int64_t p = 0; p < system->particle_count && covered; p++)
     covered = other->particle[p] <= variant->particle[p];
@@ -120,6 +127,7 @@ int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant 
   if (status == HOOKE_OK) status = hooke_variant_hold(&maker);
   if (status == HOOKE_OK) status = hooke_variant_add_springs(&maker);
   if (status == HOOKE_OK) status = hooke_variant_add_bending(&maker);
+  if (status == HOOKE_OK) status = hooke_variant_add_altitude(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
   if (status == HOOKE_OK) {

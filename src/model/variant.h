@@ -11,6 +11,7 @@ struct hooke_variant {
   uint8_t *group;      /* one a group of springs */
   uint8_t *spring;     /* one a spring */
   uint8_t *bending;    /* one a group of triples */
+  uint8_t *altitude;   /* one a group of tetrahedra */
   uint8_t *particle;   /* one a particle; those of parts go with their part only */
   uint8_t *part;       /* one a part */
   double *scale;       /* one a part: factor on the cells along each axis */
@@ -89,5 +90,7 @@ int32_t hooke_variant_breaks_up(const struct hooke_variant_maker *maker, const s
 int32_t hooke_variant_add_springs(struct hooke_variant_maker *maker);
 /* The same of triples (variant_bending.c). */
 int32_t hooke_variant_add_bending(struct hooke_variant_maker *maker);
+/* And of tetrahedra, whose rest lengths they keep (variant_altitude.c). */
+int32_t hooke_variant_add_altitude(struct hooke_variant_maker *maker);
 
 #endif

@@ -72,7 +72,7 @@ class Queries:
 
     @property
     def idle_count(self) -> int:
-        """Pinned particles that no spring, no bending and no force callback touches; commits."""
+        """Pinned particles that no spring, no bending, no altitude spring and no force callback touches; commits."""
         return lib.hooke_system_idle_count(self._committed())
 
     @property
@@ -100,6 +100,22 @@ class Queries:
                 lib.hooke_system_bending_group_size(self._handle, group),
             )
             for group in range(lib.hooke_system_bending_group_count(self._handle))
+        ]
+
+    @property
+    def altitude_count(self) -> int:
+        """Tetrahedra with altitude springs; commit drops those without stiffness and damping."""
+        return lib.hooke_system_altitude_count(self._handle)
+
+    @property
+    def altitude_groups(self) -> list[tuple[str, int]]:
+        """Name ("" if it has none) and number of tetrahedra of every group."""
+        return [
+            (
+                text(lib.hooke_system_altitude_group_name(self._handle, group)),
+                lib.hooke_system_altitude_group_size(self._handle, group),
+            )
+            for group in range(lib.hooke_system_altitude_group_count(self._handle))
         ]
 
     @property
@@ -168,9 +184,36 @@ class Queries:
         return coefficient
 
     @property
+    def altitude_ends(self) -> np.ndarray:
+        """The particles of every tetrahedron (m, 4), in their order."""
+        handle = self._committed()
+        corners = np.empty((self.altitude_count, 4), np.int64)
+        lib.hooke_system_altitude_ends(handle, index_pointer(corners))
+        return corners
+
+    @property
+    def altitude_material(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Stiffness (m,) [N], damping (m,) [N s] and the seven rest lengths (m, 7) [m] of every tetrahedron,
+        negative where its volume is."""
+        handle = self._committed()
+        count = self.altitude_count
+        columns = np.empty(count), np.empty(count), np.empty((count, 7))
+        lib.hooke_system_altitude_material(handle, *(double_pointer(column) for column in columns))
+        return columns
+
+    def altitude_lengths(self, q: Any) -> np.ndarray:
+        """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inside out, 0 where
+        none acts."""
+        handle = self._committed()
+        length = np.empty(self.altitude_count)
+        q = doubles(q, "q", (self.particle_count, 3))
+        lib.hooke_system_altitude_lengths(handle, double_pointer(q), double_pointer(length))
+        return length
+
+    @property
     def forces(self) -> list[str]:
-        """The forces that the system computes ("springs", "bending", "drag", "callback",
-        "gravity")."""
+        """The forces that the system computes ("springs", "bending", "altitude", "drag",
+        "callback", "gravity")."""
         handle = self._committed()
         return [
             text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_force_count(handle))
@@ -242,12 +285,16 @@ class Queries:
         """Energy of bending [J]."""
         return self._number(lib.hooke_system_bending_energy, q=q)
 
+    def altitude_energy(self, q: Any) -> float:
+        """Energy of the altitude springs [J]."""
+        return self._number(lib.hooke_system_altitude_energy, q=q)
+
     def gravity_energy(self, q: Any) -> float:
         """The sum of -m g.q over the free particles [J]."""
         return self._number(lib.hooke_system_gravity_energy, q=q)
 
     def potential_energy(self, q: Any) -> float:
-        """Energy of springs, bending and gravity [J]."""
+        """Energy of springs, bending, altitude springs and gravity [J]."""
         return self._number(lib.hooke_system_potential_energy, q=q)
 
     def energy(self, q: Any, v: Any) -> float:

@@ -74,6 +74,11 @@ class Options(MutableMapping):
         return cls(_create(lib.hooke_spring_options_create))
 
     @classmethod
+    def for_altitude(cls) -> Options:
+        """Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."""
+        return cls(_create(lib.hooke_altitude_options_create))
+
+    @classmethod
     def for_part(cls, kind: str) -> Options:
         """Options of a part, such as a "rope" or a "cloth"."""
         return cls(_create(lambda out: lib.hooke_part_options_create(kind.encode(), out)))

@@ -131,6 +131,23 @@ class System(Queries):
             double_pointer(coefficient),
         )
 
+    def add_altitude(self, name: str | None, tetrahedra: Any, **options: Any) -> None:
+        """Adds altitude springs on `tetrahedra` of particles (m, 4): the altitude of each that is shortest at the
+        time is a spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and
+        ``damping`` [N s], one for all or (m,), ``rest_scale`` and ``compression``."""
+        corners = indices(tetrahedra, "tetrahedra")
+        if corners.size == 0:
+            corners = corners.reshape(0, 4)
+        elif corners.ndim != 2 or corners.shape[1] != 4:
+            doubles(corners, "tetrahedra", (corners.size // 4, 4))
+        lib.hooke_system_add_altitude(
+            self._handle,
+            None if name is None else name.encode(),
+            len(corners),
+            index_pointer(corners),
+            Options.for_altitude().set(**options)._handle,
+        )
+
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
         ``hooke.describe(kind)`` lists (``from_`` stands for ``from``); a family of springs is a dict:
