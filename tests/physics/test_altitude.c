@@ -1,0 +1,476 @@
+/* Altitude springs: which altitude acts, what that does, and what it leaves alone. */
+#include "check.h"
+#include "random.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double dot(const double *a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double volume_of(const double *q, const int64_t *p) {
+  double e[3][3];
+  for (int k = 0; k < 3; k++) {
+    for (int a = 0; a < 3; a++)
+      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/* Particles of unequal masses, to be committed; with `scale` on the rest lengths of altitude springs on all `tetrahedra`. */
+static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,
+                               double stiffness, double damping, double scale) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  double *mass = new_doubles(n);
+  for (int64_t p = 0; p < n; p++)
+    mass[p] = 0.5 + 0.1 * (double)(p % 4);
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, n, q, NULL, n, mass, NULL));
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  check_ok(hooke_system_add_altitude(system, "altitude", count, tetrahedra, options));
+  hooke_options_destroy(options);
+  free(mass);
+  return system;
+}
+
+static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness) {
+  hooke_options *options = NULL;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  check_ok(hooke_system_add_springs(system, "edges", count, ends, options));
+  hooke_options_destroy(options);
+}
+
+static hooke_system *commit(hooke_system *system) {
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static const int64_t corners[4] = {0, 1, 2, 3}, edges[12] = {0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3};
+
+static void random_corners(struct random_source *source, double q[12]) {
+  do {
+    for (int k = 0; k < 12; k++)
+      q[k] = random_between(source, -1.0, 1.0);
+  } while (fabs(volume_of(q, corners)) < 0.3);
+}
+
+/* ---- one tetrahedron ---- */
+
+/* The width between two planes at right angles to n that hold the tetrahedron. */
+static double width_along(const double *q, const double n[3]) {
+  double low = INFINITY, high = -INFINITY;
+  for (int p = 0; p < 4; p++) {
+    const double at = dot(q + 3 * p, n);
+    low = fmin(low, at);
+    high = fmax(high, at);
+  }
+  return (high - low) / sqrt(dot(n, n));
+}
+
+/* The shortest altitude is the least width of the tetrahedron: no direction has a smaller one, and that of the force has it. */
+static void the_shortest_is_the_least_width(void **unused) {
+  (void)unused;
+  struct random_source source = {3};
+  const double still[12] = {0};
+  for (int trial = 0; trial < 200; trial++) {
+    double q[12], length, force[12], rest[7];
+    random_corners(&source, q);
+    hooke_system *system = commit(new_scene(4, q, 1, corners, 5.0, 0.0, 1.25));
+    check_ok(hooke_system_altitude_lengths(system, q, &length));
+    check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+    double least = INFINITY;
+    for (int k = 0; k < 7; k++) {
+      assert_true((rest[k] < 0.0) == (volume_of(q, corners) < 0.0));
+      least = fmin(least, fabs(rest[k]) / 1.25);
+    }
+    check_close(length, least, 1e-14);
+    for (int k = 0; k < 300; k++) {
+      double n[3];
+      for (int a = 0; a < 3; a++)
+        n[a] = random_between(&source, -1.0, 1.0);
+      if (dot(n, n) > 0.01) assert_true(width_along(q, n) >= length * (1.0 - 1e-12));
+    }
+    check_ok(hooke_system_force(system, 0.0, q, still, force));
+    /* a push apart of 5 (1/1.25 - 1): on one side it adds up to 1, on the other side too, within the tetrahedron */
+    double out[3], push = 0.0, most = 0.0;
+    for (int p = 0; p < 4; p++) {
+      if (dot(force + 3 * p, force + 3 * p) > most) {
+        most = dot(force + 3 * p, force + 3 * p);
+        memcpy(out, force + 3 * p, sizeof out);
+      }
+    }
+    check_close(width_along(q, out), length, 1e-12);
+    for (int p = 0; p < 4; p++)
+      push += fmax(0.0, dot(force + 3 * p, out) / sqrt(most));
+    check_close(push, 5.0 * (1.0 - 1.0 / 1.25), 1e-12);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Rest lengths are three volumes over the area of a face, or the volume over the parallelogram of two edges. */
+static void rest_lengths_are_altitudes(void **unused) {
+  (void)unused;
+  const double q[12] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 2}; /* at a corner of three right angles: 6 V = 24 */
+  double rest[7];
+  hooke_system *system = commit(new_scene(4, q, 1, corners, 1.0, 0.0, 1.0));
+  check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+  const double face = 24.0 / sqrt(12.0 * 12.0 + 8.0 * 8.0 + 6.0 * 6.0);
+  const double expected[7] = {
+      face, 3.0, 4.0, 2.0, 24.0 / (3.0 * sqrt(20.0)), 24.0 / (4.0 * sqrt(13.0)), 24.0 / (2.0 * 5.0)};
+  for (int k = 0; k < 7; k++)
+    check_close(rest[k], expected[k], 1e-14);
+  hooke_system_destroy(system);
+}
+
+/* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong side. */
+static void what_is_inside_out_turns_back(void **unused) {
+  (void)unused;
+  const double q0[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.5};
+  for (int with = 0; with <= 1; with++) {
+    double q[12], v[12] = {0};
+    hooke_system *system = new_scene(4, q0, 1, corners, with ? 40.0 : 0.0, 0.0, 1.0);
+    add_springs(system, 6, edges, 10.0);
+    check_ok(hooke_system_set_drag(system, 2.0));
+    commit(system);
+    memcpy(q, q0, sizeof q);
+    q[11] = -q[11];
+    hooke_state *state = start_state(system);
+    memcpy(hooke_state_position(state), q, sizeof q);
+    memcpy(hooke_state_velocity(state), v, sizeof v);
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 40.0, .every = 40.0});
+    check_ok(hooke_integrator_run(integrator, state));
+    const double volume = volume_of(hooke_state_position(state), corners), whole = volume_of(q0, corners);
+    check_close(volume, with ? whole : -whole, 1e-3 * whole);
+    hooke_integrator_destroy(integrator);
+    hooke_state_destroy(state);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- motion ---- */
+
+static void run_from(const hooke_system *system, struct run run, int64_t n, double *q, double *v) {
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *state = start_state(system);
+  const size_t bytes = (size_t)(3 * n) * sizeof(double);
+  memcpy(hooke_state_position(state), q, bytes);
+  memcpy(hooke_state_velocity(state), v, bytes);
+  check_ok(hooke_integrator_run(integrator, state));
+  memcpy(q, hooke_state_position(state), bytes);
+  memcpy(v, hooke_state_velocity(state), bytes);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+/* A flat pyramid, whose shortest altitude by far is that of its top. */
+static const double pyramid[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3};
+
+/* The error of the energy at a time, over the energy; the top swings by a tenth of its height. */
+static double energy_error(double step) {
+  double q[12], v[12] = {0};
+  memcpy(q, pyramid, sizeof q);
+  hooke_system *system = new_scene(4, q, 1, corners, 40.0, 0.0, 1.0);
+  add_springs(system, 6, edges, 10.0);
+  commit(system);
+  v[11] = 0.2, v[3] = 0.05;
+  const double before = hooke_system_energy(system, q, v);
+  run_from(system, (struct run){.method = "verlet", .step = step, .duration = 0.3, .every = 0.3}, 4, q, v);
+  const double after = hooke_system_energy(system, q, v);
+  assert_true(hooke_system_altitude_energy(system, q) > 1e-3 * before);
+  hooke_system_destroy(system);
+  return fabs(after - before) / before;
+}
+
+static void verlet_keeps_the_energy_to_its_order(void **unused) {
+  (void)unused;
+  const double coarse = energy_error(5e-3), fine = energy_error(5e-4);
+  check_between(coarse, 1e-6, 1e-2);
+  check_between(fine / coarse, 0.005, 0.02);
+}
+
+/* At a change of the altitude the energy jumps by what their rest lengths differ in, and momentum does not. */
+static void the_energy_jumps_where_another_altitude_acts(void **unused) {
+  (void)unused;
+  double q[12], jump = 0.0, last = NAN, at = NAN;
+  memcpy(q, pyramid, sizeof q);
+  hooke_system *system = commit(new_scene(4, q, 1, corners, 40.0, 0.0, 1.0));
+  for (int k = 0; k <= 4000; k++) {
+    q[11] = 0.3 + 1e-3 * k;
+    const double energy = hooke_system_altitude_energy(system, q);
+    if (fabs(energy - last) > jump) {
+      jump = fabs(energy - last);
+      at = q[11];
+    }
+    last = energy;
+  }
+  /* the slope of the first altitude's energy is 40 (h - 0.3)/0.3 a metre */
+  assert_true(jump > 10.0 * 1e-3 * 40.0 * (at - 0.3) / 0.3);
+  hooke_system_destroy(system);
+}
+
+enum { SEGMENTS = 24, CURL = SEGMENTS + 1 };
+
+/* A curl as a part: 24 segments, two turns, 1 cm about 8 cm. */
+static hooke_system *new_curl(double turns, double twist, double altitude, double damping,
+                              const char *pinned) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  const char *const family[] = {"stretch", "bend", "twist", "altitude"};
+  const double stiffness[] = {40.0, 4.0, twist, altitude};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
+  check_ok(hooke_options_set_text(options, "to", "0,-0.08,0"));
+  check_ok(hooke_options_set_number(options, "segments", SEGMENTS));
+  check_ok(hooke_options_set_number(options, "curl", 0.01));
+  check_ok(hooke_options_set_number(options, "turns", turns));
+  check_ok(hooke_options_set_number(options, "mass", 1e-3));
+  if (pinned) check_ok(hooke_options_set_text(options, "pinned", pinned));
+  for (int k = 0; k < 4; k++) {
+    char name[64];
+    if (stiffness[k] == 0.0) continue;
+    snprintf(name, sizeof name, "%s.stiffness", family[k]);
+    check_ok(hooke_options_set_number(options, name, stiffness[k]));
+    snprintf(name, sizeof name, "%s.damping", family[k]);
+    check_ok(hooke_options_set_number(options, name, damping * stiffness[k]));
+  }
+  check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
+  hooke_options_destroy(options);
+  return system;
+}
+
+static void momenta_stay(void **unused) {
+  (void)unused;
+  struct random_source source = {8};
+  hooke_system *system = commit(new_curl(2.0, 2.0, 1.0, 1e-5, NULL));
+  double q[3 * CURL], v[3 * CURL], before[6], after[6];
+  hooke_state *state = start_state(system);
+  memcpy(q, hooke_state_position(state), sizeof q);
+  hooke_state_destroy(state);
+  for (int k = 0; k < 3 * CURL; k++)
+    v[k] = random_between(&source, -0.5, 0.5);
+  hooke_system_momentum(system, v, before);
+  hooke_system_angular_momentum(system, q, v, before + 3);
+  run_from(system, (struct run){.method = "symplectic-euler", .step = 1e-5, .duration = 0.1, .every = 0.1},
+           CURL, q, v);
+  hooke_system_momentum(system, v, after);
+  hooke_system_angular_momentum(system, q, v, after + 3);
+  assert_true(largest(3, before) > 1e-6 && largest(3, before + 3) > 1e-8);
+  check_between(largest_difference(6, before, after), 0.0, 1e-16);
+  hooke_system_destroy(system);
+}
+
+/* Every method comes to where Runge-Kutta with a fine step does. */
+static void methods_agree(void **unused) {
+  (void)unused;
+  hooke_system *system = new_curl(2.0, 2.0, 1.0, 1e-4, "0,1,2");
+  const double gravity[3] = {0.0, -9.81, 0.0};
+  check_ok(hooke_system_set_gravity(system, gravity));
+  commit(system);
+  double expected[3 * CURL];
+  run_to_end(system, (struct run){.method = "rk4", .step = 5e-6, .duration = 0.01, .every = 0.01}, expected,
+             NULL);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!hooke_method_is_built(method)) continue;
+    struct run run = {.method = method, .duration = 0.01, .every = 0.01};
+    const int first_order = strstr(method, "euler") != NULL;
+    if (hooke_method_is_adaptive(method))
+      run.rtol = 1e-9, run.atol = 1e-12;
+    else
+      run.step = first_order ? 4e-6 : 1e-5;
+    double q[3 * CURL];
+    run_to_end(system, run, q, NULL);
+    const double error = largest_difference(3 * CURL, q, expected);
+    if (error > (first_order ? 3e-6 : 1e-8)) check_failed("%s is off by %g", method, error);
+  }
+  hooke_system_destroy(system);
+}
+
+/* ---- a hanging curl ---- */
+
+/* The share of tetrahedra of four consecutive particles that never turn inside out, frame by frame, in half a second. */
+static double share_kept(double turns, double twist, double altitude) {
+  enum { FRAMES = 50 };
+  hooke_system *system = new_curl(turns, twist, altitude, 1e-5, "0,1,2");
+  const double gravity[3] = {0.0, -9.81, 0.0};
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_set_drag(system, 1e-5));
+  commit(system);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 2e-5, .duration = 0.01, .every = 0.01});
+  hooke_state *state = start_state(system);
+  int turned[CURL - 3] = {0}, kept = 0;
+  for (int frame = 0; frame <= FRAMES; frame++) {
+    for (int64_t k = 0; k < CURL - 3; k++) {
+      const double volume = volume_of(hooke_state_position(state), (const int64_t[]){k, k + 1, k + 2, k + 3});
+      turned[k] |= !(volume * turns > 0.0);
+    }
+    if (frame < FRAMES) check_ok(hooke_integrator_run(integrator, state));
+  }
+  for (int k = 0; k < CURL - 3; k++)
+    kept += !turned[k];
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+  return (double)kept / (CURL - 3);
+}
+
+/* Released, a curl keeps its hand by altitude and twist springs, whichever it is; without both of them it does not, and
+ * twist springs alone do not do it. */
+static void a_hanging_curl_stays_a_curl(void **unused) {
+  (void)unused;
+  check_between(share_kept(2.0, 2.0, 1.0), 1.0, 1.0);
+  check_between(share_kept(-2.0, 2.0, 1.0), 1.0, 1.0);
+  check_between(share_kept(2.0, 0.0, 0.0), 0.0, 0.8);
+  check_between(share_kept(2.0, 2.0, 0.0), 0.0, 0.9);
+}
+
+/* ---- numbers ---- */
+
+static void groups_and_numbers(void **unused) {
+  (void)unused;
+  double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
+  const int64_t two[8] = {3, 2, 1, 0, 4, 1, 2, 3};
+  hooke_system *system = new_curl(2.0, 2.0, 1.0, 0.0, NULL);
+  hooke_options *options = NULL;
+  int64_t first = 0;
+  const double mass = 1.0;
+  check_ok(hooke_system_add_particles(system, 5, q, NULL, 1, &mass, &first));
+  assert_int_equal(first, CURL);
+  int64_t shifted[8];
+  for (int k = 0; k < 8; k++)
+    shifted[k] = two[k] + first;
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_numbers(options, "stiffness", 2, (const double[]){0.0, 3.0}));
+  check_ok(hooke_system_add_altitude(system, "mine", 2, shifted, options));
+  assert_int_equal(hooke_system_altitude_count(system), 2 + CURL - 3);
+  check_status(hooke_system_altitude_ends(system, shifted), HOOKE_BAD_CALL);
+  commit(system);
+  check_status(hooke_system_add_altitude(system, "mine", 2, shifted, options), HOOKE_BAD_CALL);
+  hooke_options_destroy(options);
+  assert_int_equal(hooke_system_altitude_count(system), 1 + CURL - 3);
+  assert_int_equal(hooke_system_altitude_group_count(system), 2);
+  assert_string_equal(hooke_system_altitude_group_name(system, 0), "mine");
+  assert_string_equal(hooke_system_altitude_group_name(system, 1), "hair.altitude");
+  assert_null(hooke_system_altitude_group_name(system, 2));
+  assert_int_equal(hooke_system_altitude_group_size(system, 0), 1);
+  assert_int_equal(hooke_system_altitude_group_size(system, 1), CURL - 3);
+  assert_string_equal(hooke_system_force_name(system, 1), "altitude");
+  int64_t ends[4 * (CURL - 2)];
+  double strength[CURL - 2], brake[CURL - 2], rest[7 * (CURL - 2)];
+  check_ok(hooke_system_altitude_ends(system, ends));
+  assert_memory_equal(ends, shifted + 4, 4 * sizeof *ends);
+  for (int64_t k = 0; k < CURL - 3; k++) {
+    for (int64_t e = 0; e < 4; e++)
+      assert_int_equal(ends[4 * (k + 1) + e], k + e);
+  }
+  check_ok(hooke_system_altitude_material(system, strength, brake, rest));
+  check_close(strength[0], 3.0, 0.0);
+  check_close(strength[1], 1.0, 0.0);
+  check_same_bits(7, rest + 7, rest + 7 * (CURL - 3)); /* of a strand they are one set of numbers */
+  hooke_system_destroy(system);
+}
+
+/* Without stiffness and damping there is no force, no memory, no other bit. */
+static void no_strength_is_no_altitude_spring(void **unused) {
+  (void)unused;
+  double q[12], v[12] = {0.1, 0.2, 0.3}, other_q[12], other_v[12];
+  memcpy(q, pyramid, sizeof q);
+  hooke_system *with = new_scene(4, q, 1, corners, 0.0, 0.0, 1.0),
+               *without = new_scene(4, q, 0, corners, 1.0, 0.0, 1.0);
+  add_springs(with, 6, edges, 10.0);
+  add_springs(without, 6, edges, 10.0);
+  commit(with);
+  commit(without);
+  assert_int_equal(hooke_system_force_count(with), 1);
+  assert_int_equal(hooke_system_altitude_count(with), 0);
+  assert_int_equal(hooke_system_memory(with), hooke_system_memory(without));
+  memcpy(other_q, q, sizeof q);
+  memcpy(other_v, v, sizeof v);
+  const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.1};
+  run_from(with, run, 4, q, v);
+  run_from(without, run, 4, other_q, other_v);
+  check_same_bits(12, q, other_q);
+  hooke_system_destroy(with);
+  hooke_system_destroy(without);
+}
+
+/* All particles in one line, or in one place: no altitude, no force, nothing that is not a number. */
+static void a_line_has_no_altitude(void **unused) {
+  (void)unused;
+  double line[12], force[12], length = 1.0;
+  const double still[12] = {0};
+  hooke_system *system = commit(new_scene(4, pyramid, 1, corners, 40.0, 1.0, 1.0));
+  for (int spread = 0; spread <= 1; spread++) {
+    for (int k = 0; k < 12; k++)
+      line[k] = (k % 3 + 1) * (1.0 + spread * (k / 3));
+    check_ok(hooke_system_force(system, 0.0, line, still, force));
+    check_between(largest(12, force), 0.0, 0.0);
+    check_between(hooke_system_altitude_energy(system, line), 0.0, 0.0);
+    check_ok(hooke_system_altitude_lengths(system, line, &length));
+    check_between(length, 0.0, 0.0);
+  }
+  hooke_system_destroy(system);
+}
+
+static void bad_tetrahedra_are_refused(void **unused) {
+  (void)unused;
+  const double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1e-10, 0, 0, 1};
+  const int64_t flat[8] = {0, 1, 2, 4, 0, 1, 2, 3}, far[4] = {0, 1, 5, 2}, twice[4] = {0, 4, 2, 4};
+  hooke_options *options = NULL, *springs = NULL;
+  hooke_system *system = new_scene(5, q, 0, flat, 1.0, 0.0, 1.0);
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_spring_options_create(&springs));
+  check_status(hooke_system_add_altitude(system, "a", 1, flat, options), HOOKE_BAD_VALUE);
+  check_message("stiffness: is required");
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  check_status(hooke_system_add_altitude(system, "a", 2, flat, options), HOOKE_BAD_VALUE);
+  check_message("tetrahedra[1]: particles 0, 1, 2 and 3 lie in a plane at rest: their shortest altitude is");
+  check_status(hooke_system_add_altitude(system, "a", 1, far, options), HOOKE_BAD_VALUE);
+  check_message("tetrahedra[0][2]: there is no particle 5; allowed: 0 to 4");
+  check_status(hooke_system_add_altitude(system, "a", 1, twice, options), HOOKE_BAD_VALUE);
+  check_message("tetrahedra[0]: particles 0, 4, 2 and 4; a tetrahedron has four different ones");
+  check_status(hooke_system_add_altitude(system, "a", -1, flat, options), HOOKE_BAD_VALUE);
+  check_message("-1 tetrahedra");
+  check_status(hooke_system_add_altitude(system, "a", 1, flat, springs), HOOKE_BAD_VALUE);
+  check_message("hooke_altitude_options_create()");
+  check_ok(hooke_options_set_numbers(options, "stiffness", 3, (const double[]){1, 2, 3}));
+  check_status(hooke_system_add_altitude(system, "a", 2, flat, options), HOOKE_BAD_VALUE);
+  check_message("3 values for 2 tetrahedra");
+  check_status(hooke_options_set_number(options, "stiffness", -1.0), HOOKE_BAD_VALUE);
+  assert_int_equal(hooke_system_altitude_group_count(system), 1);
+  hooke_options_destroy(options);
+  hooke_options_destroy(springs);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_shortest_is_the_least_width),
+      cmocka_unit_test(rest_lengths_are_altitudes),
+      cmocka_unit_test(what_is_inside_out_turns_back),
+      cmocka_unit_test(verlet_keeps_the_energy_to_its_order),
+      cmocka_unit_test(the_energy_jumps_where_another_altitude_acts),
+      cmocka_unit_test(momenta_stay),
+      cmocka_unit_test(methods_agree),
+      cmocka_unit_test(a_hanging_curl_stays_a_curl),
+      cmocka_unit_test(groups_and_numbers),
+      cmocka_unit_test(no_strength_is_no_altitude_spring),
+      cmocka_unit_test(a_line_has_no_altitude),
+      cmocka_unit_test(bad_tetrahedra_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

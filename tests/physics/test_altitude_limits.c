@@ -1,0 +1,225 @@
+/* Limits of the step where altitude springs act: bounds, predictions, measurements, and what they hang on. */
+#include "check.h"
+#include "random.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,
+                         double damping, double scale) {
+  hooke_options *options = NULL;
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  check_ok(hooke_system_add_altitude(system, "heights", count, tetrahedra, options));
+  hooke_options_destroy(options);
+}
+
+static hooke_limit *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
+  hooke_options *options;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", methods));
+  check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
+  check_ok(hooke_options_set_number(options, "predict", predict));
+  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_limit_find(limit, state));
+  hooke_state_destroy(state);
+  return limit;
+}
+
+/* A particle over a face that is held: one spring of ks/h, all of whose weight is on it. */
+static void a_top_over_a_held_face(void **unused) {
+  (void)unused;
+  const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
+  const int64_t corners[4] = {0, 1, 2, 3}, held[3] = {0, 1, 2};
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 4, q, NULL, 1, &mass, NULL));
+  add_altitude(system, 1, corners, 6.0, 0.01, 1.0);
+  check_ok(hooke_system_pin(system, 3, held));
+  check_ok(hooke_system_commit(system));
+  const double omega = sqrt(6.0 / 0.3 / 0.2), rate = 0.01 / 0.3 / 0.2, z = rate / (2.0 * omega);
+  check_close(bound_at_start(system, "verlet"), 2.0 / omega, 1e-12);
+  check_close(bound_at_start(system, "symplectic-euler"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
+  check_close(bound_at_start(system, "forward-euler"), 0.01 / 6.0, 1e-12);
+  hooke_limit *limit = find_limit(system, "forward-euler,symplectic-euler,verlet", 1);
+  check_close(hooke_limit_number(limit, 0, "predicted"), 0.01 / 6.0, 1e-9);
+  check_close(hooke_limit_number(limit, 1, "predicted"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
+  check_close(hooke_limit_number(limit, 2, "predicted"), 2.0 / omega, 1e-9);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+/* bound <= limit, and the scene runs up to the limit. */
+static void compare(hooke_system *system, const char *methods) {
+  hooke_limit *limit = find_limit(system, methods, 0);
+  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
+    const double predicted = hooke_limit_number(limit, row, "predicted");
+    const double measured = hooke_limit_number(limit, row, "measured");
+    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
+      check_failed("%s: measured %.8g, predicted %.8g (%s)", hooke_limit_text(limit, row, "method"), measured,
+                   predicted, hooke_limit_text(limit, row, "note"));
+    }
+    check_between(hooke_limit_number(limit, row, "bound"), 0.3 * measured, measured * (1.0 + 1e-3));
+  }
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+static double volume_of(const double *q, const int64_t *p) {
+  double e[3][3];
+  for (int k = 0; k < 3; k++) {
+    for (int a = 0; a < 3; a++)
+      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/* Tetrahedra at random, some with tension, with springs, drag, and particles of all masses, some of them held. */
+static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
+  (void)unused;
+  for (uint64_t seed = 1; seed <= 12; seed++) {
+    enum { N = 9, TETRAHEDRA = 6, SPRINGS = 8 };
+    struct random_source source = {seed};
+    double q[3 * N], mass[N];
+    int64_t tetrahedra[4 * TETRAHEDRA], ends[2 * SPRINGS], pinned = 2;
+    for (int k = 0; k < 3 * N; k++)
+      q[k] = random_between(&source, -1.0, 1.0);
+    for (int p = 0; p < N; p++)
+      mass[p] = random_between(&source, 0.3, 3.0);
+    for (int k = 0; k < TETRAHEDRA;) {
+      int64_t *p = tetrahedra + 4 * k;
+      for (int e = 0; e < 4; e++)
+        p[e] = random_whole(&source, 0, N - 1);
+      k += fabs(volume_of(q, p)) > 0.3;
+    }
+    for (int k = 0; k < SPRINGS; k++)
+      ends[2 * k] = k, ends[2 * k + 1] = k + 1;
+    hooke_system *system = NULL;
+    hooke_options *springs = NULL;
+    check_ok(hooke_system_create(&system));
+    check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
+    check_ok(hooke_spring_options_create(&springs));
+    check_ok(hooke_options_set_number(springs, "stiffness", 10.0));
+    check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
+    add_altitude(system, TETRAHEDRA, tetrahedra, 20.0, seed % 2 ? 0.3 : 0.0, seed % 3 ? 1.0 : 0.8);
+    if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
+    if (seed % 3 == 1) check_ok(hooke_system_set_drag(system, 0.3));
+    check_ok(hooke_system_commit(system));
+    hooke_options_destroy(springs);
+    compare(system, "symplectic-euler,verlet,rk4");
+  }
+}
+
+/* ---- what it hangs on ---- */
+
+/* A straight strand whose altitude springs are its stiffest. */
+static hooke_system *new_strand(double altitude) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
+  check_ok(hooke_options_set_text(options, "to", "1,0,0"));
+  check_ok(hooke_options_set_number(options, "segments", 12));
+  check_ok(hooke_options_set_number(options, "mass", 0.1));
+  check_ok(hooke_options_set_text(options, "pinned", "0,1,2"));
+  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1.0));
+  check_ok(hooke_options_set_number(options, "altitude.stiffness", altitude));
+  check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+static void a_limit_by_altitude_names_it(void **unused) {
+  (void)unused;
+  hooke_system *system = new_strand(40.0);
+  hooke_limit *limit = find_limit(system, "verlet", 1);
+  const char *sentence = hooke_limit_remedy_text(limit, "sentence");
+  if (sentence == NULL || strstr(sentence, "group `hair.altitude` has ") == NULL)
+    check_failed("%s", sentence);
+  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++)
+    check_between(hooke_limit_blame_number(limit, k, "share"), 0.0, 0.02);
+  hooke_limit_destroy(limit);
+  hooke_system_destroy(system);
+}
+
+static void a_run_above_the_limit_is_explained(void **unused) {
+  (void)unused;
+  hooke_system *system = new_strand(40.0);
+  hooke_limit *limit = find_limit(system, "verlet", 1);
+  const double step = 1.05 * hooke_limit_number(limit, 0, "predicted");
+  hooke_limit_destroy(limit);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "verlet", .step = step, .duration = 5000 * step, .every = 100 * step});
+  hooke_state *state = start_state(system);
+  hooke_state_position(state)[3 * 13 + 1] += 1e-5;
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_why *why = NULL;
+  check_ok(hooke_why_create(integrator, &why));
+  assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
+  const char *sentence = hooke_why_text(why, "sentence");
+  if (strstr(sentence, "most of all in the altitude springs of particles ") == NULL ||
+      strstr(sentence, "(group hair.altitude)") == NULL)
+    check_failed("%s", sentence);
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* ---- what they cost, and what is left without them ---- */
+
+static void they_are_an_ingredient(void **unused) {
+  (void)unused;
+  hooke_system *system = new_strand(0.5);
+  hooke_options *options = NULL, *run = NULL;
+  hooke_cost *cost = NULL;
+  check_ok(hooke_cost_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_set_number(run, "step", 1e-4));
+  check_ok(hooke_cost_create(system, run, options, &cost));
+  hooke_state *state = start_state(system);
+  check_ok(hooke_cost_find(cost, state));
+  hooke_state_destroy(state);
+  int found = 0;
+  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+    if (strcmp(hooke_cost_text(cost, row, "kind"), "altitude") != 0) continue;
+    found++;
+    assert_string_equal(hooke_cost_text(cost, row, "name"), "hair.altitude");
+    assert_true(hooke_cost_number(cost, row, "memory_bytes") > 20.0 * 50.0);
+    assert_true(isnan(hooke_cost_number(cost, row, "springs")));
+  }
+  assert_int_equal(found, 1);
+  hooke_cost_destroy(cost);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_top_over_a_held_face),
+      cmocka_unit_test(random_tetrahedra_run_up_to_the_prediction),
+      cmocka_unit_test(a_limit_by_altitude_names_it),
+      cmocka_unit_test(a_run_above_the_limit_is_explained),
+      cmocka_unit_test(they_are_an_ingredient),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
