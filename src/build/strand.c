@@ -3,8 +3,9 @@
  * of the tetrahedra of every four consecutive particles.
  *
  * Those of a straight line would be flat. So a straight strand has an extra particle for every segment, at its middle,
- * `offset` segment lengths off the axis, at right angles to the one before: the extra particles wind about the axis, by
- * a quarter turn to the right each. All tetrahedra are then congruent. A curl (particles on a helix about the axis) has tetrahedra
+ * `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn to the right each. All
+ * tetrahedra are then congruent, and their shortest altitude is shorter than the others by far (by a quarter turn two of
+ * them would be equal, so that which one acts would hang on rounding). A curl (particles on a helix about the axis) has tetrahedra
  * of its own and needs no extra particles. */
 #include "build/part.h"
 
@@ -66,7 +67,7 @@ struct strand {
   int64_t segments;
 };
 
-/* Turns the axis of coordinates that is farthest from the strand's into the first vector across. */
+/* The first vector across is, as nearly as can be, the axis of coordinates that the strand goes along least. */
 static void find_axes(const double span[3], double length, double axis[3][3]) {
   int least = 0;
   for (int a = 0; a < 3; a++) {
@@ -118,7 +119,8 @@ static int is_curl(const struct strand *strand) {
 
 /* Where particle k is across the axis, and how many segments along it. */
 static double place(const struct strand *strand, int64_t k, double across[2]) {
-  static const double quarter[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  static const double s = 0.86602540378443864676; /* sin 60 degrees */
+  static const double sixth[6][2] = {{1, 0}, {0.5, s}, {-0.5, s}, {-1, 0}, {-0.5, -s}, {0.5, -s}};
   if (is_curl(strand)) {
     double sine, cosine;
     hooke_sine_of_turns((double)k * strand->turns, &sine, &cosine);
@@ -127,7 +129,7 @@ static double place(const struct strand *strand, int64_t k, double across[2]) {
     return (double)k;
   }
   for (int a = 0; a < 2; a++)
-    across[a] = k % 2 ? strand->offset * quarter[k / 2 % 4][a] : 0.0;
+    across[a] = k % 2 ? strand->offset * sixth[k / 2 % 6][a] : 0.0;
   return 0.5 * (double)k;
 }
 
@@ -140,7 +142,8 @@ static double distance(const struct strand *strand, int64_t k, int64_t apart) {
     const double chord = 2.0 * strand->radius * sine, along = 2.0 * half;
     return sqrt(chord * chord + along * along);
   }
-  if (apart == 2) return k % 2 ? sqrt(half * half + 2.0 * (strand->offset * strand->offset)) : half;
+  /* neighbouring extra particles are `offset` apart across the axis, as they are from it */
+  if (apart == 2 && k % 2 == 0) return half;
   return sqrt(half * half + strand->offset * strand->offset);
 }
 

@@ -10,7 +10,7 @@ from conftest import METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
-KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "derived", "forces", "memory_bytes", "bytes_per_particle"]
+KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "tetrahedra", "altitude_groups", "derived", "forces", "memory_bytes", "bytes_per_particle"]
 KEYS += ["bytes_per_spring", "step_limit", "warnings", "cost"]
 COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
 COST_KEYS += ["idle_particles", "rows"]

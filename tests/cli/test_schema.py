@@ -28,6 +28,7 @@ BEYOND_A_SCHEMA = {
     "mesh-corners", "mesh-crowded", "mesh-file-missing", "mesh-file-scene", "mesh-flat", "mesh-range", "mesh-twice",
     "mesh-unused", "mesh-welded", "part-index", "part-names", "part-pinned-range", "part-unknown", "pinned-moving",
     "pinned-range", "pinned-real", "rest-length-coincident", "rope-of-no-length", "segments-real", "stiffness-count",
+    "strand-flat", "strand-nearly-straight", "strand-of-no-length",
     "table-order", "table-rows", "velocity-rows",
 }  # fmt: skip
 
@@ -57,7 +58,7 @@ def test_the_examples_are_there():
     names = {path.stem for path in EXAMPLES}
     assert names >= {
         "oscillator", "six-particles", "rope", "rope-resolution", "drag-or-damping", "cloth-16", "cloth-64", "stiff-spring",
-        "cantilever", "lattice", "mesh",
+        "cantilever", "lattice", "mesh", "curl",
     }  # fmt: skip
 
 

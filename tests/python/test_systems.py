@@ -94,6 +94,47 @@ def test_bending_is_that_of_the_formula(moved):
     assert system.potential_energy(q) == system.energy(q, 0 * v) == system.bending_energy(q)
 
 
+def test_altitude_springs_are_those_of_the_formula():
+    system = hooke.System()
+    q = np.array([[0, 0, 0], [1, 0, 0], [0.4, 1, 0], [0.5, 0.4, 0.3], [2, 2, 2]])
+    system.add_particles(q, mass=1)
+    system.add_altitude("a", [[0, 1, 2, 3], [4, 3, 2, 1]], stiffness=[6, 0], damping=[0.3, 0], rest_scale=1.5)
+    assert (system.altitude_count, system.altitude_groups) == (2, [("a", 2)])
+    assert system.forces == ["altitude"]
+    assert (system.altitude_count, system.altitude_groups) == (1, [("a", 1)])
+    assert system.altitude_ends.tolist() == [[0, 1, 2, 3]]
+    stiffness, damping, rest = system.altitude_material
+    assert (stiffness.tolist(), damping.tolist(), rest.shape) == ([6], [0.3], (1, 7))
+    assert rest[0, 3] == pytest.approx(0.45, rel=1e-15)
+    q[3, 2] = 0.2  # the top is 0.2 over the face of the others, and sinks
+    v = np.zeros((5, 3))
+    v[3, 2] = -0.5
+    weights = np.array([1 - 0.34 - 0.4, 0.34, 0.4, -1, 0])  # of the point below it
+    tension = (6 * (0.2 - 0.45) - 0.3 * 0.5) / 0.45
+    np.testing.assert_allclose(system.force(q, v)[:, 2], tension * weights, rtol=1e-13, atol=1e-14)
+    assert system.altitude_lengths(q) == pytest.approx([0.2], rel=1e-15)
+    assert system.altitude_energy(q) == pytest.approx(3 / 0.45 * 0.25**2, rel=1e-13)
+    assert system.potential_energy(q) == system.altitude_energy(q)
+    assert system.dissipated_power(q, v) == pytest.approx(0.3 / 0.45 * 0.25, rel=1e-13)
+    with pytest.raises(hooke.BadValue, match=r"tetrahedra"):
+        hooke.System().add_altitude(None, [0, 1, 2], stiffness=1)
+
+
+def test_a_strand_is_a_part():
+    system = hooke.System()
+    family = {"stiffness": 1}
+    particles = system.add_part(
+        "strand", "hair", from_=[0, 0, 0], to=[0, 0, 2], segments=2, offset=0.25, mass=1, pinned="start",
+        stretch=family, bend=family, twist=family, altitude=family,
+    )  # fmt: skip
+    assert (len(particles), system.altitude_count) == (5, 2)
+    q = system.state().q
+    np.testing.assert_allclose(q[::2], [[0, 0, 0], [0, 0, 1], [0, 0, 2]], atol=1e-15)
+    np.testing.assert_allclose(np.linalg.norm(q[1::2, :2], axis=1), [0.25, 0.25], rtol=1e-14)
+    assert q[1, :2] @ q[3, :2] == pytest.approx(0.5 * 0.25**2, rel=1e-14)  # a sixth of a turn
+    assert system.spring_energy(q) + system.altitude_energy(q) < 1e-28
+
+
 def test_bad_bending_is_refused():
     system = hooke.System()
     system.add_particles(np.eye(3), mass=1)

@@ -128,6 +128,58 @@ static void lattice_and_mesh_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
+static void add_strand(hooke_system *system, int curl) {
+  hooke_options *options = NULL;
+  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_set_text(options, "from", "0.1,0.2,0.3"));
+  check_ok(hooke_options_set_text(options, "to", "1.7,0.1,-0.6"));
+  check_ok(hooke_options_set_number(options, "segments", 13));
+  check_ok(hooke_options_set_number(options, curl ? "curl" : "offset", 0.3));
+  if (curl) check_ok(hooke_options_set_number(options, "turns", -2.3));
+  check_ok(hooke_options_set_number(options, "density", 0.7));
+  check_ok(hooke_options_set_text(options, "pinned", "start,3"));
+  check_ok(hooke_options_set_number(options, "bend.stiffness", 3.0));
+  check_ok(hooke_options_set_number(options, "altitude.stiffness", 7.0));
+  check_ok(hooke_options_set_number(options, "altitude.damping_ratio", 0.3));
+  check_ok(hooke_options_set_number(options, "altitude.rest_scale", 0.9));
+  check_ok(hooke_options_set_number(options, "altitude.compression", curl));
+  check_ok(hooke_system_add_part(system, "strand", curl ? "curl" : NULL, options, NULL, NULL));
+  hooke_options_destroy(options);
+}
+
+/* Tetrahedra of parts to the bit; those of its own have no words. */
+static void strands_come_back(void **state) {
+  (void)state;
+  hooke_system *system;
+  hooke_scene *read;
+  check_ok(hooke_system_create(&system));
+  add_strand(system, 0);
+  add_strand(system, 1);
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  const hooke_system *found = hooke_scene_system(read);
+  check_same_system(found, system);
+  assert_int_equal(system->altitudes.count, 24 + 11);
+  assert_int_equal(found->altitudes.count, system->altitudes.count);
+  assert_memory_equal(found->altitudes.tetrahedron, system->altitudes.tetrahedron,
+                      (size_t)system->altitudes.count * sizeof *system->altitudes.tetrahedron);
+  hooke_scene_destroy(read);
+  hooke_system_destroy(system);
+
+  const int64_t corners[4] = {0, 1, 2, 3};
+  hooke_options *options = NULL;
+  check_ok(hooke_system_create(&system));
+  add_strand(system, 1);
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  check_ok(hooke_system_add_altitude(system, "mine", 1, corners, options));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_scene_write("/tmp/hooke-never-written.json", system, NULL, NULL), HOOKE_UNSUITED);
+  check_message("tetrahedra of its own");
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 /* Driven as before: at some times, in the same places to the bit. */
 static void drives_come_back(void **state) {
   (void)state;
@@ -175,6 +227,7 @@ int main(void) {
       cmocka_unit_test(random_systems_come_back),
       cmocka_unit_test(lattice_and_mesh_come_back),
       cmocka_unit_test(drives_come_back),
+      cmocka_unit_test(strands_come_back),
       cmocka_unit_test(callbacks_cannot_be_written),
   };
 #else

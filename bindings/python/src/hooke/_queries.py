@@ -206,7 +206,7 @@ class Queries:
         none acts."""
         handle = self._committed()
         length = np.empty(self.altitude_count)
-        q = doubles(q, "q", (self.particle_count, 3))
+        (q,) = self._rows(q=q)
         lib.hooke_system_altitude_lengths(handle, double_pointer(q), double_pointer(length))
         return length
 
