@@ -8,6 +8,10 @@
  *          faces and the body of each cell), bend (two apart along x, y, z)
  *   mesh   particles at the vertices of a surface of triangles: structural (every edge once), bend (the two vertices
  *          opposite to each other across every edge of two triangles)
+ *   strand a hair (Selle, Lentine and Fedkiw 2008) about the axis from `from` to `to`: stretch (neighbours), bend (two apart),
+ *          twist (three apart), altitude (hooke_system_add_altitude() on every four consecutive particles); straight, with
+ *          an extra particle in each of its `segments`, `offset` segments off the axis, or a helix of radius `curl` with
+ *          `turns`
  *
  * Rope and cloth have bending along their lines of particles (option `bending`, hooke_system_add_bending()), as a group
  * "<name>.bending". All have one of the options `mass` (shared equally; in a mesh by area) and `density` (by the piece that
@@ -25,14 +29,14 @@
 extern "C" {
 #endif
 
-/* The kinds of parts there are: "rope", "cloth", "lattice", "mesh"; NULL past the last. */
+/* The kinds of parts there are: "rope", "cloth", "lattice", "mesh", "strand"; NULL past the last. */
 HOOKE_API int64_t hooke_part_kind_count(void);
 HOOKE_API const char *hooke_part_kind(int64_t kind);
 
 /* Options of a part of this kind, for the caller to set and destroy. HOOKE_BAD_VALUE for an unknown kind. */
 HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
 
-/* Adds a part's particles, springs and triples. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
+/* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
  * called by its kind and its number among the parts. `first` and `count`, if not NULL, receive its particles.
  * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,

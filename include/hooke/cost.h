@@ -1,6 +1,6 @@
 /* hooke/cost.h - what each ingredient of one scene costs, on this machine.
  *
- * An ingredient is a group of springs or of bending triples, all damping of springs, drag, the callback force, or gravity. The scene is made again
+ * An ingredient is a group of springs, of bending triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is made again
  * without it and both are compared: memory, the largest stable step, and the time of a step, taken by turns on both in short
  * blocks from the same state, of which the shortest count. Times differ from one machine and one call to the next. A cost
  * belongs to one thread at a time. Callbacks are called, at states that may not be those of a run.
@@ -44,7 +44,7 @@ HOOKE_API double hooke_cost_figure(const hooke_cost *cost, const char *what);
 /* ---- rows: one an ingredient that is there, those of size 0 left out ---- */
 
 HOOKE_API int64_t hooke_cost_row_count(const hooke_cost *cost);
-/* "kind": "springs", "bending", "damping", "drag", "callback" or "gravity"; "name": of the group, else the kind. NULL if there is no
+/* "kind": "springs", "bending", "altitude", "damping", "drag", "callback" or "gravity"; "name": of the group, else the kind. NULL if there is no
  * such row. */
 HOOKE_API const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what);
 /* "group" (its number, among those of its kind) and "springs" (how many); "nanoseconds" of a step and "memory_bytes" that it costs, 0 where nothing can

@@ -1,7 +1,8 @@
 /* hooke/limit.h - the largest stable step of each method on one scene: predicted, measured, and what it hangs on.
  *
  * A limit is found for the system linearised and frozen at given positions, at rest: M x'' + C x' + K x = 0 over the free
- * particles, K with the tension of stretched springs and bending, C of springs and drag. The transverse stiffness of a compressed
+ * particles, K with the tension of stretched springs, bending and altitude springs (without their tension), C of springs, altitude
+ * springs and drag. The transverse stiffness of a compressed
  * spring, which is negative, counts as zero there: buckling is growth by physics and no limit of a step. Callbacks are left
  * out; springs that only pull count as taut. A limit belongs to one thread at a time. Needs GSL. ARPACK is used where it is
  * built in (scenes of 34 to 3333 free particles); it is not made for threads, so searches by it wait for each other.
@@ -65,7 +66,7 @@ HOOKE_API double hooke_limit_number(const hooke_limit *limit, int64_t row, const
 
 /* ---- blame: what the limiting mode of the row hangs on, the largest share first ---- */
 
-/* Springs named, at most 100; their shares are those of h^2 K + 2 h C (bending and drag included) in the limiting mode of
+/* Springs named, at most 100; their shares are those of h^2 K + 2 h C (bending, altitude springs and drag included) in the limiting mode of
  * the method of the run (of the first row with a limit if that has none). */
 HOOKE_API int64_t hooke_limit_blame_count(const hooke_limit *limit);
 /* "spring" (its number), "first" and "second" (its ends), "share" (0..1). NaN for another word. */

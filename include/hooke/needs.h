@@ -5,7 +5,7 @@
  * [m]. Each run takes the largest step (or tolerance) with which it is off by at most a tenth of what is wanted, judged by a
  * run with half the step (a tenth of the tolerance). What changes less than is wanted is not needed.
  *
- * Ingredients: each group of springs and each family of a part; bending; damping; drag; gravity; a force callback; springs
+ * Ingredients: each group of springs and each family of a part; bending; altitude springs; damping; drag; gravity; a force callback; springs
  * whose force stays small; particles that touch nothing; parts without watched particles; resistance to compression;
  * half the resolution of each part, compared at equal material coordinates by linear interpolation.
  *
@@ -58,7 +58,7 @@ HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *wha
 /* ---- rows: what was left out ---- */
 
 HOOKE_API int64_t hooke_needs_row_count(const hooke_needs *needs);
-/* "without": the ingredient ("cloth.bend", "damping", "half the resolution of cloth"); "kind": "springs", "bending",
+/* "without": the ingredient ("cloth.bend", "damping", "half the resolution of cloth"); "kind": "springs", "bending", "altitude",
  * "damping", "drag", "gravity", "callback", "idle", "loose", "part", "compression", "resolution"; "note": why there is no
  * number, "" otherwise. NULL if there is no such row. */
 HOOKE_API const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *what);

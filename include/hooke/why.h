@@ -14,7 +14,7 @@ extern "C" {
 /* ---- before ----
  * Told that the step is no longer safe at the time t [s]. `kind` is "near-limit" (within 5 % of hooke_step_bound() there),
  * "above-limit" or "never-stable" (the bound is 0); each is told once a run. `sentence` has everything in words: step,
- * `limit` [s] (the bound), and what it hangs on, `particle` and the spring that weighs most there, `spring` (-1: none, or bending weighs more).
+ * `limit` [s] (the bound), and what it hangs on, `particle` and the spring that weighs most there, `spring` (-1: none, or bending or an altitude spring weighs more).
  * Return 0 to go on, anything else to stop the run. */
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);

@@ -241,6 +241,52 @@ static void test_planted_bending(void **unused) {
   free(b);
 }
 
+/* Tetrahedra in another order, or with two corners exchanged, have to show. */
+static void test_planted_altitude(void **unused) {
+  (void)unused;
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = 41, .particles = 60, .tetrahedra = 400}, &scene);
+  struct canonical *c = &scene.canonical;
+  const int64_t n = c->particle_count, m = c->tetrahedron_count;
+  assert_true(m > 200);
+  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  random_scene_shake(&scene, 42, q, v);
+  canonical_acceleration(c, 0.0, q, v, a);
+  check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
+  check_same_bits(3 * n, b, a);
+  for (int64_t low = 0, high = m - 1; low < high; low++, high--) {
+    for (int e = 0; e < 4; e++) {
+      const int64_t keep = c->corners[4 * low + e];
+      c->corners[4 * low + e] = c->corners[4 * high + e];
+      c->corners[4 * high + e] = keep;
+    }
+    for (int k = 0; k < 9; k++) {
+      double *numbers = c->altitude[k < 2 ? k : 2];
+      const int64_t i = k < 2 ? low : 7 * low + k - 2, j = k < 2 ? high : 7 * high + k - 2;
+      const double keep = numbers[i];
+      numbers[i] = numbers[j];
+      numbers[j] = keep;
+    }
+  }
+  canonical_acceleration(c, 0.0, q, v, b);
+  assert_true(first_difference(3 * n, a, b) >= 0);
+  assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
+  /* with two corners exchanged rest lengths are those of other altitudes */
+  canonical_acceleration(c, 0.0, q, v, a);
+  for (int64_t k = 0; k < m; k++) {
+    const int64_t keep = c->corners[4 * k];
+    c->corners[4 * k] = c->corners[4 * k + 1];
+    c->corners[4 * k + 1] = keep;
+  }
+  canonical_acceleration(c, 0.0, q, v, b);
+  assert_true(largest_difference(3 * n, a, b) > 1e-3 * largest(3 * n, a));
+  random_scene_destroy(&scene);
+  free(q);
+  free(v);
+  free(a);
+  free(b);
+}
+
 /* Steps that are solved for: a velocity off by 1e-7 of its change, a position off by a bit, have to show. */
 static void test_planted_defects(void **unused) {
   (void)unused;
@@ -299,6 +345,7 @@ int main(void) {
       cmocka_unit_test(test_hash),
       cmocka_unit_test(test_planted_faults),
       cmocka_unit_test(test_planted_bending),
+      cmocka_unit_test(test_planted_altitude),
       cmocka_unit_test(test_planted_defects),
       cmocka_unit_test(test_small_scenes),
       cmocka_unit_test(test_large_scenes),
