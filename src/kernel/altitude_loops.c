@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-const int8_t HOOKE_ALTITUDE_ROLE[HOOKE_ALTITUDES][4] = {
+const int8_t hooke_altitude_role[HOOKE_ALTITUDES][4] = {
     {1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
 
 static inline double dot(const double a[3], const double b[3]) {
@@ -22,7 +22,7 @@ static inline void subtract(const double a[3], const double b[3], double d[3]) {
 }
 
 static inline void span(const double x[4][3], int32_t choice, double e[3], double f[3]) {
-  const int8_t *role = HOOKE_ALTITUDE_ROLE[choice];
+  const int8_t *role = hooke_altitude_role[choice];
   subtract(x[role[1]], x[role[0]], e);
   if (choice < 4)
     subtract(x[role[2]], x[role[0]], f);
@@ -49,7 +49,7 @@ int32_t hooke_altitude_find(const struct hooke_tetrahedron *tetrahedron, const d
   const int32_t fixed = tetrahedron->choice != HOOKE_ALTITUDE_SHORTEST;
   const int32_t choice = altitude->choice = fixed ? tetrahedron->choice : choose(x);
   if (choice == HOOKE_ALTITUDE_SHORTEST) return 0;
-  const int8_t *role = HOOKE_ALTITUDE_ROLE[choice];
+  const int8_t *role = hooke_altitude_role[choice];
   double e[3], f[3], r[3], n[3], rf[3], re[3];
   span(x, choice, e, f);
   subtract(x[role[choice < 4 ? 3 : 2]], x[role[0]], r);

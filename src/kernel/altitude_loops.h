@@ -4,7 +4,7 @@
  * it alone acts, as a spring between a particle and a point of the face, or between points of the edges. Lengths have a sign,
  * which turns where the tetrahedron does inside out: the force pushes it back.
  *
- * To the parenthesis, with the particles i0 .. i3 of altitude k from HOOKE_ALTITUDE_ROLE[k]:
+ * To the parenthesis, with the particles i0 .. i3 of altitude k from hooke_altitude_role[k]:
  *   e = x_i1 - x_i0     r = x_i3 - x_i0 (k < 4) or x_i2 - x_i0     f = x_i2 - x_i0 (k < 4) or x_i3 - x_i2
  *   n = e x f, each component a*b - c*d        A = n.n, and a.b is always (a0*b0 + a1*b1) + a2*b2
  * k is the first with the largest A; without one above 0 there is no force. Then, `side` being 1 or -1,
@@ -22,7 +22,7 @@
 enum { HOOKE_ALTITUDES = 7, HOOKE_ALTITUDE_SHORTEST = -1 };
 
 /* Particles so ordered that n.r is six times the volume with its sign, for every altitude. */
-extern const int8_t HOOKE_ALTITUDE_ROLE[HOOKE_ALTITUDES][4];
+extern const int8_t hooke_altitude_role[HOOKE_ALTITUDES][4];
 
 struct hooke_tetrahedron {
   int32_t particle[4];

@@ -39,7 +39,7 @@ int32_t hooke_tautness_find(const struct hooke_tetrahedron *t, const double *q, 
 
 /* The vectors that the altitude is made of: e, f and r. */
 static void span(int32_t choice, const double x[4][3], double e[3], double f[3], double r[3]) {
-  const int8_t *role = HOOKE_ALTITUDE_ROLE[choice];
+  const int8_t *role = hooke_altitude_role[choice];
   const double *x0 = x[role[0]], *x1 = x[role[1]], *x2 = x[role[2]], *x3 = x[role[3]];
   for (int a = 0; a < 3; a++) {
     e[a] = x1[a] - x0[a];
@@ -63,7 +63,7 @@ void hooke_tautness_differentiate(const struct hooke_tetrahedron *t, const struc
                                   struct hooke_tautness_change *change) {
   const struct hooke_altitude *altitude = &s->altitude;
   const int32_t choice = altitude->choice;
-  const int8_t *role = HOOKE_ALTITUDE_ROLE[choice];
+  const int8_t *role = hooke_altitude_role[choice];
   double x[4][3], dx[4][3], u[4][3], du[4][3];
   double e[3], f[3], r[3], de[3], df[3], dr[3], n[3], dn[3], rf[3], re[3], drf[3], dre[3];
   gather(t, q, x);

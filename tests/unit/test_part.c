@@ -352,7 +352,7 @@ static void bad_parts_are_refused(void **unused) {
 
   check_refused("rope", full_cloth(), HOOKE_BAD_VALUE, "not those of a rope");
   check_refused("sail", rope_options(1), HOOKE_BAD_VALUE,
-                "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh");
+                "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh, strand");
 }
 
 static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
@@ -387,12 +387,13 @@ static void a_committed_system_takes_no_part(void **unused) {
 
 static void kinds_can_be_listed(void **unused) {
   (void)unused;
-  assert_int_equal(hooke_part_kind_count(), 4);
+  assert_int_equal(hooke_part_kind_count(), 5);
   assert_string_equal(hooke_part_kind(0), "rope");
   assert_string_equal(hooke_part_kind(1), "cloth");
   assert_string_equal(hooke_part_kind(2), "lattice");
   assert_string_equal(hooke_part_kind(3), "mesh");
-  assert_null(hooke_part_kind(4));
+  assert_string_equal(hooke_part_kind(4), "strand");
+  assert_null(hooke_part_kind(5));
   assert_null(hooke_part_kind(-1));
   hooke_options *options;
   check_status(hooke_part_options_create(NULL, &options), HOOKE_BAD_VALUE);

@@ -80,6 +80,9 @@ HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *nam
 HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *triples, int64_t coefficient_count,
                                            const double *coefficient);
+HOOKE_API int32_t hooke_altitude_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
+                                            const int64_t *tetrahedra, const hooke_options *options);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
@@ -111,6 +114,14 @@ HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system
 HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group);
 HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
 HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
+HOOKE_API int64_t hooke_system_altitude_count(const hooke_system *system);
+HOOKE_API int64_t hooke_system_altitude_group_count(const hooke_system *system);
+HOOKE_API const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t group);
+HOOKE_API int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra);
+HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness,
+                                                 double *damping, double *rest_length);
+HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
@@ -134,6 +145,7 @@ HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, con
 HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
 HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);
+HOOKE_API double hooke_system_altitude_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);
