@@ -8,9 +8,9 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct hooke_verb *const verbs[] = {
-    &hooke_verb_run, &hooke_verb_compare, &hooke_verb_study, &hooke_verb_limit,
-    &hooke_verb_why, &hooke_verb_needs,   &hooke_verb_check, NULL};
+static const struct hooke_verb *const verbs[] = {&hooke_verb_run,   &hooke_verb_compare, &hooke_verb_study,
+                                                 &hooke_verb_limit, &hooke_verb_why,     &hooke_verb_needs,
+                                                 &hooke_verb_check, &hooke_verb_make,    NULL};
 
 static const char *next_verb(int64_t i, const void *ctx) {
   (void)ctx;
@@ -36,7 +36,11 @@ static int unknown_verb(const char *word) {
 }
 
 static int do_verb(const struct hooke_verb *verb, int argc, char **argv) {
-  struct hooke_arguments arguments;
+  struct hooke_arguments arguments = {.verb = verb};
+  if (verb->kind_options && argc == 1) {
+    hooke_usage_print_verb(stderr, &arguments);
+    return HOOKE_EXIT_USAGE;
+  }
   int answer = hooke_arguments_parse(verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE) {
     if (arguments.help) {

@@ -56,6 +56,12 @@ HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
 
+/* The same as a scene of its own: its text is what would be written, its system is made from that and not committed. `name`
+ * and `folder` are as in hooke_scene_parse(); the caller owns the scene. Failures are those of both, but for the file's. */
+HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
+                                        const hooke_options *run, const char *name, const char *folder,
+                                        hooke_scene **scene);
+
 /* Releases the scene, its system and its options. NULL is allowed. */
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
 

@@ -36,6 +36,11 @@ extern const struct hooke_part_kind hooke_part_mesh;
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
     .example = "0,0,0", .doc = (text)                                                                        \
   }
+#define HOOKE_PART_ORIGIN(text)                                                                              \
+  {                                                                                                          \
+    .name = "origin", .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3,             \
+    .fallback = "0,0,0", .doc = (text)                                                                       \
+  }
 #define HOOKE_PART_MASS                                                                                      \
   {                                                                                                          \
     .name = "mass", .type = HOOKE_OPTION_NUMBER, .unit = "kg", .low = 0, .above_low = 1, .high = 1e300,      \

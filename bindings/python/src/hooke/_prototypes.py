@@ -274,6 +274,7 @@ PROTOTYPES = {
     "hooke_scene_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_scene_options_apply": (STATUS, OPTIONS, SYSTEM),
     "hooke_scene_write": (STATUS, TEXT, SYSTEM, TEXT, OPTIONS),
+    "hooke_scene_of_system": (STATUS, SYSTEM, TEXT, OPTIONS, TEXT, TEXT, POINTER(SCENE)),
     "hooke_scene_destroy": (None, SCENE),
     "hooke_scene_system": (SYSTEM, SCENE),
     "hooke_scene_run_options": (OPTIONS, SCENE),
