@@ -99,17 +99,25 @@ const char *hooke_describe_family(const struct hooke_argument *argument, const c
 const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
                                  int32_t *many) {
   words[0] = '\0';
-  *many = 0;
-  if (!argument->table) return words;
-  *many = strcmp(argument->name, "methods") == 0 || hooke_value_adds_up(argument);
-  if (strcmp(property(argument, "type"), "flag") == 0) return strcpy(words, "true false");
-  if (!takes_methods(argument)) {
-    add(words, "%s", property(argument, "words"));
-    return words;
-  }
-  for (int64_t i = 0; i < hooke_method_count(); i++)
+  *many = strcmp(argument->name, "methods") == 0 || (argument->table && hooke_value_adds_up(argument));
+  for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
     add(words, "%s%s", i ? " " : "", hooke_method_name(i));
+  if (words[0] || !argument->table) return words;
+  add(words, "%s",
+      strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
   return words;
+}
+
+/* Its own options say it by what they call their value: FILE, FILE.html. */
+const char *hooke_describe_file(const struct hooke_argument *argument) {
+  static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
+  const char *value = argument->own ? argument->own->value : NULL;
+  if (argument->table) return strcmp(argument->name, "file") == 0 ? "" : NULL;
+  for (size_t k = 0; value && k < sizeof endings / sizeof endings[0]; k++) {
+    const char *dot = strchr(value, '.');
+    if (dot && strcmp(dot + 1, endings[k]) == 0) return endings[k];
+  }
+  return value && strncmp(value, "FILE", 4) == 0 ? "" : NULL;
 }
 
 /* ---- verbs ---- */

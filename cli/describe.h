@@ -33,6 +33,9 @@ const char *hooke_describe_example(const struct hooke_arguments *arguments, char
 const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
                                  int32_t *many);
 
+/* The ending of the files that an option takes, "" for any; NULL if it takes no file. */
+const char *hooke_describe_file(const struct hooke_argument *argument);
+
 /* Code and meaning of exit `i`; NULL past the last. */
 const char *hooke_describe_exit(int32_t i, int32_t *code);
 

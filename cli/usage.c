@@ -3,6 +3,7 @@
 #include "print.h"
 #include "unit.h"
 
+#include <ctype.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -20,25 +21,6 @@ static void print_exits(FILE *file) {
   hooke_print_wrapped(file, 0, 12, WIDTH, text);
 }
 
-void hooke_usage_print_all(FILE *file, const struct hooke_verb *const *verbs) {
-  fputs("usage: hooke VERB SCENE [options]\n\n"
-        "Integrates mass-spring systems and says how accurate each method is for what it costs.\n\n"
-        "verbs:\n",
-        file);
-  for (; *verbs; verbs++)
-    fprintf(file, "  %-10s %s\n", (*verbs)->name, (*verbs)->summary);
-  fputs("\nmethods:\n", file);
-  for (int64_t i = 0; i < hooke_method_count(); i++) {
-    const char *name = hooke_method_name(i);
-    fprintf(file, "  %-17s %s%s\n", name, hooke_method_summary(name),
-            hooke_method_is_built(name) ? "" : " (not in this build)");
-  }
-  fputs("\nhooke VERB --help   the options of a verb, with units and defaults\n"
-        "hooke --version     the version, and what it was built with\n",
-        file);
-  print_exits(file);
-}
-
 /* "  -o, --output FILE", then the text from column DOC_COLUMN on. */
 static void print_row(FILE *file, char letter, const char *flag, const char *value, const char *doc) {
   char head[2 * HOOKE_FLAG_SIZE];
@@ -53,6 +35,24 @@ static void print_row(FILE *file, char letter, const char *flag, const char *val
     fprintf(file, "%*s", DOC_COLUMN - column, "");
   }
   hooke_print_wrapped(file, DOC_COLUMN, DOC_COLUMN, WIDTH, doc);
+}
+
+void hooke_usage_print_all(FILE *file, const struct hooke_program *program) {
+  fprintf(file, "usage: hooke VERB SCENE [options]\n\n%c%s.\n\nverbs:\n",
+          toupper((unsigned char)program->summary[0]), program->summary + 1);
+  for (const struct hooke_verb *const *verb = program->verbs; *verb; verb++)
+    fprintf(file, "  %-10s %s\n", (*verb)->name, (*verb)->summary);
+  fputs("\nmethods:\n", file);
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    const char *name = hooke_method_name(i);
+    fprintf(file, "  %-17s %s%s\n", name, hooke_method_summary(name),
+            hooke_method_is_built(name) ? "" : " (not in this build)");
+  }
+  fputs("\nhooke VERB --help   the options of a verb, with units and defaults\n\nin place of a verb:\n",
+        file);
+  for (const struct hooke_program_row *row = program->rows; row->name; row++)
+    print_row(file, row->letter, row->name, row->value, row->doc);
+  print_exits(file);
 }
 
 static void print_option(FILE *file, const struct hooke_argument *argument) {

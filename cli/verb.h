@@ -30,6 +30,8 @@ struct hooke_verb {
   const char *name;
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
+  const char
+      *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
   const struct hooke_verb_row *rows;
   int32_t row_count;
   int32_t (*options)(
