@@ -1,4 +1,5 @@
 #include "arguments.h"
+#include "describe.h"
 #include "report.h"
 #include "value.h"
 
@@ -80,7 +81,7 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
-  add_table(arguments, arguments->run, verb->without);
+  if (!verb->input) add_table(arguments, arguments->run, verb->without);
   return HOOKE_EXIT_DONE;
 }
 
@@ -165,13 +166,15 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     return hooke_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
                         argv[optind + 1], arguments->scene);
   }
+  const char *input = arguments->verb->input;
   if (optind >= argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no scene given; usage: hooke %s SCENE [options]",
-                        arguments->verb->name);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                        input ? input : "scene", arguments->verb->name,
+                        hooke_describe_operand(arguments->verb));
   }
   if (optind + 1 < argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one scene at a time: '%s' and '%s' were given",
-                        argv[optind], argv[optind + 1]);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }
   arguments->scene = argv[optind];
   return HOOKE_EXIT_DONE;

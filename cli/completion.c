@@ -82,7 +82,7 @@ static void print_verb(const struct hooke_verb *verb, const char *kind) {
   struct hooke_arguments arguments = {.verb = verb};
   if (hooke_arguments_collect(verb, kind, &arguments) == HOOKE_EXIT_DONE) {
     printf("    \"%s%s%s\")\n", verb->name, kind ? " " : "", kind ? kind : "");
-    if (!kind) printf("      operand=1\n");
+    if (!kind) printf("      operand=\"%s\"\n", verb->input ? "h5" : "json h5");
     print_flags(&arguments);
     printf("      case $previous in\n");
     for (int32_t i = 0; i < arguments.count; i++)
@@ -131,7 +131,7 @@ void hooke_completion_print_bash(const struct hooke_program *program) {
          "  if [[ $current == -* || ! $operand ]]; then\n"
          "    _hooke_words \"$options\"\n"
          "  else\n"
-         "    _hooke_files json h5\n"
+         "    _hooke_files $operand\n"
          "  fi\n"
          "}\n"
          "complete -F _hooke hooke\n");

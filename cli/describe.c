@@ -123,7 +123,7 @@ const char *hooke_describe_file(const struct hooke_argument *argument) {
 /* ---- verbs ---- */
 
 const char *hooke_describe_operand(const struct hooke_verb *verb) {
-  return verb->kind_options ? "KIND" : "SCENE";
+  return verb->kind_options ? "KIND" : verb->input ? verb->input : "SCENE";
 }
 
 const char *hooke_describe_table(const struct hooke_arguments *arguments, const hooke_options *table,

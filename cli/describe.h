@@ -18,7 +18,7 @@ void hooke_describe(const struct hooke_argument *argument, struct hooke_descript
 /* The family that an option belongs to, and what that is; NULL: none. */
 const char *hooke_describe_family(const struct hooke_argument *argument, const char **doc);
 
-/* What a verb is given: "SCENE", "KIND". */
+/* What a verb is given: "SCENE", "KIND", "OUT.h5". */
 const char *hooke_describe_operand(const struct hooke_verb *verb);
 
 /* The title over the options of a table. */

@@ -165,9 +165,9 @@ static void print_options(const struct hooke_program *program) {
     printf(".PP\nAll verbs take:\n");
     print_own(&arguments, 1);
     printf(".SS Options of a run\n");
-    print_paragraph(
-        "All verbs take these, too, instead of what the scene's \"run\" says; defaults are for where "
-        "neither says anything. They are what make writes there.");
+    print_paragraph("Verbs that take a scene take these, too, instead of what the scene's \"run\" says; "
+                    "defaults are for where "
+                    "neither says anything. make writes them there.");
     print_table(&arguments, arguments.run);
     snprintf(words, sizeof words, "Numbers in [s] and [m] may have a unit: %s; %s.",
              hooke_unit_list("s", times), hooke_unit_list("m", lengths));

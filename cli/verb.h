@@ -28,6 +28,8 @@ struct hooke_verb_row {
 
 struct hooke_verb {
   const char *name;
+  const char
+      *input; /* what it works on, such as "OUT.h5", with no options of a run; NULL: a scene, with them */
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
   const char
