@@ -21,7 +21,7 @@ def page(tmp_path_factory):
 def sections(page):
     """Text of the page as it is typed, by section; escapes are taken back."""
     text = page.read_text()
-    for escape, character in [("\\-", "-"), ("\\(aq", "'"), ("\\(ha", "^"), ("\\&", ""), ("\\e", "\\")]:
+    for escape, character in [("\\-", "-"), ("\\(aq", "'"), ("\\(ha", "^"), ("\\e", "\\")]:
         text = text.replace(escape, character)
     text = re.sub(r"\\f[BIR]", "", text)
     parts = re.split(r"^\.SH (.*)\n", text, flags=re.MULTILINE)
@@ -31,7 +31,7 @@ def sections(page):
 def items(text):
     """Head and text of each item of a list."""
     found = re.findall(r"^\.TP\n(.*)\n((?:[^.\n].*\n)*)", text, re.MULTILINE)
-    return {head: " ".join(words.split()) for head, words in found}
+    return {head: " ".join(words.replace("\\&", "").split()) for head, words in found}
 
 
 def help_rows(text):
