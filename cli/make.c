@@ -205,7 +205,7 @@ const struct hooke_verb hooke_verb_make = {
         "the scene was built, and read again.",
     .example = "hooke make cloth --size 8x8 --edges '1,0,0;0,0,1' --mass 1 --pinned top-corners "
                "--structural.stiffness 100 "
-               "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 1 -o cloth.json",
+               "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 0.5 -o cloth.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = scene_options,
     .kind_options = hooke_part_options_create,
