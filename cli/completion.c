@@ -56,7 +56,12 @@ static void print_flags(const struct hooke_arguments *arguments) {
   }
 }
 
-/* What follows an option: one of some words, a file, or what nobody can know. */
+static void print_pattern(const struct hooke_description *is) {
+  printf("--%s", is->flag);
+  if (is->letter) printf(" | -%c", is->letter);
+}
+
+/* What follows an option: one of some words, or a file. */
 static void print_value(const struct hooke_argument *argument) {
   struct hooke_description is;
   char words[HOOKE_DOC_SIZE];
@@ -64,18 +69,33 @@ static void print_value(const struct hooke_argument *argument) {
   int32_t many;
   hooke_describe(argument, &is);
   hooke_describe_words(argument, words, &many);
-  if (!is.value[0] && !words[0]) return;
-  printf("        --%s", is.flag);
-  if (is.letter) printf(" | -%c", is.letter);
+  if (!words[0] && !ending) return;
+  printf("        ");
+  print_pattern(&is);
   if (!is.value[0]) { /* a flag has its word after the sign alone */
     printf(") if [[ $sign ]]; then _hooke_words \"%s\"; return; fi ;;\n", words);
   } else if (words[0]) {
     printf(") %s \"%s\"; return ;;\n", many ? "_hooke_list" : "_hooke_words", words);
-  } else if (ending) {
-    printf(") _hooke_files%s%s; return ;;\n", ending[0] ? " " : "", ending);
   } else {
-    printf(") return ;;\n");
+    printf(") _hooke_files%s%s; return ;;\n", ending[0] ? " " : "", ending);
   }
+}
+
+/* What follows the others that take a value is for nobody to know. */
+static void print_unknown(const struct hooke_arguments *arguments) {
+  int32_t count = 0;
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct hooke_argument *argument = &arguments->all[i];
+    struct hooke_description is;
+    char words[HOOKE_DOC_SIZE];
+    int32_t many;
+    hooke_describe(argument, &is);
+    if (!is.value[0] || hooke_describe_words(argument, words, &many)[0] || hooke_describe_file(argument))
+      continue;
+    printf("%s", count++ ? " | " : "        ");
+    print_pattern(&is);
+  }
+  if (count) printf(") return ;;\n");
 }
 
 static void print_verb(const struct hooke_verb *verb, const char *kind) {
@@ -87,6 +107,7 @@ static void print_verb(const struct hooke_verb *verb, const char *kind) {
     printf("      case $previous in\n");
     for (int32_t i = 0; i < arguments.count; i++)
       print_value(&arguments.all[i]);
+    print_unknown(&arguments);
     printf("      esac\n      ;;\n");
   }
   hooke_arguments_destroy(&arguments);
