@@ -36,10 +36,10 @@ extern const struct hooke_part_kind hooke_part_mesh;
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
     .example = "0,0,0", .doc = (text)                                                                        \
   }
-#define HOOKE_PART_ORIGIN(text)                                                                              \
+#define HOOKE_PART_ORIGIN                                                                                    \
   {                                                                                                          \
     .name = "origin", .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3,             \
-    .fallback = "0,0,0", .doc = (text)                                                                       \
+    .fallback = "0,0,0", .doc = "corner where it begins"                                                     \
   }
 #define HOOKE_PART_MASS                                                                                      \
   {                                                                                                          \
