@@ -82,6 +82,16 @@ static int report_option(const struct make *make, const hooke_options *table, in
 
 /* ---- making ---- */
 
+/* The scene does not hang on the file of a mesh, which may be anywhere. */
+static int read_file(const struct make *make) {
+  hooke_options *part = make->arguments->of_kind;
+  if (!hooke_options_is_set(part, "file")) return HOOKE_EXIT_DONE;
+  const int32_t status = hooke_mesh_read(hooke_options_text(part, "file"), part);
+  if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
+  if (row_of_message(part, hooke_last_error()) >= 0) return report_option(make, part, status);
+  return hooke_report(make->arguments, hooke_exit_code(status), "--file %s", hooke_last_error());
+}
+
 static const char *text_of(const struct make *make, const char *name, const char *otherwise) {
   const char *text = hooke_arguments_text(make->arguments, name);
   return text ? text : otherwise;
@@ -93,6 +103,8 @@ static int build(struct make *make) {
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
   status = hooke_scene_options_apply(arguments->more, make->system);
   if (status != HOOKE_OK) return report_option(make, arguments->more, status);
+  const int code = read_file(make);
+  if (code != HOOKE_EXIT_DONE) return code;
   status = hooke_system_add_part(make->system, arguments->scene, text_of(make, "name", arguments->scene),
                                  arguments->of_kind, NULL, NULL);
   if (status == HOOKE_OK) status = hooke_system_commit(make->system);

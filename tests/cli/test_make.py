@@ -103,7 +103,7 @@ def part_of(scene):
 
 
 def test_the_list_of_kinds(hooke):
-    assert {"rope", "cloth"} <= set(KINDS)
+    assert {"rope", "cloth", "lattice", "mesh"} <= set(KINDS)
     nothing, asked = hooke("make"), hooke("make", "--help")
     assert (nothing.code, nothing.out) == (2, "") and (asked.code, asked.err) == (0, "")
     assert nothing.err == asked.out
@@ -233,6 +233,9 @@ def test_a_pipe_takes_the_scene(hooke):
         ([*CLOTH, "--step", "0.1", "--duration", "0.25"], 3, "--duration: 0.25 s is not a whole multiple"),
         ([*CLOTH, *SPRINGS, "--structural.damping=1", "--structural.damping-ratio=1"], 3, "--structural.damping-ratio"),
         (["cloth", "--size", "4x3", "--edges", "0,0,0;0,0,1", "--mass", "1", *SPRINGS], 3, "--structural: "),
+        (["mesh", "--file", "none.obj", "--mass", "1"], 3, "--file none.obj: cannot be opened"),
+        (["mesh", "--file", "mesh.obj", "--vertices", "0,0,0;1,0,0;0,1,0", "--mass", "1"], 3, "--vertices: belongs to"),
+        (["mesh", "--mass", "1"], 3, "--vertices: is missing; allowed: a file"),
         (["cloth", "--size", "99999x99999", "--edges", "1,0,0;0,0,1", "--mass", "1"], 3, "--size: "),
     ],
 )
