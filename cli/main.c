@@ -36,12 +36,10 @@ static const struct hooke_program program = {
     .verbs = verbs,
     .rows = rows,
     .summary = "integrates mass-spring systems and says how accurate each method is for what it costs",
-    .text =
-        "Particles joined by springs, such as ropes and cloths, with gravity, damping and driven particles, "
-        "are described by a scene. hooke integrates it by one of several methods and measures the trade: how "
-        "far "
-        "each method is from a reference that checks itself, and what it costs. All units are SI. Results go "
-        "to standard output, words for a person to standard error.",
+    .text = "Particles joined by springs, such as ropes and cloths, with gravity, damping and driven "
+            "particles, are described by a scene. hooke integrates it by one of several methods and measures "
+            "the trade: how far each method is from a reference that checks itself, and what it costs. All "
+            "units are SI. Results go to standard output, words for a person to standard error.",
 };
 
 static const char *next_verb(int64_t i, const void *ctx) {

@@ -181,6 +181,7 @@ static int write(const struct make *make) {
 
 static int do_make(const struct hooke_arguments *arguments) {
   struct make make = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
+  if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
   for (int64_t row = 0; row < hooke_options_row_count(arguments->run); row++) {
     if (hooke_options_is_set(arguments->run, hooke_options_row(arguments->run, row, "name")))
       make.run = arguments->run;
@@ -202,19 +203,18 @@ static int32_t scene_options(hooke_options **options) {
 }
 
 static const struct hooke_verb_row own_rows[] = {
-    {"output", 'o', "SCENE.json", "writes the scene there, replacing it; else to standard output"},
+    {"output", 'o', "SCENE.json",
+     "writes the scene there, replacing it; without it, or with -, to standard output"},
     {"name", 0, "NAME", "name of the part, before those of its spring groups; default: its kind"},
 };
 
 const struct hooke_verb hooke_verb_make = {
     .name = "make",
     .summary = "writes a scene of one part, such as a cloth, from options",
-    .text =
-        "Writes a scene of one part. Every key of the part, of the scene and of its run is an option; those "
-        "of its springs have the family in front, such as --structural.stiffness. Vectors are written "
-        "0,-9.81,0, several of them 1,0,0;0,0,1 (or the option again), sizes 64x64. Nothing is written "
-        "before "
-        "the scene was built, and read again.",
+    .text = "Writes a scene of one part. Every key of the part, of the scene and of its run is an option; "
+            "those of its springs have the family in front, such as --structural.stiffness. Vectors are "
+            "written 0,-9.81,0, several of them 1,0,0;0,0,1 (or the option again), sizes 64x64. Nothing is "
+            "written before the scene was built, and read again.",
     .example = "hooke make cloth --size 8x8 --edges '1,0,0;0,0,1' --mass 1 --pinned top-corners "
                "--structural.stiffness 100 "
                "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 0.5 -o cloth.json",

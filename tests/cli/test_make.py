@@ -207,6 +207,7 @@ def test_keys_of_the_scene_and_of_its_run(hooke, tmp_path):
 def test_a_pipe_takes_the_scene(hooke):
     scene = hooke("make", *CLOTH, *SPRINGS, "--quiet")
     assert (scene.code, scene.err) == (0, "")
+    assert hooke("make", *CLOTH, *SPRINGS, "-o", "-").out == scene.out
     read = hooke("check", "-", "--predict", "--json", input=scene.out)
     assert (read.json["particles"], read.json["springs"]) == (12, 17)
     wrong = hooke("check", "-", input=scene.out.replace("50", "-50"))
