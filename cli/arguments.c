@@ -1,6 +1,7 @@
 #include "arguments.h"
+#include "describe.h"
 #include "report.h"
-#include "unit.h"
+#include "value.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -16,24 +17,6 @@ static const struct hooke_verb_row shared_rows[] = {
 };
 enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
 
-static void add_own(struct hooke_arguments *arguments, const struct hooke_verb_row *row) {
-  struct hooke_argument *argument = &arguments->all[arguments->count++];
-  argument->own = row;
-  argument->name = row->name;
-  snprintf(argument->flag, sizeof argument->flag, "%s", row->name);
-}
-
-static void add_option(struct hooke_arguments *arguments, hooke_options *table, int64_t row) {
-  struct hooke_argument *argument = &arguments->all[arguments->count++];
-  argument->name = hooke_options_row(table, row, "name");
-  argument->table = table;
-  argument->row = row;
-  snprintf(argument->flag, sizeof argument->flag, "%s", argument->name);
-  for (char *at = argument->flag; *at; at++) {
-    if (*at == '_') *at = '-';
-  }
-}
-
 /* 1 if `name` is among `words`, which blanks part. */
 static int32_t is_among(const char *words, const char *name) {
   size_t length = strlen(name);
@@ -45,26 +28,60 @@ static int32_t is_among(const char *words, const char *name) {
   return 0;
 }
 
-/* Collects every option that the verb takes: its own, those of all verbs, its own table's, those of a run. */
-static int collect(struct hooke_arguments *arguments) {
-  const struct hooke_verb *verb = arguments->verb;
+static void add_own(struct hooke_arguments *arguments, const struct hooke_verb_row *row) {
+  struct hooke_argument *argument = &arguments->all[arguments->count++];
+  argument->own = row;
+  argument->name = row->name;
+  snprintf(argument->flag, sizeof argument->flag, "%s", row->name);
+}
+
+const char *hooke_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]) {
+  snprintf(flag, HOOKE_FLAG_SIZE, "%s", name);
+  for (char *at = flag; *at; at++) {
+    if (*at == '_') *at = '-';
+  }
+  return flag;
+}
+
+static void add_option(struct hooke_arguments *arguments, hooke_options *table, int64_t row) {
+  struct hooke_argument *argument = &arguments->all[arguments->count++];
+  argument->name = hooke_options_row(table, row, "name");
+  argument->table = table;
+  argument->row = row;
+  hooke_arguments_flag(argument->name, argument->flag);
+}
+
+/* A family is no option: its members are, and make it present. */
+static void add_table(struct hooke_arguments *arguments, hooke_options *table, const char *without) {
+  for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
+    if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
+    if (!is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
+  }
+}
+
+static int64_t row_count(const hooke_options *table) {
+  return table ? hooke_options_row_count(table) : 0;
+}
+
+int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
+                            struct hooke_arguments *arguments) {
+  arguments->verb = verb;
+  arguments->scene = kind;
   int32_t status = hooke_run_options_create(&arguments->run);
   if (status == HOOKE_OK && verb->options) status = verb->options(&arguments->more);
+  if (status == HOOKE_OK && kind) status = verb->kind_options(kind, &arguments->of_kind);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  int64_t rows = hooke_options_row_count(arguments->run);
-  int64_t more = arguments->more ? hooke_options_row_count(arguments->more) : 0;
-  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + rows + more), sizeof *arguments->all);
+  const int64_t tables =
+      row_count(arguments->run) + row_count(arguments->more) + row_count(arguments->of_kind);
+  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
   if (!arguments->all) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  for (int64_t row = 0; row < more; row++)
-    add_option(arguments, arguments->more, row);
+  add_table(arguments, arguments->of_kind, NULL);
+  add_table(arguments, arguments->more, NULL);
   for (int32_t i = 0; i < verb->row_count; i++)
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
-  for (int64_t row = 0; row < rows; row++) {
-    if (!is_among(verb->without, hooke_options_row(arguments->run, row, "name")))
-      add_option(arguments, arguments->run, row);
-  }
+  if (!verb->input) add_table(arguments, arguments->run, verb->without);
   return HOOKE_EXIT_DONE;
 }
 
@@ -85,20 +102,6 @@ static int unknown_flag(const struct hooke_arguments *arguments, const char *wor
       near ? ", did you mean --" : "", near ? near : "", near ? "?" : "", arguments->verb->name);
 }
 
-/* Puts what was given into `value`, in SI units. */
-static int read_value(const struct hooke_arguments *arguments, struct hooke_argument *argument) {
-  const char *unit = hooke_options_row(argument->table, argument->row, "unit");
-  char word[HOOKE_UNIT_WORD_SIZE] = "", list[HOOKE_UNIT_LIST_SIZE];
-  free(argument->value);
-  argument->value =
-      hooke_unit_has_others(unit) ? hooke_unit_read(argument->text, unit, word) : strdup(argument->text);
-  if (argument->value) return HOOKE_EXIT_DONE;
-  if (!word[0]) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                      "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
-                      argument->flag, argument->text, word, hooke_unit_list(unit, list), unit);
-}
-
 /* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
 static int32_t is_flag(const struct hooke_argument *argument) {
   return argument->own == NULL &&
@@ -111,12 +114,19 @@ static int take(struct hooke_arguments *arguments, struct hooke_argument *argume
   if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
     return hooke_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
   }
-  int answer = read_value(arguments, argument);
-  if (answer != HOOKE_EXIT_DONE) return answer;
-  if (hooke_options_set_text(argument->table, argument->name, argument->value) == HOOKE_OK)
-    return HOOKE_EXIT_DONE;
-  return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: %s", argument->flag, argument->text,
-                      hooke_last_error());
+  int answer = hooke_value_read(arguments, argument);
+  if (answer != HOOKE_EXIT_DONE || hooke_value_adds_up(argument)) return answer;
+  return hooke_value_set(arguments, argument);
+}
+
+/* Sets what the whole command line had to be read for. */
+static int set_what_added_up(const struct hooke_arguments *arguments) {
+  int answer = HOOKE_EXIT_DONE;
+  for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++) {
+    const struct hooke_argument *argument = &arguments->all[i];
+    if (argument->value && hooke_value_adds_up(argument)) answer = hooke_value_set(arguments, argument);
+  }
+  return answer;
 }
 
 /* The argument that getopt_long() or one of its letters stands for. */
@@ -149,16 +159,54 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
   }
   arguments->help = hooke_arguments_text(arguments, "help") != NULL;
   if (arguments->help) return HOOKE_EXIT_DONE;
+  int answer = set_what_added_up(arguments);
+  if (answer != HOOKE_EXIT_DONE) return answer;
+  if (arguments->verb->kind_options) {
+    if (optind + 1 >= argc) return HOOKE_EXIT_DONE;
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
+                        argv[optind + 1], arguments->scene);
+  }
+  const char *input = arguments->verb->input;
   if (optind >= argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no scene given; usage: hooke %s SCENE [options]",
-                        arguments->verb->name);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                        input ? input : "scene", arguments->verb->name,
+                        hooke_describe_operand(arguments->verb));
   }
   if (optind + 1 < argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one scene at a time: '%s' and '%s' were given",
-                        argv[optind], argv[optind + 1]);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }
   arguments->scene = argv[optind];
   return HOOKE_EXIT_DONE;
+}
+
+static const char *next_kind(int64_t i, const void *ctx) {
+  (void)ctx;
+  return hooke_part_kind(i);
+}
+
+static int32_t is_for_help(int argc, char **argv) {
+  return argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
+}
+
+/* The kind comes first, since the other options hang on it; NULL if there is none. */
+static int find_kind(struct hooke_arguments *arguments, int argc, char **argv, const char **kind) {
+  *kind = NULL;
+  if (!arguments->verb->kind_options || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
+  if (argc < 2 || argv[1][0] == '-') {
+    return hooke_report(
+        arguments, HOOKE_EXIT_USAGE,
+        "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
+        arguments->verb->name, arguments->verb->name);
+  }
+  for (int64_t i = 0; hooke_part_kind(i); i++) {
+    if (strcmp(hooke_part_kind(i), argv[1]) == 0) *kind = argv[1];
+  }
+  if (*kind) return HOOKE_EXIT_DONE;
+  const char *near = hooke_suggest(argv[1], next_kind, NULL);
+  return hooke_report(
+      arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them", argv[1],
+      near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "", arguments->verb->name);
 }
 
 int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
@@ -169,7 +217,9 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
   for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
     if (strcmp(argv[i], "--json") == 0) arguments->json = 1;
   }
-  int answer = collect(arguments);
+  const char *kind;
+  int answer = find_kind(arguments, argc, argv, &kind);
+  if (answer == HOOKE_EXIT_DONE) answer = hooke_arguments_collect(verb, kind, arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
 
   struct option *longs = calloc((size_t)arguments->count + 1, sizeof *longs);
@@ -180,8 +230,8 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
     for (int32_t i = 0; i < arguments->count; i++) {
       const struct hooke_argument *argument = &arguments->all[i];
       int32_t wants = argument->own ? argument->own->value != NULL : 1;
-      const int kind = is_flag(argument) ? optional_argument : wants ? required_argument : no_argument;
-      longs[i] = (struct option){argument->flag, kind, NULL, FIRST_LONG + i};
+      const int wanted = is_flag(argument) ? optional_argument : wants ? required_argument : no_argument;
+      longs[i] = (struct option){argument->flag, wanted, NULL, FIRST_LONG + i};
       if (argument->own && argument->own->letter) {
         *letter++ = argument->own->letter;
         if (wants) *letter++ = ':';
@@ -204,6 +254,7 @@ void hooke_arguments_destroy(struct hooke_arguments *arguments) {
   free(arguments->all);
   hooke_options_destroy(arguments->run);
   hooke_options_destroy(arguments->more);
+  hooke_options_destroy(arguments->of_kind);
 }
 
 /* ---- asking ---- */

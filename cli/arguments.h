@@ -20,19 +20,28 @@ struct hooke_argument {
 
 struct hooke_arguments {
   const struct hooke_verb *verb;
-  const char *scene;
+  const char *scene; /* or the kind, for a verb that takes one */
   int32_t help, json, quiet;
-  hooke_options *run;  /* the option table of a run, holding what was given */
-  hooke_options *more; /* that of the verb, likewise; NULL: it has none */
+  hooke_options *run;     /* the option table of a run, holding what was given */
+  hooke_options *more;    /* that of the verb, likewise; NULL: it has none */
+  hooke_options *of_kind; /* that of the kind, likewise; NULL: it has none */
   struct hooke_argument *all;
   int32_t count;
 };
+
+/* Fills `arguments`, which is zeros, with every option that the verb takes (with this `kind`, NULL: none): those of the kind,
+ * those of its own table, its own, those of all verbs, those of a run. */
+int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
+                            struct hooke_arguments *arguments);
 
 /* Parses what follows the verb (argv[0] is the verb); wrong usage is reported and gives HOOKE_EXIT_USAGE. The
  * caller destroys `arguments` in either case. */
 int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
                           struct hooke_arguments *arguments);
 void hooke_arguments_destroy(struct hooke_arguments *arguments);
+
+/* An option's name as it is typed, without the dashes: "atol-velocity". Returns `flag`. */
+const char *hooke_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 
 /* Text given for an option, NULL if it was not given. */
 const char *hooke_arguments_text(const struct hooke_arguments *arguments, const char *name);

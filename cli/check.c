@@ -305,6 +305,7 @@ const struct hooke_verb hooke_verb_check = {
         "that is certain to be stable at the start, and what each ingredient costs: time of a step on this "
         "machine, memory, and the largest stable step without it. Warns of what is allowed but seldom "
         "meant.",
+    .example = "hooke check cloth.json",
     .options = hooke_cost_options_create,
     .function = do_check,
 };

@@ -191,6 +191,7 @@ const struct hooke_verb hooke_verb_compare = {
             "reference over time, how far its energy drifts, and what it costs. A method that diverges stays "
             "as a row. "
             "Tables are rounded; --json has every digit.",
+    .example = "hooke compare cloth.json --methods symplectic-euler,cvode-adams",
     HOOKE_VERB_ROWS(own_rows),
     .without = "method",
     .function = do_compare,

@@ -310,6 +310,7 @@ const struct hooke_verb hooke_verb_limit = {
         "at its positions and at rest, then measures it by running the method. Says which springs carry "
         "the motion that limits --method, and what it would buy to change them. Safe bound: a step that is "
         "certain to be stable, from one pass over the springs.",
+    .example = "hooke limit cloth.json --predict",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_limit_options_create,
     .function = do_limit,

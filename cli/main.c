@@ -1,5 +1,7 @@
 /* The command line of hooke: picks the verb, hands it its options, and answers the shell. */
 #include "arguments.h"
+#include "completion.h"
+#include "man.h"
 #include "print.h"
 #include "report.h"
 #include "usage.h"
@@ -8,9 +10,37 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct hooke_verb *const verbs[] = {
-    &hooke_verb_run, &hooke_verb_compare, &hooke_verb_study, &hooke_verb_limit,
-    &hooke_verb_why, &hooke_verb_needs,   &hooke_verb_check, NULL};
+static const struct hooke_verb *const verbs[] = {&hooke_verb_make,  &hooke_verb_run,   &hooke_verb_compare,
+                                                 &hooke_verb_study, &hooke_verb_limit, &hooke_verb_why,
+                                                 &hooke_verb_needs, &hooke_verb_check, NULL};
+
+static void print_version(const struct hooke_program *program) {
+  (void)program;
+  hooke_usage_print_version(stdout);
+}
+
+static void print_help(const struct hooke_program *program) {
+  hooke_usage_print_all(stdout, program);
+}
+
+static const struct hooke_program_row rows[] = {
+    {"help", 'h', NULL, "verbs and methods; after a verb, its options with units and defaults", print_help},
+    {"version", 0, NULL, "the version, and what it was built with", print_version},
+    {"completion", 0, "bash", "a script that completes commands in bash; it is installed with the program",
+     hooke_completion_print_bash},
+    {"man", 0, NULL, "this program's manual page", hooke_man_print},
+    {NULL, 0, NULL, NULL, NULL},
+};
+
+static const struct hooke_program program = {
+    .verbs = verbs,
+    .rows = rows,
+    .summary = "integrates mass-spring systems and says how accurate each method is for what it costs",
+    .text = "Particles joined by springs, such as ropes and cloths, with gravity, damping and driven "
+            "particles, are described by a scene. hooke integrates it by one of several methods and measures "
+            "the trade: how far each method is from a reference that checks itself, and what it costs. All "
+            "units are SI. Results go to standard output, words for a person to standard error.",
+};
 
 static const char *next_verb(int64_t i, const void *ctx) {
   (void)ctx;
@@ -36,7 +66,11 @@ static int unknown_verb(const char *word) {
 }
 
 static int do_verb(const struct hooke_verb *verb, int argc, char **argv) {
-  struct hooke_arguments arguments;
+  struct hooke_arguments arguments = {.verb = verb};
+  if (verb->kind_options && argc == 1) {
+    hooke_usage_print_verb(stderr, &arguments);
+    return HOOKE_EXIT_USAGE;
+  }
   int answer = hooke_arguments_parse(verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE) {
     if (arguments.help) {
@@ -49,19 +83,31 @@ static int do_verb(const struct hooke_verb *verb, int argc, char **argv) {
   return answer;
 }
 
-static int do_words(int argc, char **argv) {
-  if (argc < 2) {
-    hooke_usage_print_all(stderr, verbs);
+static const struct hooke_program_row *find_row(const char *word) {
+  for (const struct hooke_program_row *row = rows; row->name; row++) {
+    const char letter[3] = {'-', row->letter, '\0'};
+    if (strncmp(word, "--", 2) == 0 && strcmp(word + 2, row->name) == 0) return row;
+    if (row->letter && strcmp(word, letter) == 0) return row;
+  }
+  return NULL;
+}
+
+static int do_row(const struct hooke_program_row *row, const char *value) {
+  if (row->value && (!value || strcmp(value, row->value) != 0)) {
+    fprintf(stderr, "hooke: --%s wants a word after it: %s\n", row->name, row->value);
     return HOOKE_EXIT_USAGE;
   }
-  if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
-    hooke_usage_print_all(stdout, verbs);
-    return HOOKE_EXIT_DONE;
+  row->print(&program);
+  return HOOKE_EXIT_DONE;
+}
+
+static int do_words(int argc, char **argv) {
+  if (argc < 2) {
+    hooke_usage_print_all(stderr, &program);
+    return HOOKE_EXIT_USAGE;
   }
-  if (strcmp(argv[1], "--version") == 0) {
-    hooke_usage_print_version(stdout);
-    return HOOKE_EXIT_DONE;
-  }
+  const struct hooke_program_row *row = find_row(argv[1]);
+  if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
   const struct hooke_verb *verb = find_verb(argv[1]);
   return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
 }

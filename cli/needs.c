@@ -125,6 +125,7 @@ const struct hooke_verb hooke_verb_needs = {
         "with errors of the time step a tenth of --want, and prints by how much the watched positions "
         "change and what it saves. Then leaves out together what is not needed and checks the lean scene "
         "against the full one. Ctrl-C prints what is known so far.",
+    .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_needs_options_create,
     .without = "step",

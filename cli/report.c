@@ -25,6 +25,10 @@ int hooke_exit_code(int32_t status) {
   }
 }
 
+int hooke_refusal(const struct hooke_arguments *arguments) {
+  return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
+}
+
 static void say(const struct hooke_arguments *arguments, const char *message) {
   fprintf(stderr, "hooke %s: ", arguments->verb->name);
   hooke_print_text(stderr, message);
@@ -155,6 +159,6 @@ int hooke_report_unknown_method(const struct hooke_arguments *arguments, const c
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   hooke_report_methods(list, sizeof list);
   const char *near = hooke_suggest(name, next_method, NULL);
-  return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s: there is no method '%s'%s%s%s; methods: %s", flag,
-                      name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
+  return hooke_report(arguments, hooke_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
+                      flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
 }

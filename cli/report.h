@@ -9,6 +9,9 @@
 /* Exit code of a status of the library. */
 int hooke_exit_code(int32_t status);
 
+/* Exit code of a value of an option that is refused: wrong usage, or, where the values make up a scene, bad input. */
+int hooke_refusal(const struct hooke_arguments *arguments);
+
 /* Prints "hooke VERB: message" on standard error and, with --json, {"error": {"exit", "message"}} on standard
  * output. Returns `code`. */
 int hooke_report(const struct hooke_arguments *arguments, int code, const char *format, ...)

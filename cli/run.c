@@ -380,6 +380,7 @@ const struct hooke_verb hooke_verb_run = {
     .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "
             "momentum. A run "
             "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly.",
+    .example = "hooke run cloth.json -o cloth.h5",
     HOOKE_VERB_ROWS(rows),
     .function = do_run,
 };

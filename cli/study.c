@@ -193,6 +193,7 @@ const struct hooke_verb hooke_verb_study = {
             "--want LENGTH the cheapest run that is accurate enough, as a command. Runs that diverge stay as "
             "rows. Ctrl-C ends a study and prints what is done so far. Tables are rounded; --json and "
             "FILE have every digit.",
+    .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_study_options_create,
     .without = "method step rtol atol atol_velocity",

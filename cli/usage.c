@@ -1,35 +1,24 @@
 #include "usage.h"
+#include "describe.h"
 #include "print.h"
-#include "report.h"
 #include "unit.h"
 
 #include <ctype.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { DOC_COLUMN = 28, WIDTH = 100, DOC_SIZE = 1024 };
+enum { DOC_COLUMN = 28, WIDTH = 100 };
 
-static const char exit_codes[] =
-    "exit codes: 0 done, 2 wrong usage, 3 bad input, 4 diverged, 5 could not read or write,\n"
-    "            6 not in this build, 130 interrupted\n";
-
-void hooke_usage_print_all(FILE *file, const struct hooke_verb *const *verbs) {
-  fputs("usage: hooke VERB SCENE [options]\n\n"
-        "Integrates mass-spring systems and says how accurate each method is for what it costs.\n\n"
-        "verbs:\n",
-        file);
-  for (; *verbs; verbs++)
-    fprintf(file, "  %-10s %s\n", (*verbs)->name, (*verbs)->summary);
-  fputs("\nmethods:\n", file);
-  for (int64_t i = 0; i < hooke_method_count(); i++) {
-    const char *name = hooke_method_name(i);
-    fprintf(file, "  %-17s %s%s\n", name, hooke_method_summary(name),
-            hooke_method_is_built(name) ? "" : " (not in this build)");
+static void print_exits(FILE *file) {
+  char text[HOOKE_DOC_SIZE] = "exit codes:";
+  const char *meaning;
+  int32_t code;
+  for (int32_t i = 0; (meaning = hooke_describe_exit(i, &code)); i++) {
+    const size_t used = strlen(text);
+    snprintf(text + used, sizeof text - used, "%s %d %s", i ? "," : "", (int)code, meaning);
   }
-  fprintf(file,
-          "\nhooke VERB --help   the options of a verb, with units and defaults\n"
-          "hooke --version     the version, and what it was built with\n\n%s",
-          exit_codes);
+  fputc('\n', file);
+  hooke_print_wrapped(file, 0, 12, WIDTH, text);
 }
 
 /* "  -o, --output FILE", then the text from column DOC_COLUMN on. */
@@ -48,56 +37,79 @@ static void print_row(FILE *file, char letter, const char *flag, const char *val
   hooke_print_wrapped(file, DOC_COLUMN, DOC_COLUMN, WIDTH, doc);
 }
 
-static void print_option(FILE *file, const struct hooke_argument *argument) {
-  const hooke_options *table = argument->table;
-  const char *type = hooke_options_row(table, argument->row, "type");
-  const char *unit = hooke_options_row(table, argument->row, "unit");
-  const char *allowed = hooke_options_row(table, argument->row, "allowed");
-  const char *fallback = hooke_options_row(table, argument->row, "default");
-  char value[HOOKE_FLAG_SIZE];
-  char doc[DOC_SIZE], methods[DOC_SIZE / 4] = "";
-  size_t length = strcspn(type, " ");
-  if (length >= sizeof value) length = sizeof value - 1;
-  for (size_t i = 0; i < length; i++)
-    value[i] = (char)toupper((unsigned char)type[i]);
-  value[length] = '\0';
-  if (strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0) {
-    hooke_report_methods(methods, sizeof methods);
-    allowed = methods;
+void hooke_usage_print_all(FILE *file, const struct hooke_program *program) {
+  fprintf(file, "usage: hooke VERB SCENE [options]\n\n%c%s.\n\nverbs:\n",
+          toupper((unsigned char)program->summary[0]), program->summary + 1);
+  for (const struct hooke_verb *const *verb = program->verbs; *verb; verb++)
+    fprintf(file, "  %-10s %s\n", (*verb)->name, (*verb)->summary);
+  fputs("\nmethods:\n", file);
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    const char *name = hooke_method_name(i);
+    fprintf(file, "  %-17s %s%s\n", name, hooke_method_summary(name),
+            hooke_method_is_built(name) ? "" : " (not in this build)");
   }
-  snprintf(doc, sizeof doc, "%s%s%s%s; %s; default: %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
-           hooke_options_row(table, argument->row, "doc"), allowed, fallback[0] ? fallback : "none");
-  print_row(file, 0, argument->flag, strcmp(type, "flag") == 0 ? NULL : value, doc);
+  fputs("\nhooke VERB --help   the options of a verb, with units and defaults\n\nin place of a verb:\n",
+        file);
+  for (const struct hooke_program_row *row = program->rows; row->name; row++)
+    print_row(file, row->letter, row->name, row->value, row->doc);
+  print_exits(file);
 }
 
-/* The rows of a table, after `title`. */
-static void print_table(FILE *file, const struct hooke_arguments *arguments, const hooke_options *table,
-                        const char *title) {
+static void print_option(FILE *file, const struct hooke_argument *argument) {
+  struct hooke_description is;
+  hooke_describe(argument, &is);
+  print_row(file, is.letter, is.flag, is.value[0] ? is.value : NULL, is.doc);
+}
+
+/* The rows of a table, after their title. */
+static void print_table(FILE *file, const struct hooke_arguments *arguments, const hooke_options *table) {
+  char title[HOOKE_DOC_SIZE];
+  const char *last = NULL, *doc = "";
   if (!table) return;
-  fprintf(file, "\n%s:\n", title);
+  fprintf(file, "\n%s:\n", hooke_describe_table(arguments, table, title));
   for (int32_t i = 0; i < arguments->count; i++) {
-    if (arguments->all[i].table == table) print_option(file, &arguments->all[i]);
+    if (arguments->all[i].table != table) continue;
+    const char *family = hooke_describe_family(&arguments->all[i], &doc);
+    if (family && family != last) fprintf(file, "  %s: %s\n", family, doc);
+    last = family;
+    print_option(file, &arguments->all[i]);
   }
+}
+
+static void print_kinds(FILE *file, const struct hooke_verb *verb) {
+  fputs("\nkinds:\n", file);
+  for (int64_t i = 0; hooke_part_kind(i); i++)
+    fprintf(file, "  %-10s %s\n", hooke_part_kind(i), hooke_part_kind_summary(i));
+  fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
+}
+
+static void print_options(FILE *file, const struct hooke_arguments *arguments) {
+  char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
+  fputs("\noptions:\n", file);
+  for (int32_t i = 0; i < arguments->count; i++) {
+    if (arguments->all[i].own) print_option(file, &arguments->all[i]);
+  }
+  print_table(file, arguments, arguments->of_kind);
+  print_table(file, arguments, arguments->more);
+  if (arguments->verb->input) return;
+  print_table(file, arguments, arguments->run);
+  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
+          hooke_unit_list("m", lengths));
 }
 
 void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments) {
   const struct hooke_verb *verb = arguments->verb;
-  fprintf(file, "usage: hooke %s SCENE [options]\n\n", verb->name);
+  const char *kind = verb->kind_options ? arguments->scene : NULL;
+  char example[HOOKE_DOC_SIZE];
+  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : hooke_describe_operand(verb));
   hooke_print_wrapped(file, 0, 0, WIDTH, verb->text);
-  fputs("\noptions:\n", file);
-  for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_verb_row *own = arguments->all[i].own;
-    if (own) print_row(file, own->letter, own->name, own->value, own->doc);
+  if (verb->kind_options && !kind) {
+    print_kinds(file, verb);
+  } else {
+    print_options(file, arguments);
   }
-  char title[HOOKE_FLAG_SIZE], times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
-  snprintf(title, sizeof title, "options of the %s", verb->name);
-  print_table(file, arguments, arguments->more, title);
-  print_table(file, arguments, arguments->run,
-              "options of the run, instead of what the scene's \"run\" says (defaults: where neither says "
-              "anything)");
-  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
-          hooke_unit_list("m", lengths));
-  fprintf(file, "\n%s", exit_codes);
+  if (kind) fprintf(file, "\nexample:\n  %s\n", hooke_describe_example(arguments, example));
+  print_exits(file);
 }
 
 /* ---- version ---- */

@@ -3,11 +3,12 @@
 #define HOOKE_CLI_USAGE_H
 
 #include "arguments.h"
+#include "program.h"
 
 #include <stdio.h>
 
-/* `hooke --help`: `verbs` ends with NULL. */
-void hooke_usage_print_all(FILE *file, const struct hooke_verb *const *verbs);
+/* `hooke --help`. */
+void hooke_usage_print_all(FILE *file, const struct hooke_program *program);
 
 /* `hooke VERB --help`. */
 void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments);

@@ -28,12 +28,19 @@ struct hooke_verb_row {
 
 struct hooke_verb {
   const char *name;
+  const char
+      *input; /* what it works on, such as "OUT.h5", with no options of a run; NULL: a scene, with them */
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
+  const char
+      *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
   const struct hooke_verb_row *rows;
   int32_t row_count;
   int32_t (*options)(
       hooke_options **options); /* makes an option table of the verb's own; NULL: it has none */
+  int32_t (*kind_options)(const char *kind,
+                          hooke_options **options); /* takes a kind of part in place of a scene, and makes its
+                                                       table; NULL: it takes a scene */
   const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
   int (*function)(const struct hooke_arguments *arguments);
 };
@@ -47,5 +54,6 @@ extern const struct hooke_verb hooke_verb_study;
 extern const struct hooke_verb hooke_verb_limit;
 extern const struct hooke_verb hooke_verb_why;
 extern const struct hooke_verb hooke_verb_needs;
+extern const struct hooke_verb hooke_verb_make;
 
 #endif

@@ -217,5 +217,6 @@ const struct hooke_verb hooke_verb_why = {
             "the springs to blame, and what to do, as commands that have been tried. The exit code is 0 also "
             "if the run did "
             "not blow up.",
+    .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,
 };

@@ -1,4 +1,4 @@
-# cmake --install: headers, both libraries, the program, the example scenes, the page of a report, and the files by
+# cmake --install: headers, both libraries, the program with its manual page and completion, the example scenes, the page of a report, and the files by
 # which find_package(hooke) and pkg-config find them. Nothing installed names a folder of this machine, so the result may be moved.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
@@ -21,6 +21,11 @@ if(HOOKE_BUILD_CLI)
   file(RELATIVE_PATH to_library /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(hooke_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
   install(TARGETS hooke_cli)
+endif()
+if(HOOKE_PAGES_OF_CLI)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.bash
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME hooke)
 endif()
 
 configure_package_config_file(cmake/hooke-config.cmake.in hooke-config.cmake INSTALL_DESTINATION ${config_dir})

@@ -42,12 +42,25 @@ HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char
  */
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 
+/* Options for the keys of a scene that neither a part, nor springs, nor a run has, for the caller to set and destroy.
+ * `what` is "scene" (title, gravity, drag), "particles", or "driven". HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
+
+/* Gives the system what options of a "scene" say of it: all but the title. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit. */
+HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
+
 /* Writes a committed system as a scene file: parts and spring groups by the options that they were made from, the rest
  * number by number, so that loading it gives the same system to the bit. Particles of parts come after the others there.
  * `title` and `run` (options of a run) may be NULL. An older file is replaced when the new one is complete. HOOKE_UNSUITED
  * for a system with callbacks, HOOKE_BAD_CALL before commit, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
+
+/* The same as a scene of its own: its text is what would be written, its system is made from that and not committed. `name`
+ * and `folder` are as in hooke_scene_parse(); the caller owns the scene. Failures are those of both, but for the file's. */
+HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
+                                        const hooke_options *run, const char *name, const char *folder,
+                                        hooke_scene **scene);
 
 /* Releases the scene, its system and its options. NULL is allowed. */
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);

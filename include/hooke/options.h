@@ -56,9 +56,24 @@ HOOKE_API const char *hooke_options_text(const hooke_options *options, const cha
 /* The table itself. Rows of nested tables follow their family, with dotted names. */
 HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
 
-/* One property of row `row` as text: "name", "type", "unit", "default", "allowed" or "doc"; "" where it has
- * none, NULL if there is no such row or property. Lives as long as `options`. */
+/* One property of row `row` as text, "" where it has none, NULL if there is no such row or property. Lives as
+ * long as `options`.
+ *   "name", "unit", "default", "doc"
+ *   "type"     "number", "numbers", "flag", "choice", "text" or "family"
+ *   "allowed"  in words: "a number >= 0"
+ *   "words"    between blanks, the choices, or the words that may stand in place of numbers
+ *   "family"   the family that it belongs to
+ *   "example"  a value for a first try, as hooke_options_set_text() takes it */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
+
+/* One property of row `row` as a number, NaN where it has none.
+ *   "low", "high"           bounds of every number, which are allowed themselves unless "above_low" is 1
+ *   "above_low", "whole"    1 if low is not allowed; if only whole numbers are
+ *   "required"              1 if it has to be given, for a member of a family: where the family is
+ *   "min_count", "max_count" of the type "numbers"; NaN: any count
+ *   "columns"               numbers come in rows of this many in a scene
+ *   "word_lists"            1 if several words and numbers may be mixed */
+HOOKE_API double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property);
 
 #ifdef __cplusplus
 }

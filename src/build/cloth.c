@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
-    HOOKE_PART_POINT("origin", "corner where it begins"),
+    HOOKE_PART_ORIGIN,
     {.name = "edges",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "m",
@@ -16,6 +16,7 @@ static const struct hooke_option_row rows[] = {
      .max_count = 6,
      .columns = 3,
      .required = 1,
+     .example = "1,0,0,0,0,1",
      .doc = "the two edges from the origin, u and v, as vectors"},
     {.name = "size",
      .type = HOOKE_OPTION_NUMBERS,
@@ -25,6 +26,7 @@ static const struct hooke_option_row rows[] = {
      .min_count = 2,
      .max_count = 2,
      .required = 1,
+     .example = "16,16",
      .doc = "particles along u and along v"},
     HOOKE_PART_MASS,
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass: every particle has that of its piece"),
@@ -139,4 +141,7 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
 
 static const struct hooke_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_cloth = {&table, build, named, &grid};
+const struct hooke_part_kind hooke_part_cloth = {
+    &table, build, named, &grid,
+    "a grid of particles over two edges, with springs along it, across its cells and "
+    "two apart"};

@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
-    HOOKE_PART_POINT("origin", "corner where it begins"),
+    HOOKE_PART_ORIGIN,
     {.name = "edges",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "m",
@@ -19,6 +19,7 @@ static const struct hooke_option_row rows[] = {
      .max_count = 9,
      .columns = 3,
      .required = 1,
+     .example = "1,0,0,0,1,0,0,0,1",
      .doc = "the three edges from the origin, x, y and z, as vectors"},
     {.name = "size",
      .type = HOOKE_OPTION_NUMBERS,
@@ -28,6 +29,7 @@ static const struct hooke_option_row rows[] = {
      .min_count = 3,
      .max_count = 3,
      .required = 1,
+     .example = "5,5,5",
      .doc = "particles along x, along y and along z"},
     HOOKE_PART_MASS,
     HOOKE_PART_DENSITY("kg/m^3", "mass over volume, instead of mass: every particle has that of its piece"),
@@ -265,4 +267,6 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
 
 static const struct hooke_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_lattice = {&table, build, named, &grid};
+const struct hooke_part_kind hooke_part_lattice = {
+    &table, build, named, &grid,
+    "a grid of particles over three edges, with springs along it, across its cells and two apart"};

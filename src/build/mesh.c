@@ -30,7 +30,10 @@ static const struct hooke_option_row transform_rows[] = {
 static const struct hooke_option_table transform = {"transform", HOOKE_OPTION_ROWS(transform_rows)};
 
 static const struct hooke_option_row rows[] = {
-    {.name = "file", .type = HOOKE_OPTION_TEXT, .doc = "OBJ file, instead of vertices and triangles"},
+    {.name = "file",
+     .type = HOOKE_OPTION_TEXT,
+     .example = "mesh.obj",
+     .doc = "OBJ file, instead of vertices and triangles"},
     {.name = "vertices",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "m",
@@ -62,6 +65,7 @@ static const struct hooke_option_row rows[] = {
      .low = 0,
      .above_low = 1,
      .high = 1e300,
+     .example = "1",
      .doc = "total mass, shared by area; or density"},
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass"),
     {.name = "pinned",
@@ -241,4 +245,5 @@ static int64_t named(const struct hooke_part *part, const char *word, int64_t k)
   return -1; /* it has no words */
 }
 
-const struct hooke_part_kind hooke_part_mesh = {&table, build, named, NULL};
+const struct hooke_part_kind hooke_part_mesh = {
+    &table, build, named, NULL, "a surface of triangles, with springs along its edges and across them"};

@@ -23,6 +23,7 @@ static const struct hooke_option_row family_rows[] = {
      .low = 0,
      .high = 1e300,
      .required = 1,
+     .example = "50",
      .doc = "force at double length, of the strain law"},
     {.name = "damping",
      .type = HOOKE_OPTION_NUMBER,
@@ -57,6 +58,10 @@ int64_t hooke_part_kind_count(void) {
 
 const char *hooke_part_kind(int64_t kind) {
   return kind >= 0 && kind < KIND_COUNT ? kinds[kind]->table->name : NULL;
+}
+
+const char *hooke_part_kind_summary(int64_t kind) {
+  return kind >= 0 && kind < KIND_COUNT ? kinds[kind]->summary : NULL;
 }
 
 static const struct hooke_part_kind *find_kind(const char *name) {

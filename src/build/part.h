@@ -21,6 +21,7 @@ struct hooke_part_kind {
   /* The k-th particle (0, 1, ...) that a word of `pinned` stands for; -1 past the last. */
   int64_t (*named)(const struct hooke_part *part, const char *word, int64_t k);
   const struct hooke_part_grid *grid; /* NULL: its particles are no grid */
+  const char *summary;                /* one line */
 };
 
 extern const struct hooke_part_kind hooke_part_rope;
@@ -34,12 +35,17 @@ extern const struct hooke_part_kind hooke_part_strand;
 #define HOOKE_PART_POINT(key, text)                                                                          \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
-    .doc = (text)                                                                                            \
+    .example = "0,0,0", .doc = (text)                                                                        \
+  }
+#define HOOKE_PART_ORIGIN                                                                                    \
+  {                                                                                                          \
+    .name = "origin", .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3,             \
+    .fallback = "0,0,0", .doc = "corner where it begins"                                                     \
   }
 #define HOOKE_PART_MASS                                                                                      \
   {                                                                                                          \
     .name = "mass", .type = HOOKE_OPTION_NUMBER, .unit = "kg", .low = 0, .above_low = 1, .high = 1e300,      \
-    .doc = "total mass, shared equally; or density"                                                          \
+    .example = "1", .doc = "total mass, shared equally; or density"                                          \
   }
 #define HOOKE_PART_DENSITY(of, text)                                                                         \
   {                                                                                                          \

@@ -8,13 +8,21 @@
 
 static const struct hooke_option_row rows[] = {
     HOOKE_PART_POINT("from", "where it begins"),
-    HOOKE_PART_POINT("to", "where it ends"),
+    {.name = "to",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .required = 1,
+     .example = "1,0,0",
+     .doc = "where it ends"},
     {.name = "segments",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,
      .high = INT32_MAX,
      .whole = 1,
      .required = 1,
+     .example = "24",
      .doc = "pieces it is cut into; it has one particle more"},
     HOOKE_PART_MASS,
     HOOKE_PART_DENSITY("kg/m", "mass over length, instead of mass: every particle has that of its piece"),
@@ -73,4 +81,5 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
 
 static const struct hooke_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_rope = {&table, build, named, &grid};
+const struct hooke_part_kind hooke_part_rope = {
+    &table, build, named, &grid, "particles in a line, with springs between neighbours and two apart"};

@@ -313,7 +313,36 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
     text = slot->row->fallback;
   else if (strcmp(property, "doc") == 0)
     text = slot->row->doc;
+  else if (strcmp(property, "words") == 0)
+    text = slot->row->words;
+  else if (strcmp(property, "family") == 0)
+    text = slot->family >= 0 ? options->slot[slot->family].name : "";
+  else if (strcmp(property, "example") == 0)
+    text = slot->row->example;
   else
     return NULL;
   return text ? text : "";
+}
+
+double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property) {
+  if (row < 0 || row >= options->slot_count || property == NULL) return NAN;
+  const struct hooke_option_row *of = options->slot[row].row;
+  const int bounded = of->low < of->high, counted = of->type == HOOKE_OPTION_NUMBERS;
+  const struct {
+    const char *name;
+    double value;
+  } known[] = {
+      {"low", bounded ? of->low : NAN},
+      {"high", bounded ? of->high : NAN},
+      {"above_low", of->above_low},
+      {"whole", of->whole},
+      {"required", of->required},
+      {"min_count", counted && of->min_count > 0 ? (double)of->min_count : NAN},
+      {"max_count", counted && of->max_count > 0 ? (double)of->max_count : NAN},
+      {"columns", of->columns > 0 ? (double)of->columns : NAN},
+      {"word_lists", of->word_lists},
+  };
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+    if (strcmp(known[k].name, property) == 0) return known[k].value;
+  return NAN;
 }

@@ -32,6 +32,7 @@ struct hooke_option_row {
       word_lists; /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   const struct hooke_option_table *family;
   const char *doc;
+  const char *example; /* as text: a value for a first try */
 };
 
 struct hooke_option_table {

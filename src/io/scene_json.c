@@ -14,23 +14,6 @@ enum { METHODS_SIZE = 512 };
 
 static const char other_keys[] = "hooke particles springs parts driven run";
 
-static const struct hooke_option_row scene_rows[] = {
-    {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
-    {.name = "gravity",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m/s^2",
-     .min_count = 3,
-     .max_count = 3,
-     .doc = "acceleration of every free particle"},
-    {.name = "drag",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "N s/m",
-     .high = 1e300,
-     .doc = "ether drag f = -c v on every free particle"},
-};
-
-static const struct hooke_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
-
 /* ---- syntax ---- */
 
 static const char *advice(enum json_error_code code) {
@@ -82,22 +65,14 @@ static int32_t check_version(const json_t *root) {
                     (long long)json_integer_value(version));
 }
 
-static int32_t apply(hooke_scene *scene, const hooke_options *options) {
-  int32_t status = HOOKE_OK;
-  if (hooke_options_is_set(options, "gravity"))
-    status = hooke_system_set_gravity(scene->system, hooke_options_numbers(options, "gravity"));
-  if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
-    status = hooke_system_set_drag(scene->system, hooke_options_number(options, "drag"));
-  if (status == HOOKE_OK && (scene->title = hooke_copy_text(hooke_options_text(options, "title"))) == NULL)
-    status = HOOKE_NO_MEMORY;
-  return status;
-}
-
 static int32_t read_top(struct hooke_scene_reader *reader, const json_t *root) {
   hooke_options *options = NULL;
-  int32_t status = hooke_options_create(&scene_table, &options);
+  int32_t status = hooke_scene_options_create("scene", &options);
   if (status == HOOKE_OK) status = hooke_scene_read_options(reader, root, other_keys, options);
-  if (status == HOOKE_OK) status = apply(reader->scene, options);
+  if (status == HOOKE_OK) status = hooke_scene_options_apply(options, reader->scene->system);
+  if (status == HOOKE_OK &&
+      (reader->scene->title = hooke_copy_text(hooke_options_text(options, "title"))) == NULL)
+    status = HOOKE_NO_MEMORY;
   hooke_options_destroy(options);
   return status;
 }

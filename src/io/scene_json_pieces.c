@@ -14,70 +14,6 @@
 
 enum { LIST_SIZE = 256 };
 
-static const struct hooke_option_row particle_rows[] = {
-    {.name = "position",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .columns = 3,
-     .required = 1,
-     .doc = "one row a particle"},
-    {.name = "velocity",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m/s",
-     .min_count = 3,
-     .columns = 3,
-     .doc = "one row a particle; without it all are at rest"},
-    {.name = "mass",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "kg",
-     .high = 1e300,
-     .above_low = 1,
-     .min_count = 1,
-     .required = 1,
-     .doc = "one number, or one a particle"},
-    {.name = "pinned",
-     .type = HOOKE_OPTION_NUMBERS,
-     .whole = 1,
-     .high = 2147483647,
-     .doc = "numbers of particles that are held still"},
-};
-
-static const struct hooke_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};
-
-static const struct hooke_option_row drive_rows[] = {
-    {.name = "motion",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "harmonic table",
-     .required = 1,
-     .doc = "kind of motion"},
-    {.name = "amplitude",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .max_count = 3,
-     .doc = "harmonic: largest displacement"},
-    {.name = "frequency",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "Hz",
-     .high = 1e300,
-     .doc = "harmonic: oscillations a second"},
-    {.name = "phase", .type = HOOKE_OPTION_NUMBER, .unit = "rad", .doc = "harmonic: angle at time 0"},
-    {.name = "time",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "s",
-     .min_count = 2,
-     .doc = "table: ascending times"},
-    {.name = "position",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 6,
-     .columns = 3,
-     .doc = "table: displacement at each time"},
-};
-
-static const struct hooke_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
-
 /* The text of an optional key; `text` stays as it is without it. */
 static int32_t read_text(const json_t *object, const char *key, const char **text) {
   const json_t *value = json_object_get(object, key);
@@ -136,7 +72,7 @@ static int32_t add_particles(struct hooke_scene_reader *reader, const json_t *pa
 int32_t hooke_scene_add_particles(struct hooke_scene_reader *reader, const json_t *particles) {
   hooke_options *options = NULL;
   int32_t status = hooke_scene_require_object(particles, NULL);
-  if (status == HOOKE_OK) status = hooke_options_create(&particle_table, &options);
+  if (status == HOOKE_OK) status = hooke_scene_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
   return status ? hooke_fail_within(status, "particles") : HOOKE_OK;
@@ -313,7 +249,7 @@ static int32_t read_drive(struct hooke_scene_reader *reader, const json_t *objec
 static int32_t add_driven(struct hooke_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
   hooke_options *options = NULL;
-  int32_t status = hooke_options_create(&drive_table, &options);
+  int32_t status = hooke_scene_options_create("driven", &options);
   if (status == HOOKE_OK) status = read_drive(reader, object, options);
   hooke_options_destroy(options);
   return status;

@@ -270,21 +270,38 @@ static void add_scene(struct hooke_text *text, const hooke_system *system, const
   hooke_text_close(text, '}');
 }
 
-int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
-                          const hooke_options *run) {
-  struct hooke_text json = {.bytes = NULL}, laid = {.bytes = NULL};
+static int32_t compose(const hooke_system *system, const char *title, const hooke_options *run,
+                       struct hooke_text *laid) {
+  struct hooke_text json = {.bytes = NULL};
   struct numbering numbering = {0};
   int32_t status = hooke_system_require_committed(system);
   if (status == HOOKE_OK) status = check_words(system);
   if (status == HOOKE_OK) status = find_numbers(system, &numbering);
   if (status == HOOKE_OK) {
     add_scene(&json, system, title, run, &numbering);
-    hooke_text_lay_out(&json, &laid);
-    status = laid.status;
+    hooke_text_lay_out(&json, laid);
+    status = laid->status;
   }
-  if (status == HOOKE_OK) status = hooke_place_write(path, laid.bytes, laid.length);
   release(&numbering);
   hooke_text_release(&json);
+  return status;
+}
+
+int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
+                          const hooke_options *run) {
+  struct hooke_text laid = {.bytes = NULL};
+  int32_t status = compose(system, title, run, &laid);
+  if (status == HOOKE_OK) status = hooke_place_write(path, laid.bytes, laid.length);
+  hooke_text_release(&laid);
+  return status;
+}
+
+int32_t hooke_scene_of_system(const hooke_system *system, const char *title, const hooke_options *run,
+                              const char *name, const char *folder, hooke_scene **scene) {
+  struct hooke_text laid = {.bytes = NULL};
+  *scene = NULL;
+  int32_t status = compose(system, title, run, &laid);
+  if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, scene);
   hooke_text_release(&laid);
   return status;
 }

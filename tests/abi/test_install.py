@@ -58,6 +58,9 @@ def test_files(prefix):
     scenes = {"share/hooke/examples/scenes/" + p.name for p in (ROOT / "examples/scenes").iterdir()}
     assert headers <= installed
     assert scenes <= installed
+    if "HOOKE_CLI" in os.environ:
+        for word, file in [("--man", "man/man1/hooke.1"), ("--completion", "bash-completion/completions/hooke")]:
+            assert (prefix / "share" / file).read_text().startswith(run(prefix / "bin/hooke", word, "bash")[:60])
     assert {p for p in installed if p.startswith("include/")} == headers
 
 

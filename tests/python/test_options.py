@@ -27,6 +27,27 @@ def test_the_tables_are_those_of_the_library():
         assert len(text.splitlines()) == len(options) and all(name in text for name in options)
 
 
+def test_a_row_says_all_that_the_library_knows():
+    def row(what, name):
+        return next(row for row in hooke.options_of(what).rows if row.name == name)
+
+    size, pinned, stiffness = (row("cloth", name) for name in ("size", "pinned", "shear.stiffness"))
+    assert (size.min_count, size.max_count, size.low, size.whole, size.required) == (2, 2, 2, True, True)
+    assert row("cloth", "edges").columns == 3 and size.columns is None
+    assert pinned.words == ["corners", "top", "top-corners"] and pinned.word_lists and not pinned.required
+    assert (pinned.min_count, pinned.max_count) == (None, None)
+    assert (stiffness.family, stiffness.low, stiffness.above_low, stiffness.required) == ("shear", 0, False, True)
+    assert row("run", "step").above_low and row("run", "newton").words == ["converged", "one-iteration"]
+    assert row("springs", "law").low is None
+    assert {row.name for row in hooke.options_of("scene").rows} == {"title", "gravity", "drag"}
+    assert row("particles", "position").required and row("driven", "frequency").unit == "Hz"
+    for kind in hooke.part_kinds():
+        assert hooke.part_kind_summary(kind)
+        assert all(row.example for row in hooke.options_of(kind).rows if row.required), kind
+    with pytest.raises(hooke.BadValue, match="kind of part"):
+        hooke.options_of("wheel")
+
+
 def test_numbers_words_flags_and_arrays():
     options = hooke.Options.for_springs()
     assert options["law"] == "strain" and options["damping"] == 0 and options["stiffness"] is None

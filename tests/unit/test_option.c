@@ -32,7 +32,8 @@ static const struct hooke_option_row rows[] = {
      .unit = "s",
      .high = 10,
      .above_low = 1,
-     .doc = "length of a step"},
+     .doc = "length of a step",
+     .example = "0.1"},
     {.name = "law", .type = HOOKE_OPTION_CHOICE, .words = "strain length", .fallback = "strain"},
     {.name = "gravity", .type = HOOKE_OPTION_NUMBERS, .unit = "m/s^2", .min_count = 3, .max_count = 3},
     {.name = "rest_length",
@@ -373,6 +374,33 @@ static void the_table_describes_itself(void **state) {
   assert_null(hooke_options_row(o, 17, "name"));
   assert_null(hooke_options_row(o, -1, "name"));
   assert_null(hooke_options_row(o, 0, "colour"));
+  assert_string_equal(hooke_options_row(o, 1, "words"), "strain length");
+  assert_string_equal(hooke_options_row(o, 0, "words"), "");
+  assert_string_equal(hooke_options_row(o, 0, "family"), "");
+  assert_string_equal(hooke_options_row(o, 9, "family"), "");
+  assert_string_equal(hooke_options_row(o, 16, "family"), "shear");
+  assert_string_equal(hooke_options_row(o, 0, "example"), "0.1");
+  assert_string_equal(hooke_options_row(o, 1, "example"), "");
+}
+
+static void the_table_tells_its_numbers(void **state) {
+  hooke_options *o = *state;
+  check_close(hooke_options_row_number(o, 0, "low"), 0, 0);
+  check_close(hooke_options_row_number(o, 0, "high"), 10, 0);
+  check_close(hooke_options_row_number(o, 0, "above_low"), 1, 0);
+  check_close(hooke_options_row_number(o, 0, "required"), 0, 0);
+  check_close(hooke_options_row_number(o, 10, "required"), 1, 0);
+  check_close(hooke_options_row_number(o, 6, "whole"), 1, 0);
+  check_close(hooke_options_row_number(o, 4, "min_count"), 6, 0);
+  check_close(hooke_options_row_number(o, 4, "max_count"), 6, 0);
+  check_close(hooke_options_row_number(o, 4, "columns"), 3, 0);
+  check_close(hooke_options_row_number(o, 5, "word_lists"), 1, 0);
+  assert_true(isnan(hooke_options_row_number(o, 1, "low")));
+  assert_true(isnan(hooke_options_row_number(o, 2, "columns")));
+  assert_true(isnan(hooke_options_row_number(o, 3, "max_count")));
+  assert_true(isnan(hooke_options_row_number(o, 0, "min_count")));
+  assert_true(isnan(hooke_options_row_number(o, 0, "colour")));
+  assert_true(isnan(hooke_options_row_number(o, 17, "low")));
 }
 
 static void a_wrong_default_is_noticed(void **state) {
@@ -406,6 +434,7 @@ int main(void) {
       TEST(required_members_are_missed_only_where_present),
       TEST(a_copy_is_equal_and_separate),
       TEST(the_table_describes_itself),
+      TEST(the_table_tells_its_numbers),
       TEST(a_wrong_default_is_noticed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

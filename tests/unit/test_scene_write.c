@@ -44,6 +44,17 @@ static void check_same_system(const hooke_system *found, const hooke_system *exp
   assert_int_equal(found->drive_count, expected->drive_count);
 }
 
+/* A scene that is made in memory has the text that is written. */
+static void check_in_memory(const hooke_system *system, const hooke_options *run,
+                            const hooke_scene *written) {
+  hooke_scene *made;
+  check_ok(hooke_scene_of_system(system, hooke_scene_title(written), run, "memory", NULL, &made));
+  assert_string_equal(hooke_scene_text(made), hooke_scene_text(written));
+  check_ok(hooke_scene_commit(made));
+  check_same_system(hooke_scene_system(made), system);
+  hooke_scene_destroy(made);
+}
+
 static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   char path[] = "/tmp/hooke-scene-XXXXXX";
   hooke_options *run;
@@ -60,6 +71,7 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   assert_true(hooke_options_number(hooke_scene_run_options(*scene), "step") == 0.1);
   assert_string_equal(hooke_options_text(hooke_scene_run_options(*scene), "method"), "rk4");
   assert_false(hooke_options_is_set(hooke_scene_run_options(*scene), "duration"));
+  check_in_memory(system, run, *scene);
   hooke_options_destroy(run);
   unlink(path);
 }
@@ -209,6 +221,35 @@ static void drives_come_back(void **state) {
 
 #endif
 
+static void keys_of_a_scene_are_applied(void **state) {
+  (void)state;
+  hooke_system *system;
+  hooke_options *options, *other;
+  const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
+  check_ok(hooke_scene_options_create("scene", &options));
+  check_ok(hooke_options_set_text(options, "gravity", "0,-9.81,0"));
+  check_ok(hooke_options_set_number(options, "drag", 0.25));
+  check_ok(hooke_scene_options_apply(options, system));
+  check_same_bits(3, system->gravity, gravity);
+  assert_true(system->drag == 0.25);
+  check_ok(hooke_scene_options_create("particles", &other));
+  check_status(hooke_scene_options_apply(other, system), HOOKE_BAD_VALUE);
+  check_message("not those of a scene");
+  hooke_options_destroy(other);
+  check_status(hooke_scene_options_create("springs", &other), HOOKE_BAD_VALUE);
+  check_message("allowed: scene, particles, driven");
+  assert_null(other);
+  hooke_scene *scene;
+  check_status(hooke_scene_of_system(system, NULL, NULL, NULL, NULL, &scene), HOOKE_BAD_CALL);
+  assert_null(scene);
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_scene_options_apply(options, system), HOOKE_BAD_CALL);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 static void callbacks_cannot_be_written(void **state) {
   (void)state;
   struct random_scene scene;
@@ -228,10 +269,12 @@ int main(void) {
       cmocka_unit_test(lattice_and_mesh_come_back),
       cmocka_unit_test(drives_come_back),
       cmocka_unit_test(strands_come_back),
+      cmocka_unit_test(keys_of_a_scene_are_applied),
       cmocka_unit_test(callbacks_cannot_be_written),
   };
 #else
-  const struct CMUnitTest tests[] = {cmocka_unit_test(callbacks_cannot_be_written)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_a_scene_are_applied),
+                                     cmocka_unit_test(callbacks_cannot_be_written)};
 #endif
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

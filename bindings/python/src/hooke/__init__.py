@@ -25,7 +25,7 @@ from .first_order import FirstOrder
 from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
-from .options import Options, describe, part_kinds
+from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
 from .results import Frames, Result, run
 from .scene import Scene
 from .state import State
@@ -55,6 +55,7 @@ __all__ = [
     "NotBuilt",
     "Options",
     "Result",
+    "Row",
     "Scene",
     "SolverFailed",
     "State",
@@ -71,6 +72,8 @@ __all__ = [
     "limit",
     "methods",
     "needs",
+    "options_of",
+    "part_kind_summary",
     "part_kinds",
     "plot",
     "run",

@@ -70,6 +70,7 @@ PROTOTYPES = {
     "hooke_options_text": (TEXT, OPTIONS, TEXT),
     "hooke_options_row_count": (INT64, OPTIONS),
     "hooke_options_row": (TEXT, OPTIONS, INT64, TEXT),
+    "hooke_options_row_number": (DOUBLE, OPTIONS, INT64, TEXT),
     # system.h: building
     "hooke_system_create": (STATUS, POINTER(SYSTEM)),
     "hooke_system_destroy": (None, SYSTEM),
@@ -141,6 +142,7 @@ PROTOTYPES = {
     # build.h
     "hooke_part_kind_count": (INT64,),
     "hooke_part_kind": (TEXT, INT64),
+    "hooke_part_kind_summary": (TEXT, INT64),
     "hooke_part_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_system_add_part": (STATUS, SYSTEM, TEXT, TEXT, OPTIONS, INTEGERS, INTEGERS),
     "hooke_mesh_set": (STATUS, OPTIONS, INT64, DOUBLES, INT64, INTEGERS),
@@ -279,7 +281,10 @@ PROTOTYPES = {
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
     "hooke_scene_parse": (STATUS, TEXT, INT64, TEXT, TEXT, POINTER(SCENE)),
     "hooke_scene_commit": (STATUS, SCENE),
+    "hooke_scene_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
+    "hooke_scene_options_apply": (STATUS, OPTIONS, SYSTEM),
     "hooke_scene_write": (STATUS, TEXT, SYSTEM, TEXT, OPTIONS),
+    "hooke_scene_of_system": (STATUS, SYSTEM, TEXT, OPTIONS, TEXT, TEXT, POINTER(SCENE)),
     "hooke_scene_destroy": (None, SCENE),
     "hooke_scene_system": (SYSTEM, SCENE),
     "hooke_scene_run_options": (OPTIONS, SCENE),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Iterator, Mapping, MutableMapping
 from typing import Any, NamedTuple, Union
 
@@ -17,7 +18,14 @@ Value = Union[None, bool, int, float, str, np.ndarray, list]
 
 
 class Row(NamedTuple):
-    """One option: its name, type, unit, default, what is allowed and a line about it, all as text."""
+    """One option. Text is "" and a number None where there is none.
+
+    `type` is "number", "numbers", "flag", "choice", "text" or "family"; `allowed` says in words what is allowed;
+    `words` are the choices, or what may stand in place of numbers; `family` is the family that it belongs to;
+    `example` is a value for a first try. `low` and `high` are bounds of every number, allowed themselves unless
+    `above_low`; `required` of a member of a family is meant where the family is there; `min_count` and `max_count`
+    tell how many "numbers" there may be, in rows of `columns`; with `word_lists` words and numbers may be mixed.
+    """
 
     name: str
     type: str
@@ -25,6 +33,18 @@ class Row(NamedTuple):
     default: str
     allowed: str
     doc: str
+    words: list[str]
+    family: str
+    example: str
+    low: None | float
+    high: None | float
+    above_low: bool
+    whole: bool
+    required: bool
+    min_count: None | int
+    max_count: None | int
+    columns: None | int
+    word_lists: bool
 
 
 class Options(MutableMapping):
@@ -77,6 +97,12 @@ class Options(MutableMapping):
     def for_altitude(cls) -> Options:
         """Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."""
         return cls(_create(lib.hooke_altitude_options_create))
+
+    @classmethod
+    def for_scene(cls, what: str = "scene") -> Options:
+        """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", or of
+        what is "driven"."""
+        return cls(_create(lambda out: lib.hooke_scene_options_create(what.encode(), out)))
 
     @classmethod
     def for_part(cls, kind: str) -> Options:
@@ -175,22 +201,30 @@ def part_kinds() -> list[str]:
     return [text(lib.hooke_part_kind(kind)) for kind in range(lib.hooke_part_kind_count())]
 
 
+def part_kind_summary(kind: str) -> str:
+    """What a part of this kind is, in one line."""
+    return text(lib.hooke_part_kind_summary(part_kinds().index(kind)))
+
+
+def options_of(what: str) -> Options:
+    """The options of a "run", a "study", a "limit", a "cost", of "needs", of "springs", of a "scene" itself, of its
+    "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
+    makers = {
+        "run": Options.for_run,
+        "study": Options.for_study,
+        "limit": Options.for_limit,
+        "cost": Options.for_cost,
+        "needs": Options.for_needs,
+        "springs": Options.for_springs,
+    }
+    if what in makers:
+        return makers[what]()
+    return Options.for_scene(what) if what in ("scene", "particles", "driven") else Options.for_part(what)
+
+
 def describe(what: str) -> str:
-    """The options of a "run", of a "study", of a "limit", of a "cost", of "needs", of "springs", or of a kind of part,
-    as text: names, units, defaults, bounds."""
-    if what == "run":
-        return Options.for_run().describe()
-    if what == "study":
-        return Options.for_study().describe()
-    if what == "limit":
-        return Options.for_limit().describe()
-    if what == "cost":
-        return Options.for_cost().describe()
-    if what == "needs":
-        return Options.for_needs().describe()
-    if what == "springs":
-        return Options.for_springs().describe()
-    return Options.for_part(what).describe()
+    """The table of `options_of` the same, as text: names, units, defaults, bounds."""
+    return options_of(what).describe()
 
 
 def _number(name: str, value: Any) -> float:
@@ -208,4 +242,16 @@ def _create(create: Any) -> Handle:
 
 def _rows(handle: Handle) -> Iterator[Row]:
     for row in range(lib.hooke_options_row_count(handle)):
-        yield Row(*(text(lib.hooke_options_row(handle, row, field.encode())) for field in Row._fields))
+        yield Row(*(_property(handle, row, name) for name in Row._fields))
+
+
+def _property(handle: Handle, row: int, name: str) -> Any:
+    if name in ("above_low", "whole", "required", "word_lists"):
+        return bool(lib.hooke_options_row_number(handle, row, name.encode()))
+    if name in ("low", "high", "min_count", "max_count", "columns"):
+        number = lib.hooke_options_row_number(handle, row, name.encode())
+        if math.isnan(number):
+            return None
+        return number if name in ("low", "high") else int(number)
+    words = text(lib.hooke_options_row(handle, row, name.encode()))
+    return words.split() if name == "words" else words

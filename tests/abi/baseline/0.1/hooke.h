@@ -54,6 +54,7 @@ HOOKE_API double hooke_options_number(const hooke_options *options, const char *
 HOOKE_API const char *hooke_options_text(const hooke_options *options, const char *name);
 HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
+HOOKE_API double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property);
 #ifdef __cplusplus
 }
 #endif
@@ -164,6 +165,7 @@ extern "C" {
 #endif
 HOOKE_API int64_t hooke_part_kind_count(void);
 HOOKE_API const char *hooke_part_kind(int64_t kind);
+HOOKE_API const char *hooke_part_kind_summary(int64_t kind);
 HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
@@ -412,8 +414,13 @@ HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                                     hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
+HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
+HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
+HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
+                                        const hooke_options *run, const char *name, const char *folder,
+                                        hooke_scene **scene);
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
 HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
 HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);

@@ -1,0 +1,10 @@
+/* Completion for shells. */
+#ifndef HOOKE_CLI_COMPLETION_H
+#define HOOKE_CLI_COMPLETION_H
+
+#include "program.h"
+
+/* Prints a script for bash: verbs, kinds, options and their words, and files. */
+void hooke_completion_print_bash(const struct hooke_program *program);
+
+#endif

@@ -1,0 +1,161 @@
+#include "describe.h"
+
+#include "report.h"
+#include "value.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+  int32_t code;
+  const char *meaning;
+} exits[] = {
+    {HOOKE_EXIT_DONE, "done"},
+    {HOOKE_EXIT_USAGE, "wrong usage"},
+    {HOOKE_EXIT_BAD_INPUT, "bad input"},
+    {HOOKE_EXIT_DIVERGED, "diverged"},
+    {HOOKE_EXIT_IO, "could not read or write"},
+    {HOOKE_EXIT_NOT_BUILT, "not in this build"},
+    {HOOKE_EXIT_INTERRUPTED, "interrupted"},
+};
+enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };
+
+const char *hooke_describe_exit(int32_t i, int32_t *code) {
+  if (i >= EXIT_COUNT) return NULL;
+  *code = exits[i].code;
+  return exits[i].meaning;
+}
+
+static void add(char *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void add(char *text, const char *format, ...) {
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text + used, HOOKE_DOC_SIZE - used, format, args);
+  va_end(args);
+}
+
+static int32_t takes_methods(const struct hooke_argument *argument) {
+  return strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0;
+}
+
+static const char *property(const struct hooke_argument *argument, const char *name) {
+  return hooke_options_row(argument->table, argument->row, name);
+}
+
+/* ---- options ---- */
+
+/* Whether it has to be given, or what it is if it is not. */
+static void add_default(char *doc, const struct hooke_argument *argument) {
+  const char *fallback = property(argument, "default"), *family = property(argument, "family");
+  char example[HOOKE_EXAMPLE_SIZE];
+  hooke_value_example(argument->table, argument->row, example);
+  if (hooke_options_row_number(argument->table, argument->row, "required") == 0.0 || fallback[0]) {
+    add(doc, "; default: %s", fallback[0] ? fallback : "none");
+    return;
+  }
+  add(doc, family[0] ? "; needed for any %s" : "; required", family);
+  if (example[0]) add(doc, ", such as %s", example);
+}
+
+static void describe_row(const struct hooke_argument *argument, struct hooke_description *description) {
+  const char *type = property(argument, "type"), *unit = property(argument, "unit");
+  char methods[HOOKE_DOC_SIZE / 4];
+  if (strcmp(type, "flag") != 0) {
+    for (size_t i = 0; type[i] && type[i] != ' '; i++)
+      description->value[i] = (char)toupper((unsigned char)type[i]);
+  }
+  if (takes_methods(argument)) hooke_report_methods(methods, sizeof methods);
+  add(description->doc, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
+      property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
+  add_default(description->doc, argument);
+}
+
+void hooke_describe(const struct hooke_argument *argument, struct hooke_description *description) {
+  memset(description, 0, sizeof *description);
+  description->flag = argument->flag;
+  if (!argument->own) {
+    describe_row(argument, description);
+    return;
+  }
+  description->letter = argument->own->letter;
+  if (argument->own->value) snprintf(description->value, HOOKE_FLAG_SIZE, "%s", argument->own->value);
+  add(description->doc, "%s", argument->own->doc);
+}
+
+const char *hooke_describe_family(const struct hooke_argument *argument, const char **doc) {
+  const char *family = argument->table ? property(argument, "family") : "";
+  if (!family[0]) return NULL;
+  for (int64_t row = 0; row < hooke_options_row_count(argument->table); row++) {
+    if (strcmp(hooke_options_row(argument->table, row, "name"), family) == 0)
+      *doc = hooke_options_row(argument->table, row, "doc");
+  }
+  return family;
+}
+
+const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
+                                 int32_t *many) {
+  words[0] = '\0';
+  *many = strcmp(argument->name, "methods") == 0 || (argument->table && hooke_value_adds_up(argument));
+  for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
+    add(words, "%s%s", i ? " " : "", hooke_method_name(i));
+  if (words[0] || !argument->table) return words;
+  add(words, "%s",
+      strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
+  return words;
+}
+
+/* Its own options say it by what they call their value: FILE, FILE.html. */
+const char *hooke_describe_file(const struct hooke_argument *argument) {
+  static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
+  const char *value = argument->own ? argument->own->value : NULL;
+  if (argument->table) return strcmp(argument->name, "file") == 0 ? "" : NULL;
+  for (size_t k = 0; value && k < sizeof endings / sizeof endings[0]; k++) {
+    const char *dot = strchr(value, '.');
+    if (dot && strcmp(dot + 1, endings[k]) == 0) return endings[k];
+  }
+  return value && strncmp(value, "FILE", 4) == 0 ? "" : NULL;
+}
+
+/* ---- verbs ---- */
+
+const char *hooke_describe_operand(const struct hooke_verb *verb) {
+  return verb->kind_options ? "KIND" : verb->input ? verb->input : "SCENE";
+}
+
+const char *hooke_describe_table(const struct hooke_arguments *arguments, const hooke_options *table,
+                                 char title[HOOKE_DOC_SIZE]) {
+  const int32_t makes = arguments->verb->kind_options != NULL;
+  title[0] = '\0';
+  if (table == arguments->of_kind) {
+    add(title, "options of a %s", arguments->scene);
+  } else if (table == arguments->more) {
+    add(title, "options of the %s", makes ? "scene" : arguments->verb->name);
+  } else {
+    add(title, "options of the run, %s",
+        makes ? "for the scene to hold (defaults: where it does not)"
+              : "instead of what the scene's \"run\" says (defaults: where neither says anything)");
+  }
+  return title;
+}
+
+/* What is required, one of what has an example besides, and the first family. */
+const char *hooke_describe_example(const struct hooke_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
+  const char *first = "";
+  command[0] = '\0';
+  add(command, "hooke %s %s", arguments->verb->name, arguments->scene);
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct hooke_argument *argument = &arguments->all[i];
+    char example[HOOKE_EXAMPLE_SIZE];
+    if (argument->table != arguments->of_kind) continue;
+    const char *family = property(argument, "family");
+    if (!hooke_value_example(argument->table, argument->row, example)[0]) continue;
+    if (!first[0]) first = family;
+    if (family[0] == '\0' || strcmp(family, first) == 0)
+      add(command, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag, example);
+  }
+  return command;
+}

@@ -1,0 +1,42 @@
+/* What verbs, options, kinds and exit codes say of themselves, for --help, the manual page and completion. */
+#ifndef HOOKE_CLI_DESCRIBE_H
+#define HOOKE_CLI_DESCRIBE_H
+
+#include "arguments.h"
+
+enum { HOOKE_DOC_SIZE = 1024 };
+
+struct hooke_description {
+  char letter; /* 0: none */
+  const char *flag;
+  char value[HOOKE_FLAG_SIZE]; /* what follows the flag, "" for nothing */
+  char doc[HOOKE_DOC_SIZE];
+};
+
+void hooke_describe(const struct hooke_argument *argument, struct hooke_description *description);
+
+/* The family that an option belongs to, and what that is; NULL: none. */
+const char *hooke_describe_family(const struct hooke_argument *argument, const char **doc);
+
+/* What a verb is given: "SCENE", "KIND", "OUT.h5". */
+const char *hooke_describe_operand(const struct hooke_verb *verb);
+
+/* The title over the options of a table. */
+const char *hooke_describe_table(const struct hooke_arguments *arguments, const hooke_options *table,
+                                 char title[HOOKE_DOC_SIZE]);
+
+/* A whole command that makes a part of the kind at hand, from the examples of its table. */
+const char *hooke_describe_example(const struct hooke_arguments *arguments, char command[HOOKE_DOC_SIZE]);
+
+/* The words that may follow an option, between blanks: methods, choices; "" if it takes anything. `many` is 1 if it
+ * takes several, with commas between. */
+const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
+                                 int32_t *many);
+
+/* The ending of the files that an option takes, "" for any; NULL if it takes no file. */
+const char *hooke_describe_file(const struct hooke_argument *argument);
+
+/* Code and meaning of exit `i`; NULL past the last. */
+const char *hooke_describe_exit(int32_t i, int32_t *code);
+
+#endif

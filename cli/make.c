@@ -1,0 +1,225 @@
+/* hooke make: writes the scene of one part, from options that are the part's own. */
+#include "describe.h"
+#include "output_file.h"
+#include "print.h"
+#include "report.h"
+#include "value.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct make {
+  const struct hooke_arguments *arguments;
+  const char *output; /* NULL: standard output */
+  hooke_options *run; /* of `arguments`; NULL: nothing of it was given */
+  hooke_system *system;
+  hooke_scene *scene; /* what was made, written and read again */
+};
+
+/* ---- failures, by option ---- */
+
+static int32_t is_missing(const hooke_options *table, int64_t row) {
+  const char *family = hooke_options_row(table, row, "family");
+  return hooke_options_row_number(table, row, "required") == 1.0 &&
+         hooke_options_row(table, row, "default")[0] == '\0' &&
+         !hooke_options_is_set(table, hooke_options_row(table, row, "name")) &&
+         (family[0] == '\0' || hooke_options_is_set(table, family));
+}
+
+/* All that is missing, at once. */
+static int check_required(const struct make *make) {
+  char list[2 * HOOKE_DOC_SIZE] = "";
+  for (int32_t i = 0; i < make->arguments->count; i++) {
+    const struct hooke_argument *argument = &make->arguments->all[i];
+    char example[HOOKE_EXAMPLE_SIZE];
+    if (argument->table != make->arguments->of_kind || !is_missing(argument->table, argument->row)) continue;
+    const char *unit = hooke_options_row(argument->table, argument->row, "unit");
+    const size_t used = strlen(list);
+    hooke_value_example(argument->table, argument->row, example);
+    const char *quote = strchr(example, ';') ? "'" : "";
+    snprintf(list + used, sizeof list - used, "%s--%s (%s%s%s%s)", used ? "; " : "", argument->flag,
+             hooke_options_row(argument->table, argument->row, "doc"), unit[0] ? " [" : "", unit,
+             unit[0] ? "]" : "");
+    const size_t more = strlen(list);
+    if (example[0])
+      snprintf(list + more, sizeof list - more, ", such as --%s %s%s%s", argument->flag, quote, example,
+               quote);
+  }
+  if (!list[0]) return HOOKE_EXIT_DONE;
+  return hooke_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
+}
+
+/* The row of `table` whose name the message begins with; -1: none. */
+static int64_t row_of_message(const hooke_options *table, const char *message) {
+  int64_t found = -1;
+  size_t longest = 0;
+  for (int64_t row = 0; row < hooke_options_row_count(table); row++) {
+    const char *name = hooke_options_row(table, row, "name");
+    const size_t length = strlen(name);
+    if (length <= longest || strncmp(message, name, length) != 0 || !strchr(":[.", message[length])) continue;
+    found = row;
+    longest = length;
+  }
+  return found;
+}
+
+/* A failure of the library, whose place is an option; one that has none may be about what is not there. */
+static int report_option(const struct make *make, const hooke_options *table, int32_t status) {
+  const char *message = hooke_last_error();
+  const int64_t row = row_of_message(table, message);
+  char flag[HOOKE_FLAG_SIZE], example[HOOKE_DOC_SIZE];
+  if (row < 0 && status == HOOKE_BAD_VALUE) {
+    return hooke_report(make->arguments, hooke_exit_code(status), "%s; for example: %s", message,
+                        hooke_describe_example(make->arguments, example));
+  }
+  if (row < 0) return hooke_report_status(make->arguments, status);
+  const char *name = hooke_options_row(table, row, "name");
+  hooke_arguments_flag(name, flag);
+  return hooke_report(make->arguments, hooke_exit_code(status), "--%s%s", flag, message + strlen(name));
+}
+
+/* ---- making ---- */
+
+/* The scene does not hang on the file of a mesh, which may be anywhere. */
+static int read_file(const struct make *make) {
+  hooke_options *part = make->arguments->of_kind;
+  if (!hooke_options_is_set(part, "file")) return HOOKE_EXIT_DONE;
+  const int32_t status = hooke_mesh_read(hooke_options_text(part, "file"), part);
+  if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
+  if (row_of_message(part, hooke_last_error()) >= 0) return report_option(make, part, status);
+  return hooke_report(make->arguments, hooke_exit_code(status), "--file %s", hooke_last_error());
+}
+
+static const char *text_of(const struct make *make, const char *name, const char *otherwise) {
+  const char *text = hooke_arguments_text(make->arguments, name);
+  return text ? text : otherwise;
+}
+
+static int build(struct make *make) {
+  const struct hooke_arguments *arguments = make->arguments;
+  int32_t status = hooke_system_create(&make->system);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  status = hooke_scene_options_apply(arguments->more, make->system);
+  if (status != HOOKE_OK) return report_option(make, arguments->more, status);
+  const int code = read_file(make);
+  if (code != HOOKE_EXIT_DONE) return code;
+  status = hooke_system_add_part(make->system, arguments->scene, text_of(make, "name", arguments->scene),
+                                 arguments->of_kind, NULL, NULL);
+  if (status == HOOKE_OK) status = hooke_system_commit(make->system);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : report_option(make, arguments->of_kind, status);
+}
+
+/* Times that do not fit each other are found where a run is made of them. */
+static int check_run(const struct make *make) {
+  if (!make->run) return HOOKE_EXIT_DONE;
+  const char *method = hooke_options_text(make->run, "method");
+  hooke_integrator *integrator = NULL;
+  if (!hooke_method_is_built(method)) {
+    hooke_report_words(make->arguments,
+                       "warning: %s is not in this build of hooke, which cannot run the scene", method);
+    return HOOKE_EXIT_DONE;
+  }
+  if (hooke_method_is_adaptive(method) == 0 && !hooke_options_is_set(make->run, "step"))
+    return HOOKE_EXIT_DONE;
+  const int32_t status = hooke_integrator_create(make->system, make->run, &integrator);
+  hooke_integrator_destroy(integrator);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : report_option(make, make->run, status);
+}
+
+/* What is written is read as every verb will read it. */
+static int read_back(struct make *make) {
+  const char *name = make->output ? make->output : "standard output";
+  const char *slash = make->output ? strrchr(make->output, '/') : NULL;
+  char *folder = slash ? strndup(make->output, (size_t)(slash - make->output + 1)) : strdup(".");
+  if (!folder) return hooke_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  int32_t status = hooke_scene_of_system(make->system, hooke_options_text(make->arguments->more, "title"),
+                                         make->run, name, folder, &make->scene);
+  if (status == HOOKE_OK) status = hooke_scene_commit(make->scene);
+  free(folder);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(make->arguments, status);
+}
+
+/* ---- telling ---- */
+
+static void print_json(const struct make *make) {
+  struct hooke_json json;
+  hooke_json_begin(&json, stdout);
+  hooke_json_text(&json, "scene", make->output);
+  hooke_json_text(&json, "kind", make->arguments->scene);
+  hooke_json_count(&json, "particles", hooke_system_particle_count(make->system));
+  hooke_json_count(&json, "springs", hooke_system_spring_count(make->system));
+  hooke_json_end(&json);
+}
+
+/* What was made; and for a step that was not given, who knows it. */
+static void tell(const struct make *make) {
+  const int64_t particles = hooke_system_particle_count(make->system);
+  if (make->arguments->quiet) return;
+  hooke_report_words(
+      make->arguments, "%s: a %s of %" PRId64 " particles (%" PRId64 " pinned), %" PRId64 " springs",
+      make->output ? make->output : "standard output", make->arguments->scene, particles,
+      particles - hooke_system_free_count(make->system), hooke_system_spring_count(make->system));
+  if (!make->output || (make->run && hooke_options_is_set(make->run, "step"))) return;
+  fputs("the largest stable steps: hooke limit ", stderr);
+  hooke_print_quoted(stderr, make->output);
+  fputs(" --predict\n", stderr);
+}
+
+static int write(const struct make *make) {
+  if (!make->output) {
+    fputs(hooke_scene_text(make->scene), stdout);
+    return HOOKE_EXIT_DONE;
+  }
+  const int32_t status = hooke_scene_write(make->output, make->system,
+                                           hooke_options_text(make->arguments->more, "title"), make->run);
+  if (status != HOOKE_OK) return hooke_report_status(make->arguments, status);
+  if (make->arguments->json) print_json(make);
+  return HOOKE_EXIT_DONE;
+}
+
+static int do_make(const struct hooke_arguments *arguments) {
+  struct make make = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
+  if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
+  for (int64_t row = 0; row < hooke_options_row_count(arguments->run); row++) {
+    if (hooke_options_is_set(arguments->run, hooke_options_row(arguments->run, row, "name")))
+      make.run = arguments->run;
+  }
+  int code = make.output ? hooke_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
+  if (code == HOOKE_EXIT_DONE) code = check_required(&make);
+  if (code == HOOKE_EXIT_DONE) code = build(&make);
+  if (code == HOOKE_EXIT_DONE) code = check_run(&make);
+  if (code == HOOKE_EXIT_DONE) code = read_back(&make);
+  if (code == HOOKE_EXIT_DONE) code = write(&make);
+  if (code == HOOKE_EXIT_DONE) tell(&make);
+  hooke_scene_destroy(make.scene);
+  hooke_system_destroy(make.system);
+  return code;
+}
+
+static int32_t scene_options(hooke_options **options) {
+  return hooke_scene_options_create("scene", options);
+}
+
+static const struct hooke_verb_row own_rows[] = {
+    {"output", 'o', "SCENE.json",
+     "writes the scene there, replacing it; without it, or with -, to standard output"},
+    {"name", 0, "NAME", "name of the part, before those of its spring groups; default: its kind"},
+};
+
+const struct hooke_verb hooke_verb_make = {
+    .name = "make",
+    .summary = "writes a scene of one part, such as a cloth, from options",
+    .text = "Writes a scene of one part. Every key of the part, of the scene and of its run is an option; "
+            "those of its springs have the family in front, such as --structural.stiffness. Vectors are "
+            "written 0,-9.81,0, several of them 1,0,0;0,0,1 (or the option again), sizes 64x64. Nothing is "
+            "written before the scene was built, and read again.",
+    .example = "hooke make cloth --size 8x8 --edges '1,0,0;0,0,1' --mass 1 --pinned top-corners "
+               "--structural.stiffness 100 "
+               "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 0.5 -o cloth.json",
+    HOOKE_VERB_ROWS(own_rows),
+    .options = scene_options,
+    .kind_options = hooke_part_options_create,
+    .function = do_make,
+};

@@ -1,0 +1,10 @@
+/* The manual page. */
+#ifndef HOOKE_CLI_MAN_H
+#define HOOKE_CLI_MAN_H
+
+#include "program.h"
+
+/* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if that is set, else today. */
+void hooke_man_print(const struct hooke_program *program);
+
+#endif

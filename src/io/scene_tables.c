@@ -1,0 +1,110 @@
+/* The keys of a scene that neither a part, nor springs, nor a run has. */
+#include "core/option.h"
+#include "core/status.h"
+#include "hooke/io.h"
+
+#include <string.h>
+
+static const struct hooke_option_row scene_rows[] = {
+    {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
+    {.name = "gravity",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m/s^2",
+     .min_count = 3,
+     .max_count = 3,
+     .doc = "acceleration of every free particle"},
+    {.name = "drag",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "N s/m",
+     .high = 1e300,
+     .doc = "ether drag f = -c v on every free particle"},
+};
+
+static const struct hooke_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
+
+static const struct hooke_option_row particle_rows[] = {
+    {.name = "position",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .columns = 3,
+     .required = 1,
+     .doc = "one row a particle"},
+    {.name = "velocity",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m/s",
+     .min_count = 3,
+     .columns = 3,
+     .doc = "one row a particle; without it all are at rest"},
+    {.name = "mass",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "kg",
+     .high = 1e300,
+     .above_low = 1,
+     .min_count = 1,
+     .required = 1,
+     .doc = "one number, or one a particle"},
+    {.name = "pinned",
+     .type = HOOKE_OPTION_NUMBERS,
+     .whole = 1,
+     .high = 2147483647,
+     .doc = "numbers of particles that are held still"},
+};
+
+static const struct hooke_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};
+
+static const struct hooke_option_row drive_rows[] = {
+    {.name = "motion",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "harmonic table",
+     .required = 1,
+     .doc = "kind of motion"},
+    {.name = "amplitude",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .doc = "harmonic: largest displacement"},
+    {.name = "frequency",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "Hz",
+     .high = 1e300,
+     .doc = "harmonic: oscillations a second"},
+    {.name = "phase", .type = HOOKE_OPTION_NUMBER, .unit = "rad", .doc = "harmonic: angle at time 0"},
+    {.name = "time",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "s",
+     .min_count = 2,
+     .doc = "table: ascending times"},
+    {.name = "position",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 6,
+     .columns = 3,
+     .doc = "table: displacement at each time"},
+};
+
+static const struct hooke_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
+
+int32_t hooke_scene_options_create(const char *what, hooke_options **options) {
+  static const struct hooke_option_table *const tables[] = {&scene_table, &particle_table, &drive_table};
+  *options = NULL;
+  for (size_t k = 0; what && k < sizeof tables / sizeof tables[0]; k++)
+    if (strcmp(tables[k]->name, what) == 0) return hooke_options_create(tables[k], options);
+  return hooke_fail(HOOKE_BAD_VALUE, "what",
+                    "there is no table called \"%s\"; allowed: scene, particles, driven", what ? what : "");
+}
+
+int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
+  if (options == NULL || hooke_options_table(options) != &scene_table) {
+    return hooke_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "the options are not those of a scene; make them with hooke_scene_options_create(\"scene\", ...)");
+  }
+  int32_t status = HOOKE_OK;
+  if (hooke_options_is_set(options, "gravity"))
+    status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
+  if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
+    status = hooke_system_set_drag(system, hooke_options_number(options, "drag"));
+  return status;
+}
