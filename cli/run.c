@@ -92,10 +92,8 @@ static int32_t prepare(struct run *run) {
   run->duration = option_of(run, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
-  if (status == HOOKE_OK && !run->arguments->quiet) {
+  if (status == HOOKE_OK && !run->arguments->quiet)
     status = hooke_integrator_on_warning(run->integrator, see_warning, run);
-    if (status == HOOKE_NOT_BUILT) status = HOOKE_OK; /* then nobody warns */
-  }
   if (status != HOOKE_OK || !run->output) return status;
   status = hooke_trajectory_create(run->output, run->setup.system, run->integrator,
                                    hooke_scene_text(run->setup.scene), &run->trajectory);

@@ -124,6 +124,7 @@ void hooke_usage_print_version(FILE *file) {
   fprintf(file, "hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   print_part(file, "SUNDIALS", "sundials");
   print_part(file, "CHOLMOD", "cholmod");
+  print_part(file, "LAPACK", "lapack");
   print_part(file, "GSL", "gsl");
   print_part(file, "ARPACK-NG", "arpack");
   print_part(file, "HDF5", "hdf5");

@@ -1,25 +1,34 @@
 # The libraries that hooke can use, as imported targets hooke_dep::<name>. Read by the build and, for the static
 # library, by the installed package.
 
-# hooke_find_library(<name> HEADER <file> LIBRARIES <a|b>... [OPTIONAL <a>...] [SUFFIXES <dir>...]
+# hooke_find_library(<name> [HEADER <file>] LIBRARIES <a|b>... [OPTIONAL <a>...] [ARCHIVES <a>...] [SUFFIXES <dir>...]
 #                    VERSION <file> <pattern>)
 # Alternatives to a library name are separated by "|". Sets HOOKE_<NAME>_FOUND and HOOKE_<NAME>_VERSION.
+# With HOOKE_STATIC_PARTS archives alone are found, and those that they ask for (ARCHIVES).
 function(hooke_find_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "LIBRARIES;OPTIONAL;SUFFIXES;VERSION")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "LIBRARIES;OPTIONAL;ARCHIVES;SUFFIXES;VERSION")
   string(TOUPPER ${name} NAME)
   set(HOOKE_${NAME}_FOUND FALSE PARENT_SCOPE)
 
-  find_path(HOOKE_${NAME}_INCLUDE_DIR ${arg_HEADER} PATH_SUFFIXES ${arg_SUFFIXES})
-  mark_as_advanced(HOOKE_${NAME}_INCLUDE_DIR)
-  if(NOT HOOKE_${NAME}_INCLUDE_DIR)
-    return()
+  set(folder)
+  if(arg_HEADER)
+    find_path(HOOKE_${NAME}_INCLUDE_DIR ${arg_HEADER} PATH_SUFFIXES ${arg_SUFFIXES})
+    mark_as_advanced(HOOKE_${NAME}_INCLUDE_DIR)
+    if(NOT HOOKE_${NAME}_INCLUDE_DIR)
+      return()
+    endif()
+    set(folder "${HOOKE_${NAME}_INCLUDE_DIR}")
   endif()
 
+  if(HOOKE_STATIC_PARTS)
+    set(CMAKE_FIND_LIBRARY_SUFFIXES ${CMAKE_STATIC_LIBRARY_SUFFIX})
+    list(APPEND arg_LIBRARIES ${arg_ARCHIVES})
+  endif()
   set(files)
   foreach(names IN LISTS arg_LIBRARIES arg_OPTIONAL)
     string(MAKE_C_IDENTIFIER "HOOKE_LIBRARY_${names}" variable)
     string(REPLACE "|" ";" alternatives "${names}")
-    find_library(${variable} NAMES ${alternatives} PATH_SUFFIXES ${arg_SUFFIXES})
+    find_library(${variable} NAMES ${alternatives} NAMES_PER_DIR PATH_SUFFIXES ${arg_SUFFIXES})
     mark_as_advanced(${variable})
     if(${variable})
       list(APPEND files "${${variable}}")
@@ -29,7 +38,7 @@ function(hooke_find_library name)
   endforeach()
 
   list(POP_FRONT arg_VERSION version_file version_pattern)
-  cmake_path(ABSOLUTE_PATH version_file BASE_DIRECTORY "${HOOKE_${NAME}_INCLUDE_DIR}")
+  cmake_path(ABSOLUTE_PATH version_file BASE_DIRECTORY "${folder}")
   set(version "")
   if(EXISTS "${version_file}")
     file(STRINGS "${version_file}" version REGEX "${version_pattern}" LIMIT_COUNT 1)
@@ -42,10 +51,20 @@ function(hooke_find_library name)
 
   if(NOT TARGET hooke_dep::${name})
     add_library(hooke_dep::${name} INTERFACE IMPORTED GLOBAL)
-    target_include_directories(hooke_dep::${name} INTERFACE "${HOOKE_${NAME}_INCLUDE_DIR}")
+    target_include_directories(hooke_dep::${name} INTERFACE "${folder}")
     target_link_libraries(hooke_dep::${name} INTERFACE ${files})
   endif()
   set(HOOKE_${NAME}_FOUND TRUE PARENT_SCOPE)
+endfunction()
+
+# OpenBLAS counts by itself.
+function(hooke_name_lapack)
+  if(HOOKE_LAPACK_FOUND AND EXISTS "${HOOKE_LAPACK_VERSION_FILE}")
+    file(STRINGS "${HOOKE_LAPACK_VERSION_FILE}" name REGEX "^Name:.*openblas")
+    if(name)
+      set(HOOKE_LAPACK_VERSION "${HOOKE_LAPACK_VERSION} (OpenBLAS)" PARENT_SCOPE)
+    endif()
+  endif()
 endfunction()
 
 # Chart.js is no library to link but a file for the page of a report: the bundle for browsers (chart.umd.js from
@@ -81,7 +100,7 @@ function(hooke_read_cholmod_version)
 endfunction()
 
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
-# looked up by name. One of them ("sundials", "cholmod", "gsl", "arpack", "hdf5", "jansson") per call.
+# looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
@@ -97,6 +116,15 @@ macro(hooke_find name)
       SUFFIXES suitesparse
       VERSION cholmod.h "no line has all of it")
     hooke_read_cholmod_version()
+  elseif("${name}" STREQUAL "lapack") # of Fortran: no header
+    find_file(HOOKE_LAPACK_VERSION_FILE lapack.pc
+      PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig lib/pkgconfig share/pkgconfig)
+    mark_as_advanced(HOOKE_LAPACK_VERSION_FILE)
+    hooke_find_library(lapack
+      LIBRARIES lapack
+      ARCHIVES blas
+      VERSION "${HOOKE_LAPACK_VERSION_FILE}" "^Version: *([^ ]+)")
+    hooke_name_lapack()
   elseif("${name}" STREQUAL "gsl")
     hooke_find_library(gsl
       HEADER gsl/gsl_version.h
@@ -114,6 +142,7 @@ macro(hooke_find name)
     hooke_find_library(hdf5 # the serial one
       HEADER hdf5.h
       LIBRARIES "hdf5_serial|hdf5"
+      ARCHIVES z
       SUFFIXES hdf5/serial
       VERSION H5public.h "H5_VERS_INFO +\"HDF5 library version:? ([^\"]+)\"")
   elseif("${name}" STREQUAL "jansson")

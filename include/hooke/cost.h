@@ -37,7 +37,7 @@ HOOKE_API int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state);
 HOOKE_API const char *hooke_cost_method(const hooke_cost *cost);
 
 /* Of the whole scene: "step" [s] that was timed, "nanoseconds" of one step, "resolution" [ns] that differences of it have,
- * "memory_bytes" of system, state and integrator, "step_limit" [s] as hooke_limit_number() has it as "predicted" (NaN without GSL).
+ * "memory_bytes" of system, state and integrator, "step_limit" [s] as hooke_limit_number() has it as "predicted" (NaN without LAPACK).
  * NaN for another word and for what was not found. */
 HOOKE_API double hooke_cost_figure(const hooke_cost *cost, const char *what);
 

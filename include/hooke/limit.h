@@ -4,7 +4,7 @@
  * particles, K with the tension of stretched springs, bending and altitude springs (without their tension), C of springs, altitude
  * springs and drag. The transverse stiffness of a compressed
  * spring, which is negative, counts as zero there: buckling is growth by physics and no limit of a step. Callbacks are left
- * out; springs that only pull count as taut. A limit belongs to one thread at a time. Needs GSL. ARPACK is used where it is
+ * out; springs that only pull count as taut. A limit belongs to one thread at a time. Needs LAPACK. ARPACK is used where it is
  * built in (scenes of 34 to 3333 free particles); it is not made for threads, so searches by it wait for each other.
  *
  * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to stiffness or there is

@@ -12,9 +12,9 @@ extern "C" {
 
 /* A step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from
  * one pass over the springs, not the sharp limit. 0: the method is stable at no step. Infinity: nothing
- * limits it. NaN: no bound is known for this method. HOOKE_BAD_VALUE for an unknown method; HOOKE_NOT_BUILT
- * without GSL; HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode
- * limits as in docs/methods.md. */
+ * limits it. NaN: no bound is known for this method. HOOKE_BAD_VALUE for an unknown method;
+ * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode limits as in
+ * docs/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
 

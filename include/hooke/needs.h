@@ -47,7 +47,7 @@ HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
 
 /* "want" [m]; "method_picked" (1: no method was given); "duration" [s]; "judged_until" [s]: beyond it differences grow so fast
  * that no step would keep its error small, and changes are those up to there; "runs": made so far. Of the full system:
- * "wall_seconds" (stepping alone), "springs", "particles", "step_limit" [s] (predicted with GSL, else hooke_step_bound();
+ * "wall_seconds" (stepping alone), "springs", "particles", "step_limit" [s] (predicted with LAPACK, else hooke_step_bound();
  * infinity: nothing limits it), "step" [s], "rtol", "atol" [m], "steps", "force_evaluations", "step_error" [m] (how far the
  * step may put it off). The same words after "lean_" for the lean system, and "lean_error" [m]: of the run that is
  * recommended, against the full system. NaN where it does not apply. */

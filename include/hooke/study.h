@@ -1,7 +1,7 @@
 /* hooke/study.h - how accurate each method is for what it costs, on one scene, and which one to take.
  *
  * A study makes a reference that checks itself, runs every method over a ladder of steps or tolerances, measures error
- * and cost of each run, fits orders, and recommends. It belongs to one thread at a time. Needs SUNDIALS and GSL.
+ * and cost of each run, fits orders, and recommends. It belongs to one thread at a time. Needs SUNDIALS.
  *
  * Options of a study (hooke_study_options_create): methods (names separated by commas; all that the build has if not
  * given), points (rows a method, >= 6), steps [s] and tolerances (ladders of one's own), want [m], budget [s]. */

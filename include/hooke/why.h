@@ -21,7 +21,7 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Has the runs of `integrator` watched: at the start, then at as many of the checks for divergence as cost less than a
  * hundredth of the stepping. Results do not depend on it. NULL takes it back. A method without a bound is never warned of.
- * HOOKE_UNSUITED for a first-order problem; HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+ * HOOKE_UNSUITED for a first-order problem; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 
@@ -32,7 +32,7 @@ typedef struct hooke_why hooke_why;
 /* Why the last run (or steps) of `integrator` ended early. It takes the last steps again and tries what it advises, so
  * callbacks are called again; the work is bounded, to some seconds.
  * HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a first-order problem; HOOKE_STOPPED if a callback asked
- * for it; HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+ * for it; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, hooke_why **why);
 
 /* The same from states that were kept of a run with the options `run`: the one it began with and the last good one, from

@@ -25,6 +25,7 @@ const char *hooke_build_fact(const char *what) {
   if (!what) return NULL;
   if (!strcmp(what, "sundials")) return HOOKE_SUNDIALS_VERSION;
   if (!strcmp(what, "cholmod")) return HOOKE_CHOLMOD_VERSION;
+  if (!strcmp(what, "lapack")) return HOOKE_LAPACK_VERSION;
   if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
   if (!strcmp(what, "arpack")) return HOOKE_ARPACK_VERSION;
   if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;

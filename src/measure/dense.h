@@ -1,4 +1,4 @@
-/* Dense eigenvalues, by GSL; all return HOOKE_NOT_BUILT without it, and HOOKE_NO_MEMORY. Matrices are in rows. */
+/* Dense eigenvalues, by LAPACK; all return HOOKE_NOT_BUILT without it, and HOOKE_NO_MEMORY. Matrices are in rows. */
 #ifndef HOOKE_MEASURE_DENSE_H
 #define HOOKE_MEASURE_DENSE_H
 

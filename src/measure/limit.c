@@ -99,8 +99,8 @@ int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
                            hooke_limit **out) {
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  if (!HOOKE_HAVE_GSL)
-    return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need GSL, which this build is without");
+  if (!HOOKE_HAVE_LAPACK)
+    return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
   hooke_limit *limit = hooke_new(1, sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
   limit->system = system;

@@ -22,7 +22,7 @@ int32_t hooke_limit_rule_damps_implicitly(const char *method);
 /* HOOKE_BAD_VALUE for an unknown method. */
 int32_t hooke_limit_rule(struct hooke_spectrum *spectrum, const char *method, struct hooke_prediction *out);
 
-/* How far from 0 Runge-Kutta 4 is stable on the ray to (real, imaginary), real <= 0 (stable_ray_gsl.c). */
+/* How far from 0 Runge-Kutta 4 is stable on the ray to (real, imaginary), real <= 0 (stable_ray.c). */
 double hooke_rk4_reach(double real, double imaginary);
 
 #endif

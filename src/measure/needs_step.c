@@ -30,7 +30,7 @@ struct search {
   double ratio; /* atol / rtol */
   double value; /* of the coarser of two runs */
   double first_stable;
-  int32_t has_limit; /* 0: nothing is known of a stable step, as in a build without GSL */
+  int32_t has_limit; /* 0: nothing is known of a stable step, as in a build without LAPACK */
   double error;      /* of the last pair; how far it agreed; how often in a row that did not improve */
   int64_t frames;
   int32_t stalls;

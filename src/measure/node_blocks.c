@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/eigen.h"
 #include "model/spring_batch.h"
 
 #include <math.h>
@@ -63,8 +64,6 @@ static void add_tetrahedron(struct hooke_node_blocks *blocks, const struct hooke
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks) {
   *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
-  const int32_t status = hooke_eigen_create(&blocks->eigen);
-  if (status != HOOKE_OK) return status;
   blocks->stiffness = hooke_new(6 * system->particle_count, sizeof(double));
   blocks->damping = hooke_new(6 * system->particle_count, sizeof(double));
   if (blocks->stiffness == NULL || blocks->damping == NULL) {
@@ -101,7 +100,6 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
 }
 
 void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
-  hooke_eigen_destroy(blocks->eigen);
   hooke_free(blocks->stiffness);
   hooke_free(blocks->damping);
   memset(blocks, 0, sizeof *blocks);
@@ -133,7 +131,7 @@ static double largest_rate(const struct hooke_node_blocks *blocks, const double 
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
     if (blocks->system->held[p]) continue;
     if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
-    most = fmax(most, hooke_eigen_largest(blocks->eigen, block + 6 * p) * blocks->system->inverse_mass[p]);
+    most = fmax(most, hooke_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
   }
   return most;
 }
@@ -164,7 +162,7 @@ static double growth(const struct hooke_node_blocks *blocks, int64_t p, double h
   for (int k = 0; k < 6; k++) {
     matrix[k] = h * (h * blocks->stiffness[6 * p + k] + 2.0 * blocks->damping[6 * p + k]);
   }
-  return hooke_eigen_largest(blocks->eigen, matrix) * blocks->system->inverse_mass[p];
+  return hooke_eigen_largest(matrix) * blocks->system->inverse_mass[p];
 }
 
 /* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */

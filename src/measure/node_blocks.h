@@ -7,12 +7,10 @@
 #ifndef HOOKE_MEASURE_NODE_BLOCKS_H
 #define HOOKE_MEASURE_NODE_BLOCKS_H
 
-#include "measure/eigen.h"
 #include "model/system.h"
 
 struct hooke_node_blocks {
   const hooke_system *system;
-  struct hooke_eigen *eigen;
   double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio;          /* smallest gamma/kappa of a stiff spring, infinity without one */
   int32_t
@@ -20,7 +18,7 @@ struct hooke_node_blocks {
                     has none */
 };
 
-/* At positions q (3n). HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+/* At positions q (3n). HOOKE_NO_MEMORY. */
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks);
 /* The same again at other positions, in the memory there is. */

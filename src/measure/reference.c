@@ -34,7 +34,6 @@ int32_t hooke_reference_method(const hooke_system *system, const double *q, cons
   struct hooke_node_blocks blocks;
   const int32_t status = hooke_node_blocks_create(system, q, &blocks);
   *method = "cvode-adams";
-  if (status == HOOKE_NOT_BUILT) return HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (hooke_node_blocks_damping_rate(&blocks) > 2.0 * hooke_node_blocks_frequency(&blocks))
     *method = "cvode-bdf";

@@ -25,7 +25,7 @@ struct hooke_spectrum {
 };
 
 /* `start`: the stiffest mode of a state near by, or NULL. `extremes`: the stiffest mode alone, and whether damping is in
- * proportion. The linearised system must outlive it. HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+ * proportion. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 int32_t hooke_spectrum_create(struct hooke_linearised *linearised, double accuracy, int32_t extremes,
                               const double *start, struct hooke_spectrum *spectrum);
 void hooke_spectrum_release(struct hooke_spectrum *spectrum);

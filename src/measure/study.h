@@ -101,7 +101,7 @@ int32_t hooke_study_run_ladders(hooke_study *study);
 /* The recommendation, until the deadline. */
 int32_t hooke_study_find_cheapest(hooke_study *study, double want);
 
-/* Least squares of log error on log step for a method (order_gsl.c). */
+/* Least squares of log error on log step for a method (order.c). */
 void hooke_study_fit_order(hooke_study *study, int32_t method);
 
 /* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */

@@ -4,8 +4,8 @@
 
 #include "measure/linearised.h"
 
-/* The largest eigenvalue, in the units of the linearised system, to about the relative `accuracy`; and its mode (3n, x.Mx = 1). `start` (3n) is the mode of a problem near by, or NULL. Dense by GSL for few
- * unknowns, by ARPACK for more if it is built in, by plain Lanczos else: there part of what is missing is added by estimate. HOOKE_NOT_BUILT without GSL; HOOKE_NO_MEMORY. */
+/* The largest eigenvalue, in the units of the linearised system, to about the relative `accuracy`; and its mode (3n, x.Mx = 1). `start` (3n) is the mode of a problem near by, or NULL. Dense by LAPACK for few
+ * unknowns, by ARPACK for more if it is built in, by plain Lanczos else: there part of what is missing is added by estimate. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 int32_t hooke_top_mode(struct hooke_linearised *linearised, double a, double b, const double *start,
                        double accuracy, double *value, double *mode);
 

@@ -36,6 +36,9 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
     return hooke_fail(HOOKE_BAD_CALL, NULL,
                       "the last run of this integrator did not blow up: there is nothing to explain");
   }
+  if (!HOOKE_HAVE_LAPACK) {
+    return hooke_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
+  }
   if (run->recent.room == 0) {
     return hooke_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
   }

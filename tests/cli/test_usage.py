@@ -56,7 +56,7 @@ def test_version_says_what_it_was_built_with(hooke):
     facts = dict(line.split(None, 1) for line in answer.out.splitlines())
     assert re.fullmatch(r"\d+\.\d+\.\d+", facts["hooke"])
     assert facts["ABI"].isdigit()
-    for library in ["SUNDIALS", "CHOLMOD", "GSL", "HDF5", "jansson"]:
+    for library in ["SUNDIALS", "CHOLMOD", "LAPACK", "GSL", "HDF5", "jansson"]:
         if MINIMAL:
             assert facts[library] == "not in this build"
         else:

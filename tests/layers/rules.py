@@ -37,11 +37,15 @@ FENCES = [
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
     (r"cholmod\.h", r"src/integrate/\w+_cholmod\.c"),
-    (r"gsl/.*", r"src/(integrate|measure)/\w+_gsl\.[ch]"),
+    (r"lapacke?\w*\.h", r"src/measure/\w+_lapack\.c"),
+    (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
     (r"malloc\.h", r"tests/physics/test_scale\.c"),  # of glibc
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
 ]
+
+# Functions of Fortran, which need no header, and the only files that may call them.
+CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/\w+_lapack\.c")]
 
 # Headers of C17, POSIX and the compiler.
 STANDARD = set(
@@ -138,6 +142,14 @@ def include_complaints(path, text):
         if complaint:
             found.append(f"{path}:{line}: {complaint}")
     return found
+
+
+def call_complaints(path, text):
+    """Calls past a fence that no header guards."""
+    clean = without_comments(text)
+    return [f"{path}: {call.group()} is fenced into {allowed}"
+            for pattern, allowed in CALLS if path.startswith(("src/", "cli/")) and not re.fullmatch(allowed, path)
+            for call in re.finditer(pattern, clean)]
 
 
 def leak_complaints(files):

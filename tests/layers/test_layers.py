@@ -23,6 +23,17 @@ def test_includes():
     assert not complaints, "\n".join(complaints)
 
 
+def test_calls():
+    complaints = [c for path, text in tree(".c", ".h") for c in rules.call_complaints(path, text)]
+    assert not complaints, "\n".join(complaints)
+
+
+def test_planted_call():
+    call = "extern void dsyev_(const char *job);\n"
+    assert rules.call_complaints("src/measure/eigen.c", call)
+    assert rules.call_complaints("src/measure/dense_lapack.c", call) == []
+
+
 def test_fences_do_not_leak():
     complaints = rules.leak_complaints(dict(tree(".c", ".h")))
     assert not complaints, "\n".join(complaints)
@@ -68,7 +79,8 @@ def test_every_layer_and_public_header_is_known():
         ("src/integrate/rk8pd.c", "#include <gsl/gsl_odeiv2.h>"),
         ("src/integrate/factor.c", "#include <cholmod.h>"),
         ("src/integrate/factor_cholmod.h", "#include <cholmod.h>"),
-        ("src/measure/order.c", "#include <gsl/gsl_fit.h>"),
+        ("src/measure/order_gsl.c", "#include <gsl/gsl_fit.h>"),
+        ("src/measure/eigen.c", "#include <lapack.h>"),
         ("src/model/system.c", "#include <mpi.h>"),
         ("src/model/system.c", "#include <cmocka.h>"),
         ("include/hooke/io.h", "#include <hdf5.h>"),
@@ -100,7 +112,7 @@ def test_planted_leak():
         ("src/integrate/sundials_problem.h", "#include <nvector/nvector_serial.h>"),
         ("src/integrate/rk8pd_gsl.c", "#include <gsl/gsl_odeiv2.h>"),
         ("src/integrate/factor_cholmod.c", "#include <cholmod.h>"),
-        ("src/measure/order_gsl.c", "#include <gsl/gsl_fit.h>"),
+        ("src/measure/dense_lapack.c", "#include <lapacke.h>"),
         ("src/io/report.c", '#include "build/rope.h"'),
         ("src/measure/energy.c", '#include "hooke/integrator.h"'),
         ("src/core/status.c", '/* #include "io/scene.h" */'),

@@ -187,7 +187,7 @@ function writeMachine() {
   fact("machine", "system", machine.system);
   fact("machine", "instructions", versions.instructions);
   fact("machine", "hooke", versions.hooke);
-  const names = { sundials: "SUNDIALS", cholmod: "CHOLMOD", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
+  const names = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
     jansson: "jansson", chartjs: "Chart.js" };
   for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
   fact("machine", "licence", versions.licence);

@@ -98,7 +98,7 @@ def load() -> Library:
         except (OSError, ImportError) as error:
             failures.append(f"{path}: {error}")
     raise ImportError(
-        "the hooke library was not found. Either install this package with `pip install ./bindings/python`, "
+        "the hooke library was not found. Either install this package with `pip install .`, "
         "which builds the library into it, or set the environment variable HOOKE_LIBRARY to the path of "
         "libhooke.so" + "".join(f"\n  tried {failure}" for failure in failures)
     )

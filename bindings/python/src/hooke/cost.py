@@ -33,7 +33,7 @@ class Cost:
 
     `method` is what was timed: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its step;
     `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and integrator,
-    `step_limit` [s] of the whole scene (NaN without GSL). `outcome` is "finished" or "stopped".
+    `step_limit` [s] of the whole scene (NaN without LAPACK). `outcome` is "finished" or "stopped".
     """
 
     outcome: str

@@ -1,0 +1,10 @@
+# In an unpacked source: the patches of debian/ at URL, with its SHA256.
+file(DOWNLOAD ${URL} debian.tar.xz EXPECTED_HASH SHA256=${SHA256})
+file(ARCHIVE_EXTRACT INPUT debian.tar.xz PATTERNS debian/patches debian/copyright)
+set(names)
+if(EXISTS debian/patches/series)
+  file(STRINGS debian/patches/series names REGEX "^[^# ]")
+endif()
+foreach(name IN LISTS names)
+  execute_process(COMMAND patch -p1 --forward --input debian/patches/${name} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+endforeach()

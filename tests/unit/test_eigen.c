@@ -1,0 +1,203 @@
+/* Eigenvalues, the line through an order, and the reach of Runge-Kutta 4, against closed forms. */
+#include "measure/dense.h"
+#include "measure/eigen.h"
+#include "measure/limit_rules.h"
+#include "measure/study.h"
+
+#include "check.h"
+
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* R diag(value) R^T with the rotation R about (1, 2, 3) by `angle`. */
+static void rotated(const double value[3], double angle, double matrix[6]) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  const double size = sqrt(14.0), u[3] = {1.0 / size, 2.0 / size, 3.0 / size};
+  const double c = cos(angle), s = sin(angle);
+  const double cross[3][3] = {{0.0, -u[2], u[1]}, {u[2], 0.0, -u[0]}, {-u[1], u[0], 0.0}};
+  double r[3][3];
+  for (int a = 0; a < 3; a++) {
+    for (int b = 0; b < 3; b++)
+      r[a][b] = (a == b ? c : 0.0) + s * cross[a][b] + (1.0 - c) * u[a] * u[b];
+  }
+  memset(matrix, 0, 6 * sizeof(double));
+  for (int k = 0; k < 6; k++) {
+    for (int m = 0; m < 3; m++)
+      matrix[k] += r[row[k]][m] * value[m] * r[column[k]][m];
+  }
+}
+
+static void test_three_by_three(void **unused) {
+  (void)unused;
+  static const double values[][3] = {{3, 1, 2},         {5, 5, 1},           {5, 1, 1},      {2, 2, 2},
+                                     {-1, -2, -3},      {0, 0, 0},           {1e-9, 1, 1},   {1, 1 + 1e-9, 1},
+                                     {1e200, 1, 1e-20}, {1e-200, 3e-200, 0}, {0, -4e150, 0}, {7, 0, 0}};
+  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
+    const double *v = values[k];
+    const double largest = fmax(v[0], fmax(v[1], v[2]));
+    const double size = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    for (int turn = 0; turn <= 20; turn++) {
+      double matrix[6];
+      rotated(v, 0.37 * turn, matrix);
+      assert_true(fabs(hooke_eigen_largest(matrix) - largest) <= 16.0 * DBL_EPSILON * size);
+    }
+  }
+  for (int k = 0; k < 6; k++) {
+    double matrix[6] = {3, 2, 1, 0.1, 0.2, 0.3};
+    matrix[k] = NAN;
+    assert_true(isnan(hooke_eigen_largest(matrix)));
+  }
+}
+
+/* A chain of n unit masses and springs between walls: 4 sin^2(k pi/(2 (n + 1))). */
+enum { CHAIN = 40 };
+
+static double chain_value(int k) {
+  const double s = sin(k * acos(-1.0) / (2.0 * (CHAIN + 1)));
+  return 4.0 * s * s;
+}
+
+static void fill_chain(double *matrix) {
+  memset(matrix, 0, CHAIN * CHAIN * sizeof(double));
+  for (int k = 0; k < CHAIN; k++) {
+    matrix[k * CHAIN + k] = 2.0;
+    if (k > 0) matrix[k * CHAIN + k - 1] = matrix[(k - 1) * CHAIN + k] = -1.0;
+  }
+}
+
+static void test_chain(void **unused) {
+  (void)unused;
+  static double matrix[CHAIN * CHAIN], vector[CHAIN * CHAIN], value[CHAIN], diagonal[CHAIN], beside[CHAIN];
+  fill_chain(matrix);
+  const int32_t status = hooke_dense_symmetric(CHAIN, matrix, value, NULL);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_ok(status);
+  for (int k = 0; k < CHAIN; k++)
+    assert_true(fabs(value[k] - chain_value(CHAIN - k)) < 1e-14);
+  fill_chain(matrix);
+  check_ok(hooke_dense_symmetric(CHAIN, matrix, value, vector));
+  fill_chain(matrix);
+  for (int k = 0; k < CHAIN; k++) {
+    double square = 0.0;
+    for (int i = 0; i < CHAIN; i++) {
+      double image = 0.0;
+      for (int j = 0; j < CHAIN; j++)
+        image += matrix[i * CHAIN + j] * vector[k * CHAIN + j];
+      assert_true(fabs(image - chain_value(CHAIN - k) * vector[k * CHAIN + i]) < 1e-13);
+      square += vector[k * CHAIN + i] * vector[k * CHAIN + i];
+    }
+    assert_true(fabs(square - 1.0) < 1e-14);
+  }
+  double top[2], last[CHAIN];
+  for (int k = 0; k < CHAIN; k++) {
+    diagonal[k] = 2.0;
+    beside[k] = -1.0;
+  }
+  check_ok(hooke_dense_tridiagonal(CHAIN, diagonal, beside, &top[0], NULL));
+  check_ok(hooke_dense_tridiagonal(CHAIN, diagonal, beside, &top[1], last));
+  assert_true(fabs(top[0] - chain_value(CHAIN)) < 1e-14 && fabs(top[1] - top[0]) < 1e-14);
+  for (int k = 0; k < CHAIN; k++)
+    assert_true(fabs(fabs(last[k]) - fabs(vector[k])) < 1e-13);
+}
+
+/* With C = b K a mode of the chain has lambda^2 + b w lambda + w = 0. */
+static void test_damped_chain(void **unused) {
+  (void)unused;
+  static double stiffness[CHAIN * CHAIN], damping[CHAIN * CHAIN];
+  const double b = 1.1; /* some modes oscillate, some creep */
+  struct hooke_damped_modes modes;
+  fill_chain(stiffness);
+  for (int k = 0; k < CHAIN * CHAIN; k++)
+    damping[k] = b * stiffness[k];
+  const int32_t status = hooke_dense_damped(CHAIN, stiffness, damping, &modes);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_ok(status);
+  int expected = 0;
+  for (int k = 1; k <= CHAIN; k++) {
+    const double w = chain_value(k), under = b * b * w * w / 4.0 - w;
+    for (int sign = -1; sign <= (under > 0.0 ? 1 : -1); sign += 2, expected++) {
+      const double real = -b * w / 2.0 + (under > 0.0 ? sign * sqrt(under) : 0.0);
+      const double imaginary = under > 0.0 ? 0.0 : sqrt(-under);
+      double nearest = INFINITY;
+      for (int64_t m = 0; m < modes.count; m++)
+        nearest = fmin(nearest, hypot(modes.real[m] - real, modes.imaginary[m] - imaginary));
+      assert_true(nearest < 1e-12);
+    }
+  }
+  assert_true(modes.count == expected && expected > CHAIN);
+  for (int64_t m = 0; m < modes.count; m++) {
+    const double *re = modes.vector_real + m * CHAIN, *im = modes.vector_imaginary + m * CHAIN;
+    const double x = modes.real[m], y = modes.imaginary[m];
+    /* lambda^2 v + (1 + b lambda) K v */
+    for (int i = 0; i < CHAIN; i++) {
+      double kr = 0.0, ki = 0.0;
+      for (int j = 0; j < CHAIN; j++) {
+        kr += stiffness[i * CHAIN + j] * re[j];
+        ki += stiffness[i * CHAIN + j] * im[j];
+      }
+      const double ar = (x * x - y * y) * re[i] - 2.0 * x * y * im[i] + (1.0 + b * x) * kr - b * y * ki;
+      const double ai = (x * x - y * y) * im[i] + 2.0 * x * y * re[i] + (1.0 + b * x) * ki + b * y * kr;
+      assert_true(hypot(ar, ai) < 1e-12);
+    }
+  }
+  hooke_damped_modes_release(&modes);
+}
+
+static void test_not_finite(void **unused) {
+  (void)unused;
+  static const double bad[] = {NAN, INFINITY};
+  for (int k = 0; k < 2; k++) {
+    double matrix[4] = {1.0, bad[k], bad[k], 1.0}, value[2], unit[4] = {1.0, 0.0, 0.0, 1.0};
+    struct hooke_damped_modes modes;
+    const int32_t status = hooke_dense_symmetric(2, matrix, value, NULL);
+    if (status == HOOKE_NOT_BUILT) skip();
+    check_status(status, HOOKE_SOLVER_FAILED);
+    check_status(hooke_dense_damped(2, matrix, unit, &modes), HOOKE_SOLVER_FAILED);
+    check_status(hooke_dense_tridiagonal(2, matrix, matrix + 1, value, NULL), HOOKE_SOLVER_FAILED);
+  }
+}
+
+/* Errors h^2 times exp(+d), exp(-2 d), exp(+d) at three steps: slope 2, its half width 12.7062 sqrt(6 d^2/(2 L^2)). */
+static void test_line(void **unused) {
+  (void)unused;
+  enum { ROWS = 3 };
+  const double d = 0.01;
+  struct hooke_study_row row[ROWS] = {{.method = 0}};
+  hooke_study study = {.method_count = 1,
+                       .method = {"verlet"},
+                       .reference = {.agreement = 1e-12, .extent = 1.0},
+                       .row_count = ROWS,
+                       .row = row};
+  for (int k = 0; k < ROWS; k++) {
+    row[k].value = 0.01 * exp2(-k);
+    row[k].trial.error = row[k].value * row[k].value * exp(k == 1 ? -2.0 * d : d);
+  }
+  hooke_study_fit_order(&study, 0);
+  const double half = 12.706204736174698 * sqrt(3.0) * d / log(2.0);
+  assert_true(fabs(study.order[0].order - 2.0) < 1e-12);
+  assert_true(fabs(study.order[0].high - 2.0 - half) < 1e-11 * half);
+  assert_true(fabs(2.0 - study.order[0].low - half) < 1e-11 * half);
+}
+
+static void test_reach(void **unused) {
+  (void)unused;
+  const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
+  assert_true(fabs(hooke_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
+  assert_true(fabs(hooke_rk4_reach(-3.0, 0.0) - real) < 2e-15);
+  for (double x = -1.0; x <= 0.0; x += 0.125) {
+    const double y = x + 1.0, reach = hooke_rk4_reach(x, y);
+    const double complex z = reach / hypot(x, y) * (x + y * I);
+    assert_true(fabs(cabs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) - 1.0) < 1e-13);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_three_by_three), cmocka_unit_test(test_chain),
+      cmocka_unit_test(test_damped_chain),   cmocka_unit_test(test_not_finite),
+      cmocka_unit_test(test_line),           cmocka_unit_test(test_reach),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

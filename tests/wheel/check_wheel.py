@@ -1,0 +1,105 @@
+"""A wheel as a user without anything else has it: python check_wheel.py, in an environment where it is installed with h5py.
+Everything that the library can do is done once, and nothing of the machine but its C library may have been loaded."""
+
+import ctypes
+import importlib.metadata
+import os
+import re
+import sys
+import tempfile
+import threading
+import warnings
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+C_LIBRARY = re.compile(r"/(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libutil)(-2\.\d+)?\.so[.\d]*$")
+SCENE = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "parts": [
+        {"kind": "cloth", "name": "cloth", "size": [8, 8], "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 0.5,
+         "structural": {"stiffness": 60, "damping": 0.01}, "shear": {"stiffness": 20}, "pinned": "top-corners"}
+    ],
+}
+
+
+def loaded():
+    maps = (line.split(None, 5) for line in open("/proc/self/maps", encoding="utf-8"))
+    return {row[5].strip() for row in maps if len(row) > 5 and ".so" in row[5]}
+
+
+before = loaded()
+import hooke  # noqa: E402
+from hooke._library import lib  # noqa: E402
+
+facts = hooke.build_facts()
+inside = Path(hooke.__file__).parent
+tags = re.findall(r"^Tag: (.*)$", importlib.metadata.distribution("libhooke").read_text("WHEEL"), re.MULTILINE)
+assert tags == ["py3-none-manylinux_2_36_x86_64"], tags
+assert facts["path"] == str(inside / "libhooke.so") and facts["licence"] == "MIT", facts
+assert all(facts[part] for part in ("sundials", "lapack", "hdf5", "jansson", "chartjs")), facts
+assert not any(facts[part] for part in ("gsl", "cholmod", "arpack")), facts
+licences = (inside / "LICENSES").read_text(encoding="utf-8")
+assert all(f"\n{name}\n===" in licences for name in ("SUNDIALS", "LAPACK and BLAS", "zlib", "jansson", "hdf5", "Chart.js"))
+assert "General Public License" not in licences and "GPL" not in licences
+exported = ctypes.CDLL(facts["path"])  # no other library of this process can take what is inside for its own
+assert hasattr(exported, "hooke_version")
+hidden = ("H5open", "CVode", "ARKStepCreate", "json_loads", "deflate", "dsyev_", "dgemm_", "xerbla_")
+assert not any(hasattr(exported, name) for name in hidden)
+
+scene = hooke.Scene.parse(SCENE)
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    result = scene.run(method="symplectic-euler", step=1e-3, duration=0.5, every=0.05, output="out.h5")
+    assert result.status == "finished"
+    with h5py.File("out.h5") as file:  # h5py brings an HDF5 of its own
+        assert np.array_equal(file["particles/all/position/value"][-1], result.state.q)
+        with h5py.File("other.h5", "w") as other:
+            other.create_dataset("q", data=result.state.q, compression="gzip")
+            scene.run(method="rk4", step=1e-3, duration=0.1, every=0.05, output="again.h5")
+    with h5py.File("again.h5") as file:
+        assert file["particles/all/position/value"].shape == (3, 64, 3)
+
+    for method in ("cvode-bdf", "cvode-adams", "backward-euler"):
+        implicit = scene.run(method=method, step=1e-3, rtol=1e-8, atol=1e-10, duration=0.5)
+        assert implicit.status == "finished", method
+        assert np.abs(implicit.state.q - result.state.q).max() < 0.05, method
+
+    study = hooke.study(scene, ["symplectic-euler", "verlet", "rk4"], want=1e-4, duration=0.3, every=0.05)
+    orders = {name: order.order for name, order in study.orders.items()}
+    assert 0.8 < orders["symplectic-euler"] < 1.3 and 3.5 < orders["rk4"] < 4.5, orders
+    assert study.recommendation.met and study.reference.methods[1] == "arkode-esdirk", study.reference
+    study.write("study.h5")
+    with h5py.File("study.h5") as file:
+        assert len(file)
+    lib.hooke_study_write_report(study._handle, b"study.html", b"scene", None)
+    assert "new Chart(" in Path("study.html").read_text(encoding="utf-8")
+
+    limit = hooke.limit(scene, methods=["symplectic-euler", "rk4"])
+    stable, *_ = limit.rows
+    assert abs(stable["predicted"] / stable["measured"] - 1) < 0.05, stable
+    warnings.simplefilter("ignore", hooke.StepWarning)
+    above = scene.run(method="symplectic-euler", step=0.04, duration=40.0, every=0.04)
+    assert above.status == "diverged"
+    assert hooke.why(above).advice
+    assert len(hooke.needs(scene, want=0.05, duration=0.3, every=0.05).rows) > 0
+
+    ends = []
+    threads = [
+        threading.Thread(target=lambda: ends.append(scene.run(method="rk4", step=1e-3, duration=2.0, every=1.0)))
+        for _ in range(2)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(ends) == 2 and np.array_equal(ends[0].state.q, ends[1].state.q)
+    os.chdir("/")
+
+root = Path(sys.prefix)
+foreign = {path for path in loaded() - before if not Path(path).is_relative_to(root) and not C_LIBRARY.search(path)}
+foreign -= {path for path in foreign if f"/python3.{sys.version_info.minor}/lib-dynload/" in path}
+assert not foreign, foreign
+print("libhooke", hooke.__version__, "with", {k: v for k, v in facts.items() if v and k != "path"})
