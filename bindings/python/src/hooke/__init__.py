@@ -31,6 +31,7 @@ from .scene import Scene
 from .state import State
 from .study import Study, study
 from .system import System
+from .trajectory import Energy, Frame, Trajectory, open
 from .why import Why, why
 
 __version__ = "0.1.0"
@@ -42,8 +43,10 @@ __all__ = [
     "Comparison",
     "Cost",
     "Derived",
+    "Energy",
     "Error",
     "FirstOrder",
+    "Frame",
     "Frames",
     "IOFailed",
     "Integrator",
@@ -62,8 +65,10 @@ __all__ = [
     "Stopped",
     "Study",
     "System",
+    "Trajectory",
     "Unsuited",
     "Why",
+    "animation",
     "build_facts",
     "compare",
     "cost",
@@ -71,6 +76,7 @@ __all__ = [
     "limit",
     "methods",
     "needs",
+    "open",
     "part_kinds",
     "plot",
     "run",
@@ -81,6 +87,6 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     # matplotlib is an extra, and slow to import
-    if name == "plot":
-        return importlib.import_module(".plot", __name__)
+    if name in ("plot", "animation"):
+        return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -16,6 +16,7 @@ from typing import Any, Callable
 import numpy as np
 
 from ._memory import text, view
+from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
 
@@ -118,17 +119,18 @@ def rate_callback(function: Callable[..., Any], shape: tuple, dtype: Any) -> Any
 
 
 @contextlib.contextmanager
-def listening(attach: Callable[..., Any], handle: Any, progress: Callable[..., Any] | None) -> Iterator[None]:
+def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
     """Passes progress of the object on while the library works, and lets Ctrl-C in; ``attach(handle, watcher,
     None)`` is the function of the library for that."""
-    tell = progress or (lambda done, what: None)
-    watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
-    attach(handle, watcher, None)
-    try:
-        with interruptible():
-            yield
-    finally:
-        attach(handle, PROGRESS(), None)
+    with shown(progress) as told:
+        tell = told or (lambda done, what: None)
+        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
+        attach(handle, watcher, None)
+        try:
+            with interruptible():
+                yield
+        finally:
+            attach(handle, PROGRESS(), None)
 
 
 @contextlib.contextmanager

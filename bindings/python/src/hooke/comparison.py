@@ -13,11 +13,13 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, address_of, text, view
-from ._prototypes import COMPARISON, COMPARISON_FILE, COMPARISON_FRAME, PROGRESS
+from ._progress import Shown
+from ._prototypes import COMPARISON, COMPARISON_FILE, COMPARISON_FRAME
 from ._status import BadValue
 from .integrator import methods as all_methods
 from .options import Options
-from .results import Path, Runnable, resolve
+from ._types import Path
+from .results import Runnable, resolve
 from .scene import scene_text
 from .state import State
 from .system import Force, System
@@ -80,7 +82,7 @@ def compare(
     *,
     output: Path | None = None,
     force: Force | None = None,
-    progress: ComparisonProgress | None = None,
+    progress: ComparisonProgress | bool | None = None,
     on_frame: ComparisonObserver | None = None,
     **options: Any,
 ) -> Comparison:
@@ -89,7 +91,7 @@ def compare(
 
     The keywords `options` are those of a run: step [s], duration [s], every [s], rtol, atol [m]; `output` is
     an HDF5 file to write (`hooke.plot` draws it), `force` adds a force callback, ``progress(fraction, what)``
-    is told of progress, ``on_frame(run, frame, step, state)`` sees every frame (not together with `output`).
+    is told of progress, ``progress=True`` shows a bar (with tqdm), ``on_frame(run, frame, step, state)`` sees every frame (not together with `output`).
     """
     if output is not None and on_frame is not None:
         raise BadValue("on_frame: not together with output, which takes the frames")
@@ -103,34 +105,28 @@ def compare(
     names = [method.name for method in all_methods() if method.built] if methods is None else list(methods)
     for name in names:
         lib.hooke_comparison_add(handle, name.encode())
-    watchers = [_watch_progress(progress or (lambda done, what: None))]
-    lib.hooke_comparison_on_progress(handle, watchers[0], None)
-    if on_frame is not None:
-        watchers.append(_watch_frames(on_frame, system.state()))
-        lib.hooke_comparison_on_frame(handle, watchers[1], None)
+    watcher = None if on_frame is None else _watch_frames(on_frame, system.state())
+    if watcher is not None:
+        lib.hooke_comparison_on_frame(handle, watcher, None)
     if output is None:
-        status = _run(handle)
+        status = _run(handle, progress)
     else:
-        status = _run_to_file(os.fsencode(output), scene, system, handle)
+        status = _run_to_file(os.fsencode(output), scene, system, handle, progress)
     return _read(handle, status)
 
 
-def _run(handle: Handle) -> str:
-    with _callback.interruptible():
+def _run(handle: Handle, progress: Shown) -> str:
+    with _callback.listening(lib.hooke_comparison_on_progress, handle, progress):
         return "stopped" if lib.hooke_comparison_run(handle) else "finished"
 
 
-def _run_to_file(path: bytes, scene: Any, system: System, handle: Handle) -> str:
+def _run_to_file(path: bytes, scene: Any, system: System, handle: Handle, progress: Shown) -> str:
     file = COMPARISON_FILE()
     lib.hooke_comparison_file_create(path, system._handle, handle, scene_text(scene), ctypes.byref(file))
     try:
-        return _run(handle)
+        return _run(handle, progress)
     finally:
         lib.hooke_comparison_file_close(file)
-
-
-def _watch_progress(progress: ComparisonProgress) -> Any:
-    return PROGRESS(lambda done, what, _: _callback.guarded(progress, done, text(what)))
 
 
 def _watch_frames(on_frame: ComparisonObserver, copy: State) -> Any:

@@ -80,7 +80,7 @@ def cost(
     *,
     predict: bool = False,
     budget: float | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: object,
 ) -> Cost:
     """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene

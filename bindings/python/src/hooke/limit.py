@@ -16,7 +16,8 @@ from ._prototypes import LIMIT, RECORD
 from ._status import OUTCOMES
 from ._tables import read_rows
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from ._types import Path
+from .results import Runnable, WorkProgress, prepare
 from .state import State
 from .system import System
 from .why import Blame
@@ -164,7 +165,7 @@ def limit(
     nonlinear: bool = False,
     accuracy: float | None = None,
     budget: float | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Limit:
     """Finds the largest stable step of each of `methods` (all of fixed step, if None) on a scene (or the path of one)
@@ -174,7 +175,7 @@ def limit(
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
     the number of a frame. ``along=True`` predicts at every frame of the run and tells the smallest limits met and when;
     ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the measuring.
-    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0. The
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops the work by returning a number other than 0. The
     keywords `options` are those of a run. ``hooke limit --report FILE.html`` makes a page with diagrams.
     """
     _, system, run = prepare("limit", problem, None, options)

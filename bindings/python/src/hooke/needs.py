@@ -14,7 +14,8 @@ from ._prototypes import NEEDS
 from ._status import OUTCOMES, BadCall
 from ._tables import read_rows
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from ._types import Path
+from .results import Runnable, WorkProgress, prepare
 from .scene import Scene
 from .system import System, write_scene
 
@@ -180,7 +181,7 @@ def needs(
     watch: Any = None,
     *,
     refine: bool = False,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Needs:
     """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds by how much the
@@ -189,7 +190,7 @@ def needs(
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` asks
     the reverse instead: each part at once, twice and four times its resolution, and what the want asks for.
-    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0, with what
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops the work by returning a number other than 0, with what
     is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
     tolerances are found. ``hooke needs --report FILE.html`` makes a page with diagrams.
     """

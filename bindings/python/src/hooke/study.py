@@ -16,7 +16,8 @@ from ._prototypes import STUDY
 from ._status import OUTCOMES
 from ._tables import read_rows
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from ._types import Path
+from .results import Runnable, WorkProgress, prepare
 from .scene import Scene, scene_text
 from .system import Force, System
 
@@ -139,7 +140,7 @@ class Study:
     timed_alone: np.ndarray
 
     def __init__(
-        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | None
+        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | bool | None
     ):
         self._handle = handle
         self._scene = scene
@@ -240,7 +241,7 @@ def study(
     tolerances: Any = None,
     output: Path | None = None,
     force: Force | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
     """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
@@ -249,7 +250,7 @@ def study(
 
     `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want`
     [m] asks for a recommendation, `budget` [s] limits the time. `output` is a file to write (see
-    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress and stops
+    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops
     the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
     every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """

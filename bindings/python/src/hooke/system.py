@@ -139,13 +139,16 @@ class System(Queries):
         file = options.pop("file", None)
         part = Options.for_part(kind).set(**options)
         if file is not None:
-            lib.hooke_mesh_read(os.fsencode(file), part._handle)
+            read_mesh(file, part)
+        return self._add_part(kind, name, part)
+
+    def _add_part(self, kind: str, name: str | None, options: Options) -> range:
         first, count = ctypes.c_int64(), ctypes.c_int64()
         lib.hooke_system_add_part(
             self._handle,
             kind.encode(),
             None if name is None else name.encode(),
-            part._handle,
+            options._handle,
             ctypes.byref(first),
             ctypes.byref(count),
         )
@@ -239,6 +242,11 @@ class System(Queries):
 
     def __repr__(self) -> str:
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
+
+
+def read_mesh(file: str | os.PathLike[str], options: Options) -> None:
+    """Reads an OBJ file into the options of a mesh, whose `transform` and `weld` are set."""
+    lib.hooke_mesh_read(os.fsencode(file), options._handle)
 
 
 def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
