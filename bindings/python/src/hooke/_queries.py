@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+
+
+_DOUBLE = np.dtype(np.float64)
 
 
 class Material(NamedTuple):
@@ -42,6 +46,7 @@ class Queries:
     """Counts, tables, forces and energies. Positions and velocities are (n, 3) arrays [m], [m/s]."""
 
     _handle: Handle
+    _shape: tuple[int, int]  # of positions, once committed
 
     def _committed(self) -> Handle:
         raise NotImplementedError
@@ -226,37 +231,37 @@ class Queries:
     def coincident_springs(self, q: Any) -> int:
         """Springs whose ends coincide although their rest length is not zero: they have no direction and
         no force."""
-        return self._number(lib.hooke_system_coincident_springs, q=q)
+        return lib.hooke_system_coincident_springs(self._committed(), self._argument(q, "q"))
 
     # energies
 
     def kinetic_energy(self, v: Any) -> float:
         """Kinetic energy of the free particles [J]."""
-        return self._number(lib.hooke_system_kinetic_energy, v=v)
+        return lib.hooke_system_kinetic_energy(self._committed(), self._argument(v, "v"))
 
     def spring_energy(self, q: Any) -> float:
         """Energy of the springs [J]."""
-        return self._number(lib.hooke_system_spring_energy, q=q)
+        return lib.hooke_system_spring_energy(self._committed(), self._argument(q, "q"))
 
     def bending_energy(self, q: Any) -> float:
         """Energy of bending [J]."""
-        return self._number(lib.hooke_system_bending_energy, q=q)
+        return lib.hooke_system_bending_energy(self._committed(), self._argument(q, "q"))
 
     def gravity_energy(self, q: Any) -> float:
         """The sum of -m g.q over the free particles [J]."""
-        return self._number(lib.hooke_system_gravity_energy, q=q)
+        return lib.hooke_system_gravity_energy(self._committed(), self._argument(q, "q"))
 
     def potential_energy(self, q: Any) -> float:
         """Energy of springs, bending and gravity [J]."""
-        return self._number(lib.hooke_system_potential_energy, q=q)
+        return lib.hooke_system_potential_energy(self._committed(), self._argument(q, "q"))
 
     def energy(self, q: Any, v: Any) -> float:
         """Total energy [J]. A force callback has none."""
-        return self._number(lib.hooke_system_energy, q=q, v=v)
+        return lib.hooke_system_energy(self._committed(), self._argument(q, "q"), self._argument(v, "v"))
 
     def dissipated_power(self, q: Any, v: Any) -> float:
         """Power that damping and drag turn into heat [W]."""
-        return self._number(lib.hooke_system_dissipated_power, q=q, v=v)
+        return lib.hooke_system_dissipated_power(self._committed(), self._argument(q, "q"), self._argument(v, "v"))
 
     def momentum(self, v: Any) -> np.ndarray:
         """Momentum of the free particles (3,) [kg m/s]."""
@@ -278,17 +283,21 @@ class Queries:
     def _rows(self, **arrays: Any) -> list[np.ndarray]:
         return [rows(values, name, self.particle_count) for name, values in arrays.items()]
 
+    def _argument(self, values: Any, name: str) -> Any:
+        """Positions or velocities as an argument; those of a state are passed on as they are."""
+        if type(values) is np.ndarray and values.shape == self._shape and values.dtype is _DOUBLE:
+            try:
+                return ctypes.c_double.from_buffer(values)
+            except TypeError:  # read-only or not contiguous
+                pass
+        return double_pointer(rows(values, name, self.particle_count))
+
     def _vectors(self, function: Any, t: float, **arrays: Any) -> np.ndarray:
         handle = self._committed()
         out = np.empty((self.particle_count, 3))
         inputs = self._rows(**arrays)
         function(handle, t, *(double_pointer(array) for array in inputs), double_pointer(out))
         return out
-
-    def _number(self, function: Any, **arrays: Any) -> Any:
-        handle = self._committed()
-        inputs = self._rows(**arrays)
-        return function(handle, *(double_pointer(array) for array in inputs))
 
     def _sum(self, function: Any, **arrays: Any) -> np.ndarray:
         handle = self._committed()

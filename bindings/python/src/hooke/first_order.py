@@ -41,6 +41,7 @@ class FirstOrder:
         self._x0 = x0.astype(complex if x0.dtype.kind == "c" else float)
         self._size = self._x0.view(float).size
         self._rate = _callback.rate_callback(phi, self._x0.shape, self._x0.dtype)
+        self._callbacks = [self._rate]
 
     def state(self) -> State:
         """The initial state: t = 0, x = x0."""

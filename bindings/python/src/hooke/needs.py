@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._callback import listening
+from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, rows, text
 from ._prototypes import NEEDS
@@ -50,7 +51,7 @@ _PART = np.dtype(
 )
 
 
-class Needs:
+class Needs(Closing):
     """What a scene needs for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the

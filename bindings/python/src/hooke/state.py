@@ -21,7 +21,7 @@ class State:
     gone.
     """
 
-    __slots__ = ("_handle", "_x", "_v", "__weakref__")
+    __slots__ = ("_handle", "_q", "_v", "_x", "__weakref__")
 
     def __init__(self, handle: Handle, dtype: Any = float):
         self._handle = handle
@@ -29,8 +29,10 @@ class State:
         velocity = lib.hooke_state_velocity(handle)
         numbers = size if np.dtype(dtype) == float else size // 2
         self._x = view(address_of(lib.hooke_state_position(handle)), (numbers,), handle, dtype=dtype)
+        self._q: np.ndarray | None = None
         self._v: np.ndarray | None = None
         if velocity or not size:
+            self._q = self._x.reshape(-1, 3)
             self._v = view(address_of(velocity), (size // 3, 3), handle)
 
     @classmethod
@@ -57,7 +59,7 @@ class State:
     @property
     def q(self) -> np.ndarray:
         """Positions (n, 3) [m], a view."""
-        return self._x.reshape(-1, 3) if self._v is not None else self._no_particles("q")
+        return self._q if self._q is not None else self._no_particles("q")
 
     @q.setter
     def q(self, value: Any) -> None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._callback import listening
+from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, address_of, text, view
 from ._prototypes import STUDY
@@ -100,7 +101,7 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study:
+class Study(Closing):
     """A study that was made: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped",

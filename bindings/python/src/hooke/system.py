@@ -62,6 +62,7 @@ class System(Queries):
     def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
         self._handle = handle
         self._commit = commit
+        self._final = False  # whether it is known to be committed
         self._callbacks: list = []  # the library calls them as long as the system is in use
 
     # building
@@ -210,6 +211,7 @@ class System(Queries):
         """Checks the system as a whole and makes it constant; a second call is a BadCall. Returns the
         system."""
         self._commit()
+        self._committed()
         return self
 
     # using
@@ -236,8 +238,11 @@ class System(Queries):
         return Handle(pointer, lib.hooke_integrator_destroy, self._handle)
 
     def _committed(self) -> Handle:
-        if not self.is_committed:
-            self._commit()
+        if not self._final:
+            if not self.is_committed:
+                self._commit()
+            self._shape = (self.particle_count, 3)
+            self._final = True
         return self._handle
 
     def __repr__(self) -> str:
