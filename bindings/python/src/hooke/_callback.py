@@ -19,8 +19,10 @@ from ._memory import text, view
 from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
+from ._types import Table
 
 _STOP = 1
+Shape = tuple[int, ...]
 
 
 def stop_value(answer: Any) -> int:
@@ -56,9 +58,9 @@ class _Views:
 
     def __init__(self, dtype: Any = float):
         self._dtype = dtype
-        self._views: dict = {}
+        self._views: dict[tuple[int, Shape, bool], Table] = {}
 
-    def __call__(self, address: int, shape: tuple, writeable: bool) -> np.ndarray:
+    def __call__(self, address: int, shape: Shape, writeable: bool) -> Table:
         key = (address, shape, writeable)
         array = self._views.get(key)
         if array is None:
@@ -69,12 +71,13 @@ class _Views:
 
 
 def force_callback(function: Callable[..., Any]) -> Any:
+    """The callback that adds forces, for `function` of `System.set_force`."""
     views = _Views()
 
-    def force(n, t, q, v, out, _):
+    def force(n: int, t: float, q: int, v: int, out: int, _: Any) -> int:
         return guarded(call, n, t, q, v, out)
 
-    def call(n, t, q, v, out):
+    def call(n: int, t: float, q: int, v: int, out: int) -> Any:
         shape = (n, 3)
         return function(t, views(q, shape, False), views(v, shape, False), views(out, shape, True))
 
@@ -82,12 +85,13 @@ def force_callback(function: Callable[..., Any]) -> Any:
 
 
 def product_callback(function: Callable[..., Any]) -> Any:
+    """The callback for the product with the derivative of a force."""
     views = _Views()
 
-    def product(n, t, q, v, dq, dv, out, _):
+    def product(n: int, t: float, q: int, v: int, dq: int, dv: int, out: int, _: Any) -> int:
         return guarded(call, n, t, (q, v, dq, dv), out)
 
-    def call(n, t, inputs, out):
+    def call(n: int, t: float, inputs: tuple[int, ...], out: int) -> Any:
         shape = (n, 3)
         return function(t, *(views(address, shape, False) for address in inputs), views(out, shape, True))
 
@@ -95,24 +99,26 @@ def product_callback(function: Callable[..., Any]) -> Any:
 
 
 def drive_callback(function: Callable[..., Any]) -> Any:
+    """The callback that moves driven particles."""
     views = _Views()
 
-    def drive(count, t, q, v, _):
+    def drive(count: int, t: float, q: int, v: int, _: Any) -> int:
         return guarded(call, count, t, q, v)
 
-    def call(count, t, q, v):
+    def call(count: int, t: float, q: int, v: int) -> Any:
         return function(t, views(q, (count, 3), True), views(v, (count, 3), True))
 
     return DRIVE(drive)
 
 
-def rate_callback(function: Callable[..., Any], shape: tuple, dtype: Any) -> Any:
+def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
+    """The callback for the rate of a first-order problem."""
     views = _Views(dtype)
 
-    def rate(_n, t, x, out, _):
+    def rate(_n: int, t: float, x: int, out: int, _: Any) -> int:
         return guarded(call, t, x, out)
 
-    def call(t, x, out):
+    def call(t: float, x: int, out: int) -> Any:
         return function(t, views(x, shape, False), views(out, shape, True))
 
     return RATE(rate)
@@ -146,7 +152,7 @@ def interruptible() -> Iterator[None]:
         yield
         return
 
-    def note(_number, _frame):
+    def note(_number: int, _frame: Any) -> None:
         pending.exception = KeyboardInterrupt()
 
     signal.signal(signal.SIGINT, note)

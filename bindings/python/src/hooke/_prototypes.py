@@ -6,7 +6,10 @@ Arguments of callbacks that are arrays or states arrive as plain addresses, whic
 pointers.
 """
 
+from __future__ import annotations
+
 from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
+from typing import Any
 
 
 class STATUS(c_int32):
@@ -17,7 +20,7 @@ class OUTCOME(c_int32):
     """Marks the status of a run: a failure is raised, an outcome (0 or more) returned."""
 
 
-def _handle(name):
+def _handle(name: str) -> Any:
     return POINTER(type(name, (Structure,), {}))
 
 

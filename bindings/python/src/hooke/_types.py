@@ -13,6 +13,10 @@ Path = Union[str, "os.PathLike[str]"]
 Numbers = npt.ArrayLike
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+StrArray = npt.NDArray[np.str_]
+ComplexArray = npt.NDArray[np.complex128]
+#: Structured rows, or numbers of more than one kind.
 Table = npt.NDArray[Any]
 #: Particles that a part holds still: numbers within it, words such as "top-corners", or both.
 Pins = Union[str, int, Sequence[Union[str, int]], "npt.NDArray[np.integer[Any]]"]

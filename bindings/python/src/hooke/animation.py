@@ -22,11 +22,11 @@ _SHORTEST, _LONGEST = 4.0, 10.0
 class Animation(FuncAnimation):
     """A film; a notebook shows it, ``save("film.gif")`` or ``save("film.mp4")`` writes it."""
 
-    def save(self, filename: Path, writer: Any = None, **options: Any) -> None:
+    def save(self, filename: Path, writer: Any = None, *arguments: Any, **options: Any) -> None:
         """Writes the film to a file, by its ending: ``.gif`` with Pillow, others with ffmpeg if that is installed; see
         matplotlib's Animation.save for `writer` and the other options."""
         name = os.fspath(filename)
-        super().save(name, "pillow" if writer is None and name.endswith(".gif") else writer, **options)
+        super().save(name, "pillow" if writer is None and name.endswith(".gif") else writer, *arguments, **options)
 
     def _repr_html_(self) -> str:
         return str(self.to_jshtml())

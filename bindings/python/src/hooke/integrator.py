@@ -176,7 +176,7 @@ class Integrator(Closing):
 
     @contextlib.contextmanager
     def _warned(self) -> Iterator[None]:
-        def warn(_kind, sentence, _t, _limit, _spring, _particle, _):
+        def warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
             return _callback.guarded(lambda: warnings.warn(text(sentence), StepWarning, stacklevel=2))
 
         callback = WARNING(warn)  # lives until the run is over
@@ -194,7 +194,7 @@ class Integrator(Closing):
     @property
     def frame_count(self) -> int:
         """Frames of a whole run, the initial one included."""
-        return lib.hooke_integrator_frame_count(self._handle)
+        return int(lib.hooke_integrator_frame_count(self._handle))
 
     @property
     def counts(self) -> dict[str, int]:
@@ -204,24 +204,24 @@ class Integrator(Closing):
     @property
     def wall_seconds(self) -> float:
         """Time spent stepping [s], without observers and output."""
-        return lib.hooke_integrator_wall_seconds(self._handle)
+        return float(lib.hooke_integrator_wall_seconds(self._handle))
 
     @property
     def stop_value(self) -> int:
         """What the callback that stopped the run returned; 0 if none did."""
-        return lib.hooke_integrator_stop_value(self._handle)
+        return int(lib.hooke_integrator_stop_value(self._handle))
 
     @property
     def diverged_at(self) -> float:
         """Time at which divergence was noticed [s], NaN if it was not."""
-        return lib.hooke_integrator_diverged_at(self._handle)
+        return float(lib.hooke_integrator_diverged_at(self._handle))
 
     def __repr__(self) -> str:
         return f"Integrator({self._problem!r}, {self.options!r})"
 
 
 def _observer(function: Observer, state: State) -> Any:
-    def observer(step, _state, _):
+    def observer(step: int, _state: int, _: Any) -> int:
         return _callback.guarded(function, step, state)
 
     return OBSERVER(observer)

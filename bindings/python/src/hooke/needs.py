@@ -14,8 +14,8 @@ from ._memory import Handle, double_pointer, rows, text
 from ._prototypes import NEEDS
 from ._status import OUTCOMES, BadCall
 from ._tables import read_rows
+from ._types import FloatArray, Path, Table
 from .options import Options
-from ._types import Path
 from .results import Runnable, WorkProgress, prepare
 from .scene import Scene
 from .system import System, write_scene
@@ -75,8 +75,8 @@ class Needs(Closing):
     duration: float
     judged_until: float
     runs: int
-    rows: np.ndarray
-    parts: np.ndarray
+    rows: Table
+    parts: Table
     full: RunCost
     lean_cost: RunCost | None
     lean_error: float
@@ -104,7 +104,8 @@ class Needs(Closing):
         names = [str(name) for name in self.rows["without"]]
         if without not in names:
             raise KeyError(f"{without!r}; there are {', '.join(names)}")
-        return self.rows[names.index(without)]
+        row: np.void = self.rows[names.index(without)]
+        return row
 
     @property
     def left_out(self) -> list[str]:
@@ -137,7 +138,7 @@ class Needs(Closing):
             raise BadCall("there is no lean system: it was not looked for, or the work was stopped before")
         write_scene(path, lean, self._scene.title if self._scene is not None else "", run)
 
-    def lean_position(self, q: Any) -> np.ndarray:
+    def lean_position(self, q: Any) -> FloatArray:
         """Positions (n, 3) [m] of the particles of the full system at positions `q` of the lean one: of the same
         material points, NaN where they were left out."""
         lean = self.lean
@@ -191,7 +192,8 @@ def needs(
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` asks
     the reverse instead: each part at once, twice and four times its resolution, and what the want asks for.
-    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops the work by returning a number other than 0, with what
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
+    tqdm) and stops the work by returning a number other than 0, with what
     is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
     tolerances are found. ``hooke needs --report FILE.html`` makes a page with diagrams.
     """

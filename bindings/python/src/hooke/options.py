@@ -13,8 +13,9 @@ from ._memory import Handle, address_of, double_pointer, doubles, text, view
 from ._place import placed
 from ._prototypes import OPTIONS
 from ._status import BadCall, BadValue
+from ._types import Table
 
-Value = Union[None, bool, int, float, str, np.ndarray, list]
+Value = Union[None, bool, int, float, str, Table, "list[Any]"]
 
 
 class Row(NamedTuple):
@@ -28,7 +29,7 @@ class Row(NamedTuple):
     doc: str
 
 
-class Options(MutableMapping):
+class Options(MutableMapping[str, Any]):
     """The options of one thing by name: ``options["step"] = 1e-3``.
 
     A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or
@@ -109,7 +110,7 @@ class Options(MutableMapping):
             numbers = numbers.astype(np.int64)
         if words:
             return [*words.split(), *numbers.tolist()]
-        return numbers if count > 1 else numbers[0].item()
+        return numbers if count > 1 else float(numbers[0]) if numbers.dtype == float else int(numbers[0])
 
     def __setitem__(self, name: str, value: Any) -> None:
         if self._read_only:
@@ -196,6 +197,7 @@ def option_name(keyword: str) -> str:
 
 
 def as_number(name: str, value: Any) -> float:
+    """`value` as a number; BadValue if it is none."""
     try:
         return float(value)
     except (TypeError, ValueError):

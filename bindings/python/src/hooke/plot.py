@@ -10,8 +10,8 @@ import numpy as np
 
 from ._library import lib
 from ._status import BadValue
+from ._types import FloatArray, Path, Table
 from .limit import Limit
-from ._types import Path
 from .results import Result
 from .study import Study
 from .trajectory import Trajectory
@@ -190,12 +190,12 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _edge_of(method: str, frequency: np.ndarray, decay: np.ndarray) -> np.ndarray:
+def _edge_of(method: str, frequency: FloatArray, decay: FloatArray) -> FloatArray:
     name = method.encode()
     return np.array([lib.hooke_limit_of_mode(name, *pair) for pair in zip(frequency, decay)])
 
 
-def _parts(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _parts(z: FloatArray) -> tuple[FloatArray, FloatArray]:
     return z.real, z.imag
 
 
@@ -222,21 +222,21 @@ class _Table:
             self.orders = dict(zip(names, group["orders/order"][:].tolist()))
             self.agreement = float(group["reference"].attrs["agreement"])
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Table:
         return self._columns[name]
 
 
-def _ladder(ax: Any, x: np.ndarray, error: np.ndarray, label: str, style: dict[str, Any]) -> None:
+def _ladder(ax: Any, x: FloatArray, error: FloatArray, label: str, style: dict[str, Any]) -> None:
     there = error > 0
     ax.plot(x[there], error[there], label=label, linewidth=1, **style)
 
 
-def _edge(ax: Any, x: np.ndarray, style: dict[str, Any]) -> None:
+def _edge(ax: Any, x: FloatArray, style: dict[str, Any]) -> None:
     height = np.full(x.size, 0.98)
     ax.plot(x, height, transform=ax.get_xaxis_transform(), linestyle="", **{**style, "marker": "x"})
 
 
-def _frame(source: Source, run: str, frame: int) -> tuple[np.ndarray, np.ndarray, float | None]:
+def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | None]:
     if isinstance(source, Result):
         return source.state.q, source.system.spring_ends, source.state.t
     if isinstance(source, Trajectory):
@@ -279,7 +279,7 @@ def new_space(order: list[int]) -> Any:
     return ax
 
 
-def fit(ax: Any, points: np.ndarray) -> None:
+def fit(ax: Any, points: FloatArray) -> None:
     """Widens the limits to what is drawn, with one scale for the three axes."""
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):

@@ -25,7 +25,7 @@ from ._library import lib
 from ._progress import shown
 from ._prototypes import TRAJECTORY
 from ._status import BadValue
-from ._types import Path
+from ._types import FloatArray, Path, Table
 from .first_order import FirstOrder
 from .integrator import Integrator, Observer
 from .options import Options
@@ -47,9 +47,9 @@ class Frames(NamedTuple):
     """The frames of a run: times (k,) [s], positions (k, n, 3) [m], velocities (k, n, 3) [m/s]; of a
     first-order problem `q` is (k, size) and `v` None."""
 
-    t: np.ndarray
-    q: np.ndarray
-    v: np.ndarray | None
+    t: FloatArray
+    q: Table
+    v: FloatArray | None
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,8 @@ def run(
     every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
     start (it is changed; by default the initial state), `output` the HDF5 file to write, ``frames=True``
     keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
-    state)`` is told at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
+    state)`` is told at each frame, ``progress=True`` shows a bar (with tqdm);
+    for `on_frame` and `on_step` see `Integrator.run`.
     """
     scene, problem, given = resolve(problem, force)
     integrator = Integrator(problem, given, **options)
@@ -187,7 +188,14 @@ def _all(watchers: list[Observer]) -> Observer:
     return watch
 
 
-def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
+def _run_to_file(
+    path: bytes,
+    scene: Scene | None,
+    integrator: Integrator,
+    state: State,
+    watchers: list[Observer],
+    on_step: tuple[int, Observer] | None,
+) -> str:
     if not isinstance(integrator._problem, System):
         raise BadValue("output: a first-order problem has no particles to write")
     pointer = TRAJECTORY()
@@ -202,7 +210,7 @@ def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
         lib.hooke_trajectory_write(pointer, step, state._handle)
 
     try:
-        status = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
+        status: str = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
     except BaseException as exception:
         outcome = getattr(exception, "status", None)
         lib.hooke_trajectory_close(pointer, outcome if isinstance(outcome, int) else _STOPPED)
@@ -241,5 +249,5 @@ class _Recorder:
         return Frames(self._t[:end], self._q[:end], None if self._v is None else self._v[:end])
 
 
-def _arrays(state: State) -> tuple[np.ndarray, np.ndarray | None]:
+def _arrays(state: State) -> tuple[Table, Table | None]:
     return (state.x, None) if state._v is None else (state.q, state.v)

@@ -6,7 +6,7 @@ import ctypes
 import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -150,14 +150,14 @@ class Scene(Parts):
         [N s/m]; `rest_length` [m] or "initial" (default), the distance at the start: each one number or (m,).
         `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the scene.
         """
-        given = dict(
-            law=law,
-            stiffness=stiffness,
-            damping=damping,
-            rest_length=rest_length,
-            rest_scale=rest_scale,
-            compression=compression,
-        )
+        given = {
+            "law": law,
+            "stiffness": stiffness,
+            "damping": damping,
+            "rest_length": rest_length,
+            "rest_scale": rest_scale,
+            "compression": compression,
+        }
         keys = {key: _kept(value) for key, value in given.items() if value is not None}
         with placed(f"springs[{self._count('springs')}]"):
             ends = self._numbers(between, "between")
@@ -184,7 +184,7 @@ class Scene(Parts):
         [Hz], `phase` [rad], 0 if None; with "table" along a smooth curve through `position` (k, 3) [m], displacements
         at ascending `time` (k,) [s]. Returns the scene.
         """
-        given = dict(amplitude=amplitude, frequency=frequency, phase=phase, time=time, position=position)
+        given = {"amplitude": amplitude, "frequency": frequency, "phase": phase, "time": time, "position": position}
         keys = {key: _kept(value) for key, value in given.items() if value is not None}
         with placed(f"driven[{self._count('driven')}]"):
             _check_motion(motion, keys)
@@ -292,7 +292,7 @@ class Scene(Parts):
     def _numbers(self, particles: Any, name: str) -> IntArray:
         """Particles as numbers, those of parts by the names of these resolved."""
         if isinstance(particles, np.ndarray):
-            return indices(particles, name).copy()
+            return np.array(indices(particles, name))  # the caller's may change
         return indices(self._resolved(particles, name), name)
 
     def _resolved(self, particles: Any, name: str) -> Any:
@@ -351,5 +351,4 @@ def _kept(value: Any) -> Any:
 
 
 def _dump(document: Mapping[str, Any]) -> str:
-    plain: Callable[[Any], Any] = lambda value: value.tolist() if hasattr(value, "tolist") else list(value)
-    return json.dumps(document, default=plain)
+    return json.dumps(document, default=lambda value: value.tolist() if hasattr(value, "tolist") else list(value))

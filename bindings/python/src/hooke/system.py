@@ -13,6 +13,7 @@ from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
+from ._types import FloatArray
 from .options import Options
 from .state import State
 
@@ -20,11 +21,11 @@ if TYPE_CHECKING:
     from .results import Result
 
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
-Force = Callable[[float, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+Force = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: product(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to `out`; all arrays (n, 3).
-ForceProduct = Callable[[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+ForceProduct = Callable[[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: drive(t, q, v): writes positions [m] and velocities [m/s] at time t, arrays (count, 3).
-Drive = Callable[[float, np.ndarray, np.ndarray], Optional[int]]
+Drive = Callable[[float, FloatArray, FloatArray], Optional[int]]
 
 
 class System(Queries):
@@ -52,7 +53,7 @@ class System(Queries):
         return system
 
     @classmethod
-    def _committed_by(cls, handle: Handle, callbacks: list) -> System:
+    def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
         """One that the library made and keeps, with the callbacks of another."""
         system = cls.__new__(cls)
         system._adopt(handle, lambda: None)
@@ -63,7 +64,7 @@ class System(Queries):
         self._handle = handle
         self._commit = commit
         self._final = False  # whether it is known to be committed
-        self._callbacks: list = []  # the library calls them as long as the system is in use
+        self._callbacks: list[Any] = []  # the library calls them as long as the system is in use
 
     # building
 
@@ -255,4 +256,5 @@ def read_mesh(file: str | os.PathLike[str], options: Options) -> None:
 
 
 def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
+    """Writes a system as a scene file, with the options of a run."""
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)

@@ -163,7 +163,8 @@ class Trajectory(Closing):
         q, ends = self[frame].q, self.springs
         length = np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return length / rest - 1
+            strain: FloatArray = length / rest - 1
+        return strain
 
     # pictures
 
