@@ -9,7 +9,7 @@ from typing import Any, TypedDict, Union
 import numpy as np
 import numpy.typing as npt
 
-Path = Union[str, "os.PathLike[str]"]
+Path = Union[str, os.PathLike[str]]
 Numbers = npt.ArrayLike
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -19,9 +19,9 @@ ComplexArray = npt.NDArray[np.complex128]
 #: Structured rows, or numbers of more than one kind.
 Table = npt.NDArray[Any]
 #: Particles that a part holds still: numbers within it, words such as "top-corners", or both.
-Pins = Union[str, int, Sequence[Union[str, int]], "npt.NDArray[np.integer[Any]]"]
+Pins = Union[str, int, Sequence[Union[str, int]], Table]
 #: A particle of a scene: its number, or the name of a part and the number within it.
-Particle = Union[int, "tuple[str, int]", "list[Any]"]
+Particle = Union[int, tuple[str, int], list[Any]]
 
 
 class Springs(TypedDict, total=False):

@@ -23,7 +23,7 @@ from .system import System
 from .why import Blame
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
-Place = Union[State, FloatArray, Path, "tuple[Path, int]"]
+Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
 _ROW = np.dtype(
     [("method", "U32")]

@@ -15,7 +15,7 @@ from ._prototypes import OPTIONS
 from ._status import BadCall, BadValue
 from ._types import Table
 
-Value = Union[None, bool, int, float, str, Table, "list[Any]"]
+Value = Union[None, bool, int, float, str, Table, list[Any]]
 
 
 class Row(NamedTuple):

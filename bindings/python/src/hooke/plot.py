@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .needs import Needs
 
 #: An HDF5 file of a run or a comparison, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
-Source = Union[Path, Trajectory, Result, "tuple[Any, Any]"]
+Source = Union[Path, Trajectory, Result, tuple[Any, Any]]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 

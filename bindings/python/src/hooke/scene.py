@@ -15,7 +15,7 @@ from ._memory import Handle, doubles, indices, rows, text
 from ._place import placed
 from ._prototypes import SCENE
 from ._status import BadCall, BadValue
-from ._types import IntArray, Numbers, Particle, Path
+from ._types import FloatArray, IntArray, Numbers, Particle, Path
 from .options import Options, as_number, option_name
 from .parts import Parts
 from .system import System, write_scene
@@ -122,6 +122,8 @@ class Scene(Parts):
             if velocity is not None:
                 piece["velocity"] = rows(velocity, "velocity", count).reshape(count, 3).copy()
             held = None if pinned is None else np.unique(_in_range(indices(pinned, "pinned"), "pinned", count))
+            if held is not None and "velocity" in piece:
+                _require_rest(piece["velocity"], held)
             kilograms = doubles(mass, "mass").reshape(-1)
             piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
             self._system.add_particles(piece["position"], piece.get("velocity"), mass=kilograms)
@@ -343,6 +345,13 @@ def _in_range(particles: IntArray, name: str, count: int) -> IntArray:
         first = int(wrong[0])
         raise BadValue(f"{name}[{first}]: there is no particle {particles[first]}; allowed: 0 to {count - 1}")
     return particles
+
+
+def _require_rest(velocity: FloatArray, held: IntArray) -> None:
+    moving = held[velocity[held].any(axis=1)]
+    if moving.size:
+        row = velocity[moving[0]].tolist()
+        raise BadValue(f"velocity[{moving[0]}]: {row} is not allowed, the particle is pinned; allowed: 0")
 
 
 def _kept(value: Any) -> Any:
