@@ -58,6 +58,7 @@ class Queries:
 
     @property
     def particle_count(self) -> int:
+        """Particles, of parts and others."""
         return int(lib.hooke_system_particle_count(self._handle))
 
     @property
