@@ -12,8 +12,9 @@ Shown = Union[None, bool, Callable[..., Any]]
 
 
 @contextlib.contextmanager
-def shown(progress: Shown) -> Iterator[Callable[..., Any] | None]:
-    """The function to tell of progress: a bar of tqdm if `progress` is True."""
+def shown(progress: Shown, fills: bool = True) -> Iterator[Callable[..., Any] | None]:
+    """The function to tell of progress: a bar of tqdm if `progress` is True, which is full at the end if
+    it `fills`."""
     if not isinstance(progress, bool):
         yield progress
         return
@@ -35,3 +36,5 @@ def shown(progress: Shown) -> Iterator[Callable[..., Any] | None]:
             bar.update(max(fraction - bar.n, 0.0))
 
         yield tell
+        if fills:
+            bar.update(1.0 - bar.n)

@@ -124,7 +124,7 @@ def run(
     recorder = _Recorder(integrator.frame_count, state) if frames else None
     if recorder is not None:
         watchers.append(recorder)
-    with shown(progress) as tell:
+    with shown(progress, fills=False) as tell:  # a run may end early
         if tell is not None:
             watchers.append(_Progress(tell, integrator.frame_count))
         if output is None:
