@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import operator
+import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from typing import Any, Callable
@@ -49,6 +51,17 @@ def guarded(function: Callable[..., Any], *arguments: Any) -> int:
         pending.exception = exception
         return _STOP
     return _STOP if pending.exception is not None else answer
+
+
+def outside() -> int:
+    """The stacklevel of a warning that is to point at the line that called this package."""
+    frame, level = sys._getframe(1), 1  # warnings.warn counts from `guarded`, which calls it
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+        frame, level = frame.f_back, level + 1
+    return level + 1
+
+
+_FOLDER = os.path.dirname(__file__)
 
 
 class _Views:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.animation import FuncAnimation
+from matplotlib.colors import LinearSegmentedColormap
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from ._status import BadValue
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from .trajectory import Trajectory
 
 _SHORTEST, _LONGEST = 4.0, 10.0
+_COLOURS = ["tab:blue", "0.35", "tab:red"]  # dark between, to be seen on white
 
 
 class Animation(FuncAnimation):
@@ -61,9 +63,11 @@ def animate(
     lines = Line3DCollection(q[0][:, order][springs], linewidths=linewidth)
     if color == "strain":
         strains = [trajectory.strain(int(frame)) for frame in shown]
-        largest = max((float(np.abs(s[np.isfinite(s)]).max(initial=0.0)) for s in strains), default=0.0) or 1.0
-        lines.set(cmap="coolwarm", clim=(-largest, largest))
-        ax.figure.colorbar(lines, ax=ax, label="strain", shrink=0.6)
+        sizes = np.abs(np.concatenate(strains))
+        sizes = sizes[np.isfinite(sizes)]
+        largest = float(np.quantile(sizes, 0.99)) if sizes.any() else 1.0  # a few springs do not set the scale
+        lines.set(cmap=LinearSegmentedColormap.from_list("strain", _COLOURS), clim=(-largest, largest))
+        ax.figure.colorbar(lines, ax=ax, label="strain", shrink=0.6, pad=0.15, extend="both")
     else:
         lines.set_color(color)
     ax.add_collection3d(lines, autolim=False)

@@ -177,7 +177,7 @@ class Integrator(Closing):
     @contextlib.contextmanager
     def _warned(self) -> Iterator[None]:
         def warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
-            return _callback.guarded(lambda: warnings.warn(text(sentence), StepWarning, stacklevel=2))
+            return _callback.guarded(warnings.warn, text(sentence), StepWarning, _callback.outside())
 
         callback = WARNING(warn)  # lives until the run is over
         with contextlib.suppress(NotBuilt, Unsuited):
