@@ -3,6 +3,7 @@
 #include "hooke/io.h"
 #include "run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
