@@ -154,6 +154,15 @@ def test_a_parsed_scene_can_be_added_to(tmp_path):
     assert hooke.Scene.parse(untouched).text == untouched
 
 
+def test_parts_that_were_read_have_their_names():
+    text = hooke.Scene().particles([[9, 9, 9]], mass=1).cloth("a", **SQUARE).cloth(**SQUARE).text
+    scene = hooke.Scene.parse(text).cloth("b", **SQUARE)
+    scene.springs(between=[[("a", 5), 0], [("cloth1", 0), ("b", 2)]], stiffness=1)
+    assert scene.system.spring_ends.tolist() == [[6, 0], [7, 15]]
+    with pytest.raises(hooke.BadValue, match='no part called "c"; allowed: "a", "cloth1", "b"'):
+        scene.springs(between=[[0, ("c", 1)]], stiffness=1)
+
+
 def test_the_scene_keeps_what_it_was_given():
     """Arrays of the caller may change afterwards."""
     q, ends, stiffness = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1]]), np.array([5.0])

@@ -54,7 +54,7 @@ class Scene(Parts):
         self._system = System()
         self._run = Options.for_run()
         self._title = title
-        self._parts: dict[str, range] = {}  # of those added here
+        self._parts: dict[str, range] = {}  # of those that are known
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] | None = {"hooke": 1}
         if title:
@@ -305,14 +305,30 @@ class Scene(Parts):
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
 
     def _number_in_part(self, part: str, number: Any, name: str) -> int:
-        ranges = self._parts
-        if part not in ranges:
-            known = ", ".join(f'"{other}"' for other in ranges) or "there are none"
+        names = self._part_names()
+        if part not in names:
+            known = ", ".join(f'"{other}"' for other in names) or "there are none"
             raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
-        particles = ranges[part]
+        if part not in self._parts:
+            self._find_parts(names)
+        particles = self._parts[part]
         if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
             raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
         return particles[int(number)]
+
+    def _find_parts(self, names: list[str]) -> None:
+        """The particles of parts that were read: each is as large as the same one in a system of its own."""
+        ranges: dict[str, range] = {}
+        last = self._system.particle_count
+        for name, part in reversed(list(zip(names, self._opened()["parts"]))):
+            options = Options.for_part(part["kind"])
+            for key, value in part.items():
+                if key not in ("kind", "name", "pinned"):
+                    options[key] = value
+            count = len(System()._add_part(part["kind"], name, options))
+            ranges[name] = range(last - count, last)
+            last -= count
+        self._parts = ranges
 
 
 def scene_text(scene: Scene | None) -> bytes | None:
