@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
-    HOOKE_PART_POINT("origin", "corner where it begins"),
+    HOOKE_PART_ORIGIN,
     {.name = "edges",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "m",

@@ -154,6 +154,31 @@ def test_a_parsed_scene_can_be_added_to(tmp_path):
     assert hooke.Scene.parse(untouched).text == untouched
 
 
+def test_a_mesh_keeps_the_vertices_of_its_file(tmp_path):
+    path = tmp_path / "square.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    shape = {"mass": 4, "transform": {"scale": 2, "translate": (0, 0, 1)}, "structural": {"stiffness": 3}}
+    scene = hooke.Scene().mesh("m", file=path, **shape)
+    vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    again = hooke.Scene().mesh("m", vertices=vertices, triangles=np.array([[0, 1, 2], [0, 2, 3]]), **shape)
+    path.unlink()
+    assert same(scene.system, again.system) and same(hooke.Scene.parse(scene.text).system, scene.system)
+    assert scene.system.state().q[2].tolist() == [2, 2, 1] and scene.system.spring_count == 5
+    with pytest.raises(hooke.BadValue, match="mesh: .*square.obj"):
+        hooke.Scene().mesh(file=path, **shape)
+    path.write_text("v 0 0 0\n")
+    with pytest.raises(hooke.BadValue, match="file: is not allowed together with vertices"):
+        hooke.Scene().mesh(file=path, vertices=vertices, **shape)
+
+
+def test_a_lattice_begins_at_zero():
+    scene = hooke.Scene().lattice(
+        size=(2, 3, 2), edges=np.diag([1, 2, 1]), mass=12, structural={"stiffness": 3}, pinned="bottom"
+    )
+    assert scene.system.state().q[:3].tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    assert scene.system.free_count == 6 and same(hooke.Scene.parse(scene.text).system, scene.system)
+
+
 def test_parts_that_were_read_have_their_names():
     text = hooke.Scene().particles([[9, 9, 9]], mass=1).cloth("a", **SQUARE).cloth(**SQUARE).text
     scene = hooke.Scene.parse(text).cloth("b", **SQUARE)

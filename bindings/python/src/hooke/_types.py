@@ -36,3 +36,10 @@ class Springs(TypedDict, total=False):
     damping_ratio: float
     rest_scale: float
     compression: bool
+
+
+class Transform(TypedDict, total=False):
+    """From the coordinates of a mesh to metres: a factor `scale`, then a vector `translate` (3,) [m] that is added."""
+
+    scale: float
+    translate: Numbers

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, TypeVar
 
-from ._types import Numbers, Path, Pins, Springs
+from ._types import Numbers, Path, Pins, Springs, Transform
 
 S = TypeVar("S", bound="Parts")
 
@@ -92,19 +91,23 @@ class Parts:
         self: S,
         name: str | None = None,
         *,
-        file: Path,
-        transform: Mapping[str, Any] | None = None,
+        file: Path | None = None,
+        vertices: Numbers | None = None,
+        triangles: Numbers | None = None,
+        transform: Transform | None = None,
+        weld: float | None = None,
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
         structural: Springs | None = None,
         bend: Springs | None = None,
     ) -> S:
-        """Adds the vertices of a mesh in a `file` (OBJ), in their order, scaled and moved by
-        ``transform=dict(scale=..., translate=(x, y, z))`` [m].
+        """Adds the surface of an OBJ `file`, or of `vertices` (n, 3) [m] and `triangles` (m, 3), three vertices each.
 
-        `mass` [kg] is shared by rest area, or `density` [kg/m^2]; `pinned` are numbers; springs along each edge
-        (`structural`) and between opposite vertices across each inner edge (`bend`).
+        `transform` is ``dict(scale=1, translate=(0, 0, 0))``: a factor on the coordinates and a vector [m] that is added
+        then; vertices up to `weld` [m] apart are one particle. `mass` [kg] is shared by area, or `density` [kg/m^2];
+        `pinned` are numbers; springs along each edge (`structural`) and between the two vertices opposite to each other
+        across each inner edge (`bend`). The scene keeps the vertices of a file, not its name.
         """
         return self._part("mesh", locals())
 
@@ -115,6 +118,9 @@ class Parts:
         from_: Numbers,
         to: Numbers,
         segments: int,
+        offset: float | None = None,
+        curl: float | None = None,
+        turns: float | None = None,
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
@@ -123,11 +129,13 @@ class Parts:
         twist: Springs | None = None,
         altitude: Springs | None = None,
     ) -> S:
-        """Adds a strand of hair `from_` one end (3,) [m] `to` the other (3,) [m] with the springs of Selle, Lentine and
-        Fedkiw (2008): along its edges (`stretch`), between particles two apart (`bend`) and three apart (`twist`), and
-        the altitudes of its tetrahedra (`altitude`).
+        """Adds a strand of hair along an axis `from_` one end (3,) [m] `to` the other (3,) [m] in so many `segments`,
+        after Selle, Lentine and Fedkiw (2008).
 
-        `mass` [kg] or `density` [kg/m]; `pinned` also by "start" and "end".
+        A straight one has a particle more in each segment, `offset` segments away from the axis (0.5 if None); with
+        `curl`, the radius [m] of a helix, and `turns` about the axis its particles lie on that. `mass` [kg] or `density`
+        [kg/m]; `pinned` also by "start" and "end"; springs between neighbours (`stretch`), two apart (`bend`) and three
+        apart (`twist`), and `altitude` springs of every four consecutive particles.
         """
         return self._part("strand", locals())
 

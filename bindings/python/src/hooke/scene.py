@@ -18,7 +18,7 @@ from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Numbers, Particle, Path
 from .options import Options, as_number, option_name
 from .parts import Parts
-from .system import System, write_scene
+from .system import System, read_mesh, write_scene
 
 if TYPE_CHECKING:
     from .results import Result
@@ -210,9 +210,9 @@ class Scene(Parts):
 
     def _part(self, kind: str, given: dict[str, Any]) -> Scene:
         keys = {
-            option_name(key): os.fspath(value) if isinstance(value, os.PathLike) else _kept(value)
+            option_name(key): _kept(value)
             for key, value in given.items()
-            if key not in ("self", "name") and value is not None
+            if key not in ("self", "name", "file") and value is not None
         }
         name, names = given["name"], self._part_names()
         options = Options.for_part(kind)
@@ -222,6 +222,12 @@ class Scene(Parts):
                 raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
             for key, value in keys.items():
                 options[key] = value
+            if given.get("file") is not None:
+                if "vertices" in keys or "triangles" in keys:
+                    raise BadValue("file: is not allowed together with vertices and triangles")
+                read_mesh(given["file"], options)
+                read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
+                keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
             self._parts[called] = self._system._add_part(kind, called, options)
         self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
         return self
