@@ -128,6 +128,19 @@ HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
  * none, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 
+/* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies rows x columns
+ * numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of docs/trajectory.md, of all
+ * frames that the file was made for (the first hooke_record_frame_count() are there); one a spring: "springs", its two ends;
+ * one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2 driven). HOOKE_BAD_VALUE for another word, or if the file has
+ * no such array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
+HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
+
+/* Where in the file "position" or "velocity" begins [bytes], for a program that maps the file into memory: frames of n rows
+ * of x y z, doubles of this machine, one after the other. -1 where they are not stored so, or for another word; then
+ * hooke_record_read() reads them. */
+HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
+
 /* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
  * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
  * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. */

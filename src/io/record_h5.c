@@ -9,18 +9,12 @@
 #include "io/array_h5.h"
 #include "io/file_h5.h"
 #include "io/object_h5.h"
+#include "io/record_h5.h"
 
 #include <math.h>
 #include <string.h>
 
 static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
-
-struct hooke_record {
-  char *path, *scene, *status;
-  hooke_options *options; /* of a run, as they were stored */
-  int64_t frame_count;
-  double *time;
-};
 
 /* ---- texts and options ---- */
 
@@ -108,6 +102,7 @@ static int32_t read_hooke(struct hooke_record *record) {
     record->scene = read_text(file, "hooke/scene");
     record->status = read_text(file, "hooke/status");
     status = read_options(file, record->options);
+    hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);
   hooke_h5_drop(list);
@@ -149,6 +144,7 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->scene);
   hooke_free(record->status);
   hooke_free(record->time);
+  hooke_free(record->kept.value);
   hooke_free(record);
 }
 

@@ -127,7 +127,7 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     assert set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir()) == before
     files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
     share = {"share"} if hooke.build_facts()["chartjs"] else set()  # what reports are made of
-    assert files == {path.name for path in (SOURCE / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE"} | share
+    assert files == {path.name for path in (SOURCE / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE", "py.typed"} | share
     assert {path.name for path in target.iterdir()} - {"hooke"} == {f"libhooke-{hooke.__version__}.dist-info"}
     code = """
 import hooke

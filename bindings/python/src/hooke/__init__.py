@@ -1,15 +1,18 @@
 """hooke: mass-spring systems, how they move, and how much accuracy each method buys for its cost.
 
 >>> import hooke
->>> result = hooke.run("cloth.json", method="symplectic-euler", step=1e-3, duration=2.0)
+>>> scene = hooke.Scene(gravity=(0, -9.81, 0)).cloth(
+...     size=(16, 16), edges=((1, 0, 0), (0, 0, 1)), mass=1, structural=dict(stiffness=50), pinned="top-corners")
+>>> result = hooke.run(scene, method="symplectic-euler", step=1e-3, duration=2.0, output="cloth.h5")
 >>> result.status, result.state.q.shape
 ('finished', (256, 3))
+>>> film = hooke.open("cloth.h5").animate()
 
-A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
-it, `compare` sets several methods against a tight reference, `study` measures error against cost and
-recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs` finds what a
-scene can do without, `why` explains a run that blew up, `Integrator` gives you the loop. Units are SI, positions and
-velocities are NumPy arrays (n, 3) over the library's own memory.
+A scene is built (`Scene`, `System`) or comes from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
+it, `open` reads what a run wrote, `compare` sets several methods against a tight reference, `study` measures error
+against cost and recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs`
+finds what a scene can do without, `why` explains a run that blew up, `Integrator` gives you the loop. Units are SI,
+positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -31,6 +34,7 @@ from .scene import Scene
 from .state import State
 from .study import Study, study
 from .system import System
+from .trajectory import Energy, Frame, Trajectory, open
 from .why import Why, why
 
 __version__ = "0.1.0"
@@ -42,8 +46,10 @@ __all__ = [
     "Comparison",
     "Cost",
     "Derived",
+    "Energy",
     "Error",
     "FirstOrder",
+    "Frame",
     "Frames",
     "IOFailed",
     "Integrator",
@@ -63,8 +69,10 @@ __all__ = [
     "Stopped",
     "Study",
     "System",
+    "Trajectory",
     "Unsuited",
     "Why",
+    "animation",
     "build_facts",
     "compare",
     "cost",
@@ -72,6 +80,7 @@ __all__ = [
     "limit",
     "methods",
     "needs",
+    "open",
     "options_of",
     "part_kind_summary",
     "part_kinds",
@@ -84,6 +93,6 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     # matplotlib is an extra, and slow to import
-    if name == "plot":
-        return importlib.import_module(".plot", __name__)
+    if name in ("plot", "animation"):
+        return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import operator
+import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from typing import Any, Callable
@@ -16,10 +18,13 @@ from typing import Any, Callable
 import numpy as np
 
 from ._memory import text, view
+from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
+from ._types import Table
 
 _STOP = 1
+Shape = tuple[int, ...]
 
 
 def stop_value(answer: Any) -> int:
@@ -48,6 +53,17 @@ def guarded(function: Callable[..., Any], *arguments: Any) -> int:
     return _STOP if pending.exception is not None else answer
 
 
+def outside() -> int:
+    """The stacklevel of a warning that is to point at the line that called this package."""
+    frame, level = sys._getframe(1), 1  # warnings.warn counts from `guarded`, which calls it
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+        frame, level = frame.f_back, level + 1
+    return level + 1
+
+
+_FOLDER = os.path.dirname(__file__)
+
+
 class _Views:
     """Arrays over the addresses that callbacks are given. An integrator uses few, so they are kept."""
 
@@ -55,9 +71,9 @@ class _Views:
 
     def __init__(self, dtype: Any = float):
         self._dtype = dtype
-        self._views: dict = {}
+        self._views: dict[tuple[int, Shape, bool], Table] = {}
 
-    def __call__(self, address: int, shape: tuple, writeable: bool) -> np.ndarray:
+    def __call__(self, address: int, shape: Shape, writeable: bool) -> Table:
         key = (address, shape, writeable)
         array = self._views.get(key)
         if array is None:
@@ -68,12 +84,13 @@ class _Views:
 
 
 def force_callback(function: Callable[..., Any]) -> Any:
+    """The callback that adds forces, for `function` of `System.set_force`."""
     views = _Views()
 
-    def force(n, t, q, v, out, _):
+    def force(n: int, t: float, q: int, v: int, out: int, _: Any) -> int:
         return guarded(call, n, t, q, v, out)
 
-    def call(n, t, q, v, out):
+    def call(n: int, t: float, q: int, v: int, out: int) -> Any:
         shape = (n, 3)
         return function(t, views(q, shape, False), views(v, shape, False), views(out, shape, True))
 
@@ -81,12 +98,13 @@ def force_callback(function: Callable[..., Any]) -> Any:
 
 
 def product_callback(function: Callable[..., Any]) -> Any:
+    """The callback for the product with the derivative of a force."""
     views = _Views()
 
-    def product(n, t, q, v, dq, dv, out, _):
+    def product(n: int, t: float, q: int, v: int, dq: int, dv: int, out: int, _: Any) -> int:
         return guarded(call, n, t, (q, v, dq, dv), out)
 
-    def call(n, t, inputs, out):
+    def call(n: int, t: float, inputs: tuple[int, ...], out: int) -> Any:
         shape = (n, 3)
         return function(t, *(views(address, shape, False) for address in inputs), views(out, shape, True))
 
@@ -94,41 +112,44 @@ def product_callback(function: Callable[..., Any]) -> Any:
 
 
 def drive_callback(function: Callable[..., Any]) -> Any:
+    """The callback that moves driven particles."""
     views = _Views()
 
-    def drive(count, t, q, v, _):
+    def drive(count: int, t: float, q: int, v: int, _: Any) -> int:
         return guarded(call, count, t, q, v)
 
-    def call(count, t, q, v):
+    def call(count: int, t: float, q: int, v: int) -> Any:
         return function(t, views(q, (count, 3), True), views(v, (count, 3), True))
 
     return DRIVE(drive)
 
 
-def rate_callback(function: Callable[..., Any], shape: tuple, dtype: Any) -> Any:
+def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
+    """The callback for the rate of a first-order problem."""
     views = _Views(dtype)
 
-    def rate(_n, t, x, out, _):
+    def rate(_n: int, t: float, x: int, out: int, _: Any) -> int:
         return guarded(call, t, x, out)
 
-    def call(t, x, out):
+    def call(t: float, x: int, out: int) -> Any:
         return function(t, views(x, shape, False), views(out, shape, True))
 
     return RATE(rate)
 
 
 @contextlib.contextmanager
-def listening(attach: Callable[..., Any], handle: Any, progress: Callable[..., Any] | None) -> Iterator[None]:
+def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
     """Passes progress of the object on while the library works, and lets Ctrl-C in; ``attach(handle, watcher,
     None)`` is the function of the library for that."""
-    tell = progress or (lambda done, what: None)
-    watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
-    attach(handle, watcher, None)
-    try:
-        with interruptible():
-            yield
-    finally:
-        attach(handle, PROGRESS(), None)
+    with shown(progress) as told:
+        tell = told or (lambda done, what: None)
+        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
+        attach(handle, watcher, None)
+        try:
+            with interruptible():
+                yield
+        finally:
+            attach(handle, PROGRESS(), None)
 
 
 @contextlib.contextmanager
@@ -144,7 +165,7 @@ def interruptible() -> Iterator[None]:
         yield
         return
 
-    def note(_number, _frame):
+    def note(_number: int, _frame: Any) -> None:
         pending.exception = KeyboardInterrupt()
 
     signal.signal(signal.SIGINT, note)

@@ -6,7 +6,7 @@ import ctypes
 import ctypes.util
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +41,7 @@ class Library:
             setattr(self, name, _install(path, library, name, checks))
 
 
-def _install(path, library, name, checks):
+def _install(path: str, library: ctypes.CDLL, name: str, checks: Mapping[Any, Any]) -> Any:
     result, *arguments = _prototypes.PROTOTYPES[name]
     try:
         function = getattr(library, name)
@@ -57,7 +57,7 @@ def _install(path, library, name, checks):
     return function
 
 
-def _require_abi(path, library):
+def _require_abi(path: str, library: ctypes.CDLL) -> None:
     try:
         abi = _install(path, library, "hooke_abi", {})()
     except ImportError:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ._prototypes import DOUBLES, INTEGERS
 from ._status import BadValue
+from ._types import FloatArray, IntArray, Table
 
 
 class Handle:
@@ -20,7 +21,7 @@ class Handle:
     when Python finds parent and child in one cycle of garbage.
     """
 
-    __slots__ = ("_as_parameter_", "_destroy", "_parent", "_users", "__weakref__")
+    __slots__ = ("__weakref__", "_as_parameter_", "_destroy", "_parent", "_users")
 
     def __init__(self, pointer: Any, destroy: Any = None, parent: Handle | None = None):
         self._as_parameter_ = pointer
@@ -53,14 +54,14 @@ class Handle:
 
 def view(
     address: int, shape: Sequence[int], owner: Any = None, writeable: bool = True, dtype: Any = float
-) -> np.ndarray:
+) -> Table:
     """An array of doubles over the library's memory, no copy; it keeps `owner` alive as long as it lives."""
     bytes_ = int(np.prod(shape, dtype=np.int64)) * np.dtype(dtype).itemsize
     if not bytes_:
         return np.empty(shape, dtype)
-    memory = (ctypes.c_char * bytes_).from_address(address)
+    memory: Any = (ctypes.c_char * bytes_).from_address(address)
     memory.owner = owner
-    array = np.ndarray(shape, dtype, buffer=memory)
+    array: Table = np.ndarray(shape, dtype, buffer=memory)
     array.flags.writeable = writeable
     return array
 
@@ -69,7 +70,7 @@ def address_of(pointer: Any) -> int:
     return ctypes.cast(pointer, ctypes.c_void_p).value or 0
 
 
-def doubles(values: Any, name: str, *shapes: Sequence[int]) -> np.ndarray:
+def doubles(values: Any, name: str, *shapes: Sequence[int]) -> FloatArray:
     """`values` as contiguous doubles of the first of `shapes` that their shape fits, or of the size of
     one."""
     array = np.asarray(values)
@@ -82,12 +83,12 @@ def doubles(values: Any, name: str, *shapes: Sequence[int]) -> np.ndarray:
     return array
 
 
-def rows(values: Any, name: str, count: int) -> np.ndarray:
+def rows(values: Any, name: str, count: int) -> FloatArray:
     """`values` as `count` rows of x y z, given so or flat."""
     return doubles(values, name, (count, 3), (3 * count,))
 
 
-def indices(values: Any, name: str) -> np.ndarray:
+def indices(values: Any, name: str) -> IntArray:
     """`values` as contiguous 64-bit indices; numbers that are not whole are refused rather than cut."""
     array = np.asarray(values)
     if array.size and array.dtype.kind not in "iu":
@@ -95,11 +96,16 @@ def indices(values: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
-def double_pointer(array: np.ndarray) -> Any:
-    return array.ctypes.data_as(DOUBLES)
+def double_pointer(array: FloatArray) -> Any:
+    """Contiguous doubles as an argument, which keeps the array alive."""
+    try:
+        buffer: Any = array
+        return ctypes.c_double.from_buffer(buffer)  # ten times quicker
+    except (TypeError, ValueError):  # read-only or empty
+        return array.ctypes.data_as(DOUBLES)
 
 
-def index_pointer(array: np.ndarray) -> Any:
+def index_pointer(array: IntArray) -> Any:
     return array.ctypes.data_as(INTEGERS)
 
 

@@ -6,7 +6,10 @@ Arguments of callbacks that are arrays or states arrive as plain addresses, whic
 pointers.
 """
 
+from __future__ import annotations
+
 from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
+from typing import Any
 
 
 class STATUS(c_int32):
@@ -17,7 +20,7 @@ class OUTCOME(c_int32):
     """Marks the status of a run: a failure is raised, an outcome (0 or more) returned."""
 
 
-def _handle(name):
+def _handle(name: str) -> Any:
     return POINTER(type(name, (Structure,), {}))
 
 
@@ -301,6 +304,9 @@ PROTOTYPES = {
     "hooke_record_options": (OPTIONS, RECORD),
     "hooke_record_frame_count": (INT64, RECORD),
     "hooke_record_read": (STATUS, RECORD, INT64, STATE),
+    "hooke_record_size": (STATUS, RECORD, TEXT, INTEGERS, INTEGERS),
+    "hooke_record_numbers": (STATUS, RECORD, TEXT, DOUBLES),
+    "hooke_record_place": (INT64, RECORD, TEXT),
     "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
     "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
     "hooke_study_write_csv": (STATUS, STUDY, TEXT),

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+from ._types import FloatArray, IntArray
+
+_DOUBLE = np.dtype(np.float64)
 
 
 class Material(NamedTuple):
     """Per spring, each (m,): kappa [N/m], gamma [N s/m], rest length [m]."""
 
-    kappa: np.ndarray
-    gamma: np.ndarray
-    rest_length: np.ndarray
+    kappa: FloatArray
+    gamma: FloatArray
+    rest_length: FloatArray
 
 
 class Derived(NamedTuple):
@@ -32,16 +36,17 @@ class Blocks(NamedTuple):
     """A sparse matrix of 3x3 blocks in compressed rows: row_start (n + 1,), column (count,), blocks
     (count, 3, 3)."""
 
-    row_start: np.ndarray
-    column: np.ndarray
-    dfdq: np.ndarray
-    dfdv: np.ndarray
+    row_start: IntArray
+    column: IntArray
+    dfdq: FloatArray
+    dfdv: FloatArray
 
 
 class Queries:
     """Counts, tables, forces and energies. Positions and velocities are (n, 3) arrays [m], [m/s]."""
 
     _handle: Handle
+    _shape: tuple[int, int]  # of positions, once committed
 
     def _committed(self) -> Handle:
         raise NotImplementedError
@@ -53,27 +58,28 @@ class Queries:
 
     @property
     def particle_count(self) -> int:
-        return lib.hooke_system_particle_count(self._handle)
+        """Particles, of parts and others."""
+        return int(lib.hooke_system_particle_count(self._handle))
 
     @property
     def free_count(self) -> int:
         """Particles that are neither pinned nor driven; commits."""
-        return lib.hooke_system_free_count(self._committed())
+        return int(lib.hooke_system_free_count(self._committed()))
 
     @property
     def spring_count(self) -> int:
         """Springs: all that were added, once committed those that have stiffness or damping."""
-        return lib.hooke_system_spring_count(self._handle)
+        return int(lib.hooke_system_spring_count(self._handle))
 
     @property
     def dropped_spring_count(self) -> int:
         """Springs left out since they have neither stiffness nor damping; commits."""
-        return lib.hooke_system_dropped_spring_count(self._committed())
+        return int(lib.hooke_system_dropped_spring_count(self._committed()))
 
     @property
     def idle_count(self) -> int:
         """Pinned particles that no spring, no bending, no altitude spring and no force callback touches; commits."""
-        return lib.hooke_system_idle_count(self._committed())
+        return int(lib.hooke_system_idle_count(self._committed()))
 
     @property
     def groups(self) -> list[tuple[str, int]]:
@@ -89,7 +95,7 @@ class Queries:
     @property
     def bending_count(self) -> int:
         """Triples of bending; commit drops those of coefficient 0."""
-        return lib.hooke_system_bending_count(self._handle)
+        return int(lib.hooke_system_bending_count(self._handle))
 
     @property
     def bending_groups(self) -> list[tuple[str, int]]:
@@ -138,21 +144,21 @@ class Queries:
         ]
 
     @property
-    def masses(self) -> np.ndarray:
+    def masses(self) -> FloatArray:
         """Mass of every particle (n,) [kg], a read-only view."""
         return self._particle_numbers(lib.hooke_system_mass)
 
     @property
-    def inverse_masses(self) -> np.ndarray:
+    def inverse_masses(self) -> FloatArray:
         """Inverse mass of every particle (n,) [1/kg], 0 where pinned or driven, a read-only view."""
         return self._particle_numbers(lib.hooke_system_inverse_mass)
 
-    def _particle_numbers(self, function: Any) -> np.ndarray:
+    def _particle_numbers(self, function: Any) -> FloatArray:
         handle = self._committed()
         return view(address_of(function(handle)), (self.particle_count,), handle, writeable=False)
 
     @property
-    def spring_ends(self) -> np.ndarray:
+    def spring_ends(self) -> IntArray:
         """The particles at both ends of every spring (m, 2), in spring order."""
         handle = self._committed()
         ends = np.empty((self.spring_count, 2), np.int64)
@@ -168,7 +174,7 @@ class Queries:
         return material
 
     @property
-    def bending_ends(self) -> np.ndarray:
+    def bending_ends(self) -> IntArray:
         """The particles of every triple (m, 3), in their order."""
         handle = self._committed()
         triples = np.empty((self.bending_count, 3), np.int64)
@@ -176,7 +182,7 @@ class Queries:
         return triples
 
     @property
-    def bending_coefficient(self) -> np.ndarray:
+    def bending_coefficient(self) -> FloatArray:
         """The coefficient of every triple (m,) [N/m]."""
         handle = self._committed()
         coefficient = np.empty(self.bending_count)
@@ -222,24 +228,24 @@ class Queries:
     @property
     def memory(self) -> int:
         """Memory that the system holds [bytes]."""
-        return lib.hooke_system_memory(self._committed())
+        return int(lib.hooke_system_memory(self._committed()))
 
     @property
     def spring_memory(self) -> int:
         """The part of it that goes with the number of springs [bytes]."""
-        return lib.hooke_system_spring_memory(self._committed())
+        return int(lib.hooke_system_spring_memory(self._committed()))
 
     # forces
 
-    def force(self, q: Any, v: Any, t: float = 0.0) -> np.ndarray:
+    def force(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
         """Force on every particle (n, 3) [N]."""
         return self._vectors(lib.hooke_system_force, t, q=q, v=v)
 
-    def acceleration(self, q: Any, v: Any, t: float = 0.0) -> np.ndarray:
+    def acceleration(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
         """Acceleration of every particle (n, 3) [m/s^2], zero where pinned or driven."""
         return self._vectors(lib.hooke_system_acceleration, t, q=q, v=v)
 
-    def derivative_product(self, q: Any, v: Any, dq: Any, dv: Any, t: float = 0.0) -> np.ndarray:
+    def derivative_product(self, q: Any, v: Any, dq: Any, dv: Any, t: float = 0.0) -> FloatArray:
         """(df/dq) dq + (df/dv) dv of the force, (n, 3)."""
         return self._vectors(lib.hooke_system_derivative_product, t, q=q, v=v, dq=dq, dv=dv)
 
@@ -269,47 +275,47 @@ class Queries:
     def coincident_springs(self, q: Any) -> int:
         """Springs whose ends coincide although their rest length is not zero: they have no direction and
         no force."""
-        return self._number(lib.hooke_system_coincident_springs, q=q)
+        return int(lib.hooke_system_coincident_springs(self._committed(), self._argument(q, "q")))
 
     # energies
 
     def kinetic_energy(self, v: Any) -> float:
         """Kinetic energy of the free particles [J]."""
-        return self._number(lib.hooke_system_kinetic_energy, v=v)
+        return float(lib.hooke_system_kinetic_energy(self._committed(), self._argument(v, "v")))
 
     def spring_energy(self, q: Any) -> float:
         """Energy of the springs [J]."""
-        return self._number(lib.hooke_system_spring_energy, q=q)
+        return float(lib.hooke_system_spring_energy(self._committed(), self._argument(q, "q")))
 
     def bending_energy(self, q: Any) -> float:
         """Energy of bending [J]."""
-        return self._number(lib.hooke_system_bending_energy, q=q)
+        return float(lib.hooke_system_bending_energy(self._committed(), self._argument(q, "q")))
 
     def altitude_energy(self, q: Any) -> float:
         """Energy of the altitude springs [J]."""
-        return self._number(lib.hooke_system_altitude_energy, q=q)
+        return float(lib.hooke_system_altitude_energy(self._committed(), self._argument(q, "q")))
 
     def gravity_energy(self, q: Any) -> float:
         """The sum of -m g.q over the free particles [J]."""
-        return self._number(lib.hooke_system_gravity_energy, q=q)
+        return float(lib.hooke_system_gravity_energy(self._committed(), self._argument(q, "q")))
 
     def potential_energy(self, q: Any) -> float:
         """Energy of springs, bending, altitude springs and gravity [J]."""
-        return self._number(lib.hooke_system_potential_energy, q=q)
+        return float(lib.hooke_system_potential_energy(self._committed(), self._argument(q, "q")))
 
     def energy(self, q: Any, v: Any) -> float:
         """Total energy [J]. A force callback has none."""
-        return self._number(lib.hooke_system_energy, q=q, v=v)
+        return float(lib.hooke_system_energy(self._committed(), self._argument(q, "q"), self._argument(v, "v")))
 
     def dissipated_power(self, q: Any, v: Any) -> float:
         """Power that damping and drag turn into heat [W]."""
-        return self._number(lib.hooke_system_dissipated_power, q=q, v=v)
+        return float(lib.hooke_system_dissipated_power(self._committed(), self._argument(q, "q"), self._argument(v, "v")))
 
-    def momentum(self, v: Any) -> np.ndarray:
+    def momentum(self, v: Any) -> FloatArray:
         """Momentum of the free particles (3,) [kg m/s]."""
         return self._sum(lib.hooke_system_momentum, v=v)
 
-    def angular_momentum(self, q: Any, v: Any) -> np.ndarray:
+    def angular_momentum(self, q: Any, v: Any) -> FloatArray:
         """Angular momentum of the free particles about the origin (3,) [kg m^2/s]."""
         return self._sum(lib.hooke_system_angular_momentum, q=q, v=v)
 
@@ -322,22 +328,27 @@ class Queries:
         lib.hooke_step_bound(handle, method.encode(), double_pointer(q), double_pointer(bound))
         return float(bound[0])
 
-    def _rows(self, **arrays: Any) -> list[np.ndarray]:
+    def _rows(self, **arrays: Any) -> list[FloatArray]:
         return [rows(values, name, self.particle_count) for name, values in arrays.items()]
 
-    def _vectors(self, function: Any, t: float, **arrays: Any) -> np.ndarray:
+    def _argument(self, values: Any, name: str) -> Any:
+        """Positions or velocities as an argument; those of a state are passed on as they are."""
+        if type(values) is np.ndarray and values.shape == self._shape and values.dtype is _DOUBLE:
+            try:
+                buffer: Any = values
+                return ctypes.c_double.from_buffer(buffer)
+            except TypeError:  # read-only or not contiguous
+                pass
+        return double_pointer(rows(values, name, self.particle_count))
+
+    def _vectors(self, function: Any, t: float, **arrays: Any) -> FloatArray:
         handle = self._committed()
         out = np.empty((self.particle_count, 3))
         inputs = self._rows(**arrays)
         function(handle, t, *(double_pointer(array) for array in inputs), double_pointer(out))
         return out
 
-    def _number(self, function: Any, **arrays: Any) -> Any:
-        handle = self._committed()
-        inputs = self._rows(**arrays)
-        return function(handle, *(double_pointer(array) for array in inputs))
-
-    def _sum(self, function: Any, **arrays: Any) -> np.ndarray:
+    def _sum(self, function: Any, **arrays: Any) -> FloatArray:
         handle = self._committed()
         out = np.empty(3)
         inputs = self._rows(**arrays)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Callable
 
 #: Outcomes of a run: they are results, not exceptions.
 OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
@@ -83,12 +84,12 @@ class _Pending(threading.local):
 pending = _Pending()
 
 
-def checker(words, outcomes):
+def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[int, Any, Any], int]:
     """The ctypes `errcheck` of functions that return a status; `words` are hooke_last_error and
     hooke_status_name. With `outcomes` a positive status is a result and not raised."""
     last_error, status_name = words
 
-    def check(code, function, arguments):
+    def check(code: int, _function: Any, _arguments: Any) -> int:
         exception = pending.exception
         if exception is not None:
             pending.exception = None

@@ -7,11 +7,12 @@ from typing import Any, Callable
 import numpy as np
 
 from ._memory import text
+from ._types import Table
 
 
 def read_rows(
     handle: Any, count: int, dtype: np.dtype, text_of: Callable[..., Any], number_of: Callable[..., Any]
-) -> np.ndarray:
+) -> Table:
     """`count` rows, read-only: fields of text from ``text_of(handle, row, name)``, the others from `number_of`."""
     rows = np.empty(count, dtype)
     for name in dtype.names or ():

@@ -13,11 +13,13 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, address_of, text, view
-from ._prototypes import COMPARISON, COMPARISON_FILE, COMPARISON_FRAME, PROGRESS
+from ._progress import Shown
+from ._prototypes import COMPARISON, COMPARISON_FILE, COMPARISON_FRAME
 from ._status import BadValue
+from ._types import FloatArray, Path, Table
 from .integrator import methods as all_methods
 from .options import Options
-from .results import Path, Runnable, resolve
+from .results import Runnable, resolve
 from .scene import scene_text
 from .state import State
 from .system import Force, System
@@ -55,10 +57,10 @@ class Comparison:
 
     status: str
     reference: str
-    rows: np.ndarray
-    time: np.ndarray
-    error: np.ndarray
-    energy_drift: np.ndarray
+    rows: Table
+    time: FloatArray
+    error: FloatArray
+    energy_drift: FloatArray
 
     @property
     def methods(self) -> list[str]:
@@ -80,7 +82,7 @@ def compare(
     *,
     output: Path | None = None,
     force: Force | None = None,
-    progress: ComparisonProgress | None = None,
+    progress: ComparisonProgress | bool | None = None,
     on_frame: ComparisonObserver | None = None,
     **options: Any,
 ) -> Comparison:
@@ -89,7 +91,8 @@ def compare(
 
     The keywords `options` are those of a run: step [s], duration [s], every [s], rtol, atol [m]; `output` is
     an HDF5 file to write (`hooke.plot` draws it), `force` adds a force callback, ``progress(fraction, what)``
-    is told of progress, ``on_frame(run, frame, step, state)`` sees every frame (not together with `output`).
+    is told of progress, ``progress=True`` shows a bar (with tqdm),
+    ``on_frame(run, frame, step, state)`` sees every frame (not together with `output`).
     """
     if output is not None and on_frame is not None:
         raise BadValue("on_frame: not together with output, which takes the frames")
@@ -103,38 +106,30 @@ def compare(
     names = [method.name for method in all_methods() if method.built] if methods is None else list(methods)
     for name in names:
         lib.hooke_comparison_add(handle, name.encode())
-    watchers = [_watch_progress(progress or (lambda done, what: None))]
-    lib.hooke_comparison_on_progress(handle, watchers[0], None)
-    if on_frame is not None:
-        watchers.append(_watch_frames(on_frame, system.state()))
-        lib.hooke_comparison_on_frame(handle, watchers[1], None)
+    watcher = None if on_frame is None else _watch_frames(on_frame, system.state())
+    if watcher is not None:
+        lib.hooke_comparison_on_frame(handle, watcher, None)
     if output is None:
-        status = _run(handle)
-    else:
-        status = _run_to_file(os.fsencode(output), scene, system, handle)
-    return _read(handle, status)
+        return _read(handle, _run(handle, progress))
+    return _read(handle, _run_to_file(os.fsencode(output), scene, system, handle, progress))
 
 
-def _run(handle: Handle) -> str:
-    with _callback.interruptible():
+def _run(handle: Handle, progress: Shown) -> str:
+    with _callback.listening(lib.hooke_comparison_on_progress, handle, progress):
         return "stopped" if lib.hooke_comparison_run(handle) else "finished"
 
 
-def _run_to_file(path: bytes, scene: Any, system: System, handle: Handle) -> str:
+def _run_to_file(path: bytes, scene: Any, system: System, handle: Handle, progress: Shown) -> str:
     file = COMPARISON_FILE()
     lib.hooke_comparison_file_create(path, system._handle, handle, scene_text(scene), ctypes.byref(file))
     try:
-        return _run(handle)
+        return _run(handle, progress)
     finally:
         lib.hooke_comparison_file_close(file)
 
 
-def _watch_progress(progress: ComparisonProgress) -> Any:
-    return PROGRESS(lambda done, what, _: _callback.guarded(progress, done, text(what)))
-
-
 def _watch_frames(on_frame: ComparisonObserver, copy: State) -> Any:
-    def call(run, frame, step, address):
+    def call(run: bytes, frame: int, step: int, address: int) -> int | None:
         source = ctypes.cast(address, type(copy._handle.pointer))
         lib.hooke_state_copy(source, copy._handle)
         return on_frame(text(run), frame, step, copy)
@@ -154,7 +149,7 @@ def _read(handle: Handle, status: str) -> Comparison:
             rows[name][row] = lib.hooke_comparison_number(handle, row, name.encode())
     frames = lib.hooke_comparison_frame_count(handle)
 
-    def series(what: bytes) -> np.ndarray:
+    def series(what: bytes) -> FloatArray:
         out = np.full((count, frames), np.nan)
         for row in range(count):
             out[row] = _series(handle, row, what, frames)
@@ -165,6 +160,6 @@ def _read(handle: Handle, status: str) -> Comparison:
     return Comparison(status, reference, rows, time, series(b"error"), series(b"energy_drift"))
 
 
-def _series(handle: Handle, row: int, what: bytes, frames: int) -> np.ndarray:
+def _series(handle: Handle, row: int, what: bytes, frames: int) -> FloatArray:
     pointer = lib.hooke_comparison_series(handle, row, what)
     return view(address_of(pointer), (frames,)).copy() if pointer else np.full(frames, np.nan)

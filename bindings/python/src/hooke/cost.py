@@ -12,6 +12,7 @@ from ._memory import Handle, text
 from ._prototypes import COST
 from ._status import OUTCOMES
 from ._tables import read_rows
+from ._types import Table
 from .options import Options
 from .results import Runnable, WorkProgress, prepare
 from .state import State
@@ -43,7 +44,7 @@ class Cost:
     resolution: float
     memory_bytes: float
     step_limit: float
-    rows: np.ndarray
+    rows: Table
 
     def __init__(self, handle: Handle, status: int):
         self.outcome = OUTCOMES.get(status, "stopped")
@@ -60,7 +61,8 @@ class Cost:
         names = self.rows["name"].tolist()
         if name not in names:
             raise KeyError(f"{name!r}; there are {', '.join(names)}")
-        return self.rows[names.index(name)]
+        row: np.void = self.rows[names.index(name)]
+        return row
 
     def __str__(self) -> str:
         lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]
@@ -80,7 +82,7 @@ def cost(
     *,
     predict: bool = False,
     budget: float | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: object,
 ) -> Cost:
     """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene

@@ -12,6 +12,7 @@ from ._library import lib
 from ._memory import Handle
 from ._prototypes import INTEGRATOR
 from ._status import BadValue
+from ._types import Table
 from .options import Options
 from .state import State
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from .results import Result
 
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
-Rate = Callable[[float, np.ndarray, np.ndarray], Optional[int]]
+Rate = Callable[[float, Table, Table], Optional[int]]
 
 
 class FirstOrder:
@@ -41,6 +42,7 @@ class FirstOrder:
         self._x0 = x0.astype(complex if x0.dtype.kind == "c" else float)
         self._size = self._x0.view(float).size
         self._rate = _callback.rate_callback(phi, self._x0.shape, self._x0.dtype)
+        self._callbacks = [self._rate]
 
     def state(self) -> State:
         """The initial state: t = 0, x = x0."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
 
 from . import _callback
+from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, text
 from ._prototypes import OBSERVER, WARNING
@@ -37,7 +38,9 @@ COUNTS = (
 )
 
 
-_BLOWN_UP = (2, 3, SolverFailed.status)
+_SOLVER_FAILED = -7
+_BLOWN_UP = (2, 3, _SOLVER_FAILED)
+_RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
 
 class Method(NamedTuple):
@@ -67,12 +70,13 @@ class StepWarning(RuntimeWarning):
     """The step of a run is no longer certain to be stable; the text says where, when, and by how much."""
 
 
-class Integrator:
+class Integrator(Closing):
     """A method with its options, made for one system or first-order problem; several may share a system.
 
     Options are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s], rtol,
     atol [m], atol_velocity [m/s], ...; keywords win over `options`. The system is committed if it was not. An
-    integrator and its state belong to one thread at a time. Other Python threads go on while it runs.
+    integrator and its state belong to one thread at a time. Other Python threads go on while it runs. `close`, or the end
+    of a ``with`` block, gives its memory back.
     """
 
     def __init__(self, problem: System | FirstOrder, options: Options | None = None, **keywords: Any):
@@ -104,8 +108,26 @@ class Integrator:
     def step(self, state: State, steps: int = 1) -> str:
         """Takes `steps` steps without frames, for time loops of your own; returns an outcome as `run`
         does."""
-        with self._watched(state, None, None):
-            return self._outcome(lib.hooke_integrator_step(self._handle, state._handle, steps))
+        if self._problem._callbacks:
+            with _callback.interruptible():
+                code = self._step(state, steps)
+        else:
+            code = self._step(state, steps)
+        return self._outcome(code) if code or self.outcome else "finished"
+
+    def _step(self, state: State, steps: int) -> int:
+        # called once a step in loops: nothing here that takes microseconds
+        if self._running:
+            raise BadCall(_RUNNING)
+        self._running = True
+        try:
+            code: int = lib.hooke_integrator_step(self._handle, state._handle, steps)
+        except SolverFailed as failure:
+            self._failed(failure)
+            raise
+        finally:
+            self._running = False
+        return code
 
     def why(self) -> Why:
         """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`."""
@@ -124,6 +146,10 @@ class Integrator:
         except (NotBuilt, Unsuited):
             return self.message
 
+    def _failed(self, failure: SolverFailed) -> None:
+        self.outcome, self.message = _SOLVER_FAILED, str(failure)
+        failure.integrator = self
+
     def _outcome(self, code: int) -> str:
         self.outcome = code
         self.message = text(lib.hooke_last_error()) if code else ""
@@ -132,7 +158,7 @@ class Integrator:
     @contextlib.contextmanager
     def _watched(self, state: State, on_frame: Observer | None, on_step: Any) -> Iterator[None]:
         if self._running:
-            raise BadCall("this integrator is running; a callback or another thread needs one of its own")
+            raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
         # a frame observer is always there, so that Ctrl-C is noticed
         frames = _observer(on_frame or (lambda step, state: None), state)
@@ -150,8 +176,8 @@ class Integrator:
 
     @contextlib.contextmanager
     def _warned(self) -> Iterator[None]:
-        def warn(_kind, sentence, _t, _limit, _spring, _particle, _):
-            return _callback.guarded(lambda: warnings.warn(text(sentence), StepWarning, stacklevel=2))
+        def warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
+            return _callback.guarded(warnings.warn, text(sentence), StepWarning, _callback.outside())
 
         callback = WARNING(warn)  # lives until the run is over
         with contextlib.suppress(NotBuilt, Unsuited):
@@ -159,8 +185,7 @@ class Integrator:
         try:
             yield
         except SolverFailed as failure:
-            self.outcome, self.message = SolverFailed.status, str(failure)
-            failure.integrator = self
+            self._failed(failure)
             raise
         finally:
             with contextlib.suppress(NotBuilt, Unsuited):
@@ -169,7 +194,7 @@ class Integrator:
     @property
     def frame_count(self) -> int:
         """Frames of a whole run, the initial one included."""
-        return lib.hooke_integrator_frame_count(self._handle)
+        return int(lib.hooke_integrator_frame_count(self._handle))
 
     @property
     def counts(self) -> dict[str, int]:
@@ -179,24 +204,24 @@ class Integrator:
     @property
     def wall_seconds(self) -> float:
         """Time spent stepping [s], without observers and output."""
-        return lib.hooke_integrator_wall_seconds(self._handle)
+        return float(lib.hooke_integrator_wall_seconds(self._handle))
 
     @property
     def stop_value(self) -> int:
         """What the callback that stopped the run returned; 0 if none did."""
-        return lib.hooke_integrator_stop_value(self._handle)
+        return int(lib.hooke_integrator_stop_value(self._handle))
 
     @property
     def diverged_at(self) -> float:
         """Time at which divergence was noticed [s], NaN if it was not."""
-        return lib.hooke_integrator_diverged_at(self._handle)
+        return float(lib.hooke_integrator_diverged_at(self._handle))
 
     def __repr__(self) -> str:
         return f"Integrator({self._problem!r}, {self.options!r})"
 
 
 def _observer(function: Observer, state: State) -> Any:
-    def observer(step, _state, _):
+    def observer(step: int, _state: int, _: Any) -> int:
         return _callback.guarded(function, step, state)
 
     return OBSERVER(observer)

@@ -15,14 +15,15 @@ from ._memory import Handle, address_of, text, view
 from ._prototypes import LIMIT, RECORD
 from ._status import OUTCOMES
 from ._tables import read_rows
+from ._types import ComplexArray, FloatArray, Path, Table
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from .results import Runnable, WorkProgress, prepare
 from .state import State
 from .system import System
 from .why import Blame
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
-Place = Union[State, np.ndarray, Path, "tuple[Path, int]"]
+Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
 _ROW = np.dtype(
     [("method", "U32")]
@@ -88,11 +89,11 @@ class Limit:
     outcome: str
     time: float
     step: float
-    rows: np.ndarray
-    modes: np.ndarray
-    frequency: np.ndarray
-    decay: np.ndarray
-    shape: np.ndarray | None
+    rows: Table
+    modes: ComplexArray
+    frequency: FloatArray
+    decay: FloatArray
+    shape: FloatArray | None
     frequency_max: float
     rate_max: float
     clamped: int
@@ -126,7 +127,8 @@ class Limit:
         """The row of a method."""
         if method not in self.methods:
             raise KeyError(f"{method!r}; there are {', '.join(self.methods)}")
-        return self.rows[self.methods.index(method)]
+        row: np.void = self.rows[self.methods.index(method)]
+        return row
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
@@ -164,7 +166,7 @@ def limit(
     nonlinear: bool = False,
     accuracy: float | None = None,
     budget: float | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Limit:
     """Finds the largest stable step of each of `methods` (all of fixed step, if None) on a scene (or the path of one)
@@ -174,7 +176,8 @@ def limit(
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
     the number of a frame. ``along=True`` predicts at every frame of the run and tells the smallest limits met and when;
     ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the measuring.
-    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0. The
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
+    tqdm) and stops the work by returning a number other than 0. The
     keywords `options` are those of a run. ``hooke limit --report FILE.html`` makes a page with diagrams.
     """
     _, system, run = prepare("limit", problem, None, options)
@@ -213,7 +216,7 @@ def _state_at(system: System, at: Place | None) -> State:
     return state
 
 
-def _read_modes(handle: Handle) -> list[np.ndarray]:
+def _read_modes(handle: Handle) -> list[FloatArray]:
     count = range(lib.hooke_limit_mode_count(handle))
     return [
         np.array([lib.hooke_limit_mode_number(handle, mode, what) for mode in count], float)
@@ -223,7 +226,7 @@ def _read_modes(handle: Handle) -> list[np.ndarray]:
 
 def _blame(handle: Handle, place: int) -> Blame:
     def number(what: bytes) -> float:
-        return lib.hooke_limit_blame_number(handle, place, what)
+        return float(lib.hooke_limit_blame_number(handle, place, what))
 
     group = text(lib.hooke_limit_blame_text(handle, place, b"group"))
     return Blame(int(number(b"spring")), (int(number(b"first")), int(number(b"second"))), group, number(b"share"))

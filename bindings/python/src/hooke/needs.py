@@ -8,13 +8,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._callback import listening
+from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, rows, text
 from ._prototypes import NEEDS
 from ._status import OUTCOMES, BadCall
 from ._tables import read_rows
+from ._types import FloatArray, Path, Table
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from .results import Runnable, WorkProgress, prepare
 from .scene import Scene
 from .system import System, write_scene
 
@@ -49,7 +51,7 @@ _PART = np.dtype(
 )
 
 
-class Needs:
+class Needs(Closing):
     """What a scene needs for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
@@ -73,8 +75,8 @@ class Needs:
     duration: float
     judged_until: float
     runs: int
-    rows: np.ndarray
-    parts: np.ndarray
+    rows: Table
+    parts: Table
     full: RunCost
     lean_cost: RunCost | None
     lean_error: float
@@ -102,7 +104,8 @@ class Needs:
         names = [str(name) for name in self.rows["without"]]
         if without not in names:
             raise KeyError(f"{without!r}; there are {', '.join(names)}")
-        return self.rows[names.index(without)]
+        row: np.void = self.rows[names.index(without)]
+        return row
 
     @property
     def left_out(self) -> list[str]:
@@ -135,7 +138,7 @@ class Needs:
             raise BadCall("there is no lean system: it was not looked for, or the work was stopped before")
         write_scene(path, lean, self._scene.title if self._scene is not None else "", run)
 
-    def lean_position(self, q: Any) -> np.ndarray:
+    def lean_position(self, q: Any) -> FloatArray:
         """Positions (n, 3) [m] of the particles of the full system at positions `q` of the lean one: of the same
         material points, NaN where they were left out."""
         lean = self.lean
@@ -180,7 +183,7 @@ def needs(
     watch: Any = None,
     *,
     refine: bool = False,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Needs:
     """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds by how much the
@@ -189,7 +192,8 @@ def needs(
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` asks
     the reverse instead: each part at once, twice and four times its resolution, and what the want asks for.
-    ``progress(fraction, what)`` is told of progress and stops the work by returning a number other than 0, with what
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
+    tqdm) and stops the work by returning a number other than 0, with what
     is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
     tolerances are found. ``hooke needs --report FILE.html`` makes a page with diagrams.
     """

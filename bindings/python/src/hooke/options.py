@@ -11,10 +11,12 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, doubles, text, view
+from ._place import placed
 from ._prototypes import OPTIONS
 from ._status import BadCall, BadValue
+from ._types import Table
 
-Value = Union[None, bool, int, float, str, np.ndarray, list]
+Value = Union[None, bool, int, float, str, Table, list[Any]]
 
 
 class Row(NamedTuple):
@@ -47,7 +49,7 @@ class Row(NamedTuple):
     word_lists: bool
 
 
-class Options(MutableMapping):
+class Options(MutableMapping[str, Any]):
     """The options of one thing by name: ``options["step"] = 1e-3``.
 
     A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or
@@ -139,7 +141,7 @@ class Options(MutableMapping):
             numbers = numbers.astype(np.int64)
         if words:
             return [*words.split(), *numbers.tolist()]
-        return numbers if count > 1 else numbers[0].item()
+        return numbers if count > 1 else float(numbers[0]) if numbers.dtype == float else int(numbers[0])
 
     def __setitem__(self, name: str, value: Any) -> None:
         if self._read_only:
@@ -154,11 +156,12 @@ class Options(MutableMapping):
         elif isinstance(value, Mapping):
             lib.hooke_options_set_text(self._handle, key, b"")
             for member, member_value in value.items():
-                self[f"{name}.{member}"] = member_value
+                with placed(name):
+                    self[f"{name}.{member}"] = member_value
         elif np.ndim(value) == 0:
-            lib.hooke_options_set_number(self._handle, key, _number(name, value))
-        elif any(isinstance(item, str) for item in value):
-            words = ",".join(item if isinstance(item, str) else repr(_number(name, item)) for item in value)
+            lib.hooke_options_set_number(self._handle, key, as_number(name, value))
+        elif not isinstance(value, np.ndarray) and any(isinstance(item, str) for item in value):
+            words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in value)
             lib.hooke_options_set_text(self._handle, key, words.encode())
         else:
             numbers = doubles(value, name).reshape(-1)
@@ -179,7 +182,7 @@ class Options(MutableMapping):
         """Sets options by keyword, those of None left out; ``from_`` stands for an option named ``from``."""
         for name, value in values.items():
             if value is not None:
-                self[name[:-1] if name.endswith("_") else name] = value
+                self[option_name(name)] = value
         return self
 
     def describe(self) -> str:
@@ -227,7 +230,13 @@ def describe(what: str) -> str:
     return options_of(what).describe()
 
 
-def _number(name: str, value: Any) -> float:
+def option_name(keyword: str) -> str:
+    """The option that a keyword stands for: ``from_`` for ``from``, which Python takes for itself."""
+    return keyword[:-1] if keyword.endswith("_") else keyword
+
+
+def as_number(name: str, value: Any) -> float:
+    """`value` as a number; BadValue if it is none."""
     try:
         return float(value)
     except (TypeError, ValueError):

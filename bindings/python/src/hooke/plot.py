@@ -9,18 +9,20 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from ._library import lib
+from ._status import BadValue
+from ._types import FloatArray, Path, Table
 from .limit import Limit
 from .results import Result
 from .study import Study
+from .trajectory import Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .needs import Needs
 
-Path = Union[str, "os.PathLike[str]"]
-#: An HDF5 file of a run or a comparison, a `Result`, or positions (n, 3) and springs (m, 2).
-Source = Union[Path, Result, tuple[Any, Any]]
+#: An HDF5 file of a run or a comparison, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
+Source = Union[Path, Trajectory, Result, tuple[Any, Any]]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 
@@ -38,7 +40,7 @@ def cloth(
 ) -> Any:
     """Draws the springs of a cloth, or of anything else, in space.
 
-    `source` is a file that a run or a comparison wrote, a `Result`, or a pair of positions (n, 3) [m] and
+    `source` is a file that a run or a comparison wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3) [m] and
     spring ends (m, 2). In a file, `run` is "all" (the run, or the reference of a comparison) or a method of
     the comparison, and `frame` counts the frames that were written, from the end if negative. `up` is the
     axis that is drawn upwards.
@@ -46,21 +48,17 @@ def cloth(
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
     q, springs, time = _frame(source, run, frame)
-    height = _AXES[up]
-    # cyclic, so that the picture is not mirrored
-    order = [(height + 1) % 3, (height + 2) % 3, height]
+    order = axis_order(up)
     points = np.asarray(q, float)[:, order]
     if ax is None:
-        ax = _new_axes(projection="3d")
-        for name, axis in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order):
-            name(f"{'xyz'[axis]} [m]")
+        ax = new_space(order)
         if time is not None:
             ax.set_title(f"t = {time:g} s")
     ax.add_collection3d(
         Line3DCollection(points[np.asarray(springs, int)], colors=color, linewidths=linewidth, label=label),
         autolim=False,
     )
-    _fit(ax, points)
+    fit(ax, points)
     return ax
 
 
@@ -192,12 +190,12 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _edge_of(method: str, frequency: np.ndarray, decay: np.ndarray) -> np.ndarray:
+def _edge_of(method: str, frequency: FloatArray, decay: FloatArray) -> FloatArray:
     name = method.encode()
     return np.array([lib.hooke_limit_of_mode(name, *pair) for pair in zip(frequency, decay)])
 
 
-def _parts(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _parts(z: FloatArray) -> tuple[FloatArray, FloatArray]:
     return z.real, z.imag
 
 
@@ -224,25 +222,30 @@ class _Table:
             self.orders = dict(zip(names, group["orders/order"][:].tolist()))
             self.agreement = float(group["reference"].attrs["agreement"])
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Table:
         return self._columns[name]
 
 
-def _ladder(ax: Any, x: np.ndarray, error: np.ndarray, label: str, style: dict[str, Any]) -> None:
+def _ladder(ax: Any, x: FloatArray, error: FloatArray, label: str, style: dict[str, Any]) -> None:
     there = error > 0
     ax.plot(x[there], error[there], label=label, linewidth=1, **style)
 
 
-def _edge(ax: Any, x: np.ndarray, style: dict[str, Any]) -> None:
+def _edge(ax: Any, x: FloatArray, style: dict[str, Any]) -> None:
     height = np.full(x.size, 0.98)
     ax.plot(x, height, transform=ax.get_xaxis_transform(), linestyle="", **{**style, "marker": "x"})
 
 
-def _frame(source: Source, run: str, frame: int) -> tuple[np.ndarray, np.ndarray, float | None]:
+def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | None]:
     if isinstance(source, Result):
         return source.state.q, source.system.spring_ends, source.state.t
+    if isinstance(source, Trajectory):
+        return source[frame].q, source.springs, source[frame].t
     if not isinstance(source, (str, os.PathLike)):
         return (*source, None)
+    if run == "all":
+        with Trajectory(source) as trajectory:
+            return _frame(trajectory, run, frame)
     import h5py
 
     with h5py.File(source, "r") as file:
@@ -260,7 +263,23 @@ def _new_axes(**options: Any) -> Any:
     return plt.figure().add_subplot(**options)
 
 
-def _fit(ax: Any, points: np.ndarray) -> None:
+def axis_order(up: str) -> list[int]:
+    """The axes that are drawn as x, y and z with `up` upwards; cyclic, so that the picture is not mirrored."""
+    if up not in _AXES:
+        raise BadValue(f'up: "{up}" is not allowed; allowed: "x", "y" or "z"')
+    height = _AXES[up]
+    return [(height + 1) % 3, (height + 2) % 3, height]
+
+
+def new_space(order: list[int]) -> Any:
+    """New axes in space, named by the `order` of `axis_order`."""
+    ax = _new_axes(projection="3d")
+    for name, axis in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order):
+        name(f"{'xyz'[axis]} [m]")
+    return ax
+
+
+def fit(ax: Any, points: FloatArray) -> None:
     """Widens the limits to what is drawn, with one scale for the three axes."""
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):

@@ -1,7 +1,7 @@
 """Running a scene in one call.
 
-The files that `output` names are H5MD 1.1 (HDF5) and read with h5py; nothing of this package is needed for
-it::
+The files that `output` names are read back with `hooke.open`. They are H5MD 1.1 (HDF5), so that h5py reads them,
+too, and nothing of this package is needed for it::
 
     with h5py.File("out.h5") as file:
         t = file["particles/all/position/time"][:]      # (frames,) [s]
@@ -22,8 +22,10 @@ import numpy as np
 
 from ._callback import stop_value
 from ._library import lib
+from ._progress import shown
 from ._prototypes import TRAJECTORY
 from ._status import BadValue
+from ._types import FloatArray, Path, Table
 from .first_order import FirstOrder
 from .integrator import Integrator, Observer
 from .options import Options
@@ -31,7 +33,6 @@ from .scene import Scene, scene_text
 from .state import State
 from .system import Force, System
 
-Path = Union[str, "os.PathLike[str]"]
 #: What can be run: a scene or the path of one, a system, a first-order problem.
 Runnable = Union[Path, Scene, System, FirstOrder]
 #: progress(fraction, state): told at each frame; `fraction` goes from 0 to 1.
@@ -46,9 +47,9 @@ class Frames(NamedTuple):
     """The frames of a run: times (k,) [s], positions (k, n, 3) [m], velocities (k, n, 3) [m/s]; of a
     first-order problem `q` is (k, size) and `v` None."""
 
-    t: np.ndarray
-    q: np.ndarray
-    v: np.ndarray | None
+    t: FloatArray
+    q: Table
+    v: FloatArray | None
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def run(
     output: Path | None = None,
     frames: bool = False,
     force: Force | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     on_frame: Observer | None = None,
     on_step: tuple[int, Observer] | None = None,
     **options: Any,
@@ -111,7 +112,8 @@ def run(
     every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
     start (it is changed; by default the initial state), `output` the HDF5 file to write, ``frames=True``
     keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
-    state)`` is told at each frame; for `on_frame` and `on_step` see `Integrator.run`.
+    state)`` is told at each frame, ``progress=True`` shows a bar (with tqdm);
+    for `on_frame` and `on_step` see `Integrator.run`.
     """
     scene, problem, given = resolve(problem, force)
     integrator = Integrator(problem, given, **options)
@@ -122,12 +124,13 @@ def run(
     recorder = _Recorder(integrator.frame_count, state) if frames else None
     if recorder is not None:
         watchers.append(recorder)
-    if progress is not None:
-        watchers.append(_Progress(progress, integrator.frame_count))
-    if output is None:
-        status = integrator.run(state, on_frame=_all(watchers), on_step=on_step)
-    else:
-        status = _run_to_file(os.fsencode(output), scene, integrator, state, watchers, on_step)
+    with shown(progress, fills=False) as tell:  # a run may end early
+        if tell is not None:
+            watchers.append(_Progress(tell, integrator.frame_count))
+        if output is None:
+            status = integrator.run(state, on_frame=_all(watchers), on_step=on_step)
+        else:
+            status = _run_to_file(os.fsencode(output), scene, integrator, state, watchers, on_step)
     return Result(
         status=status,
         message=integrator.message,
@@ -185,7 +188,14 @@ def _all(watchers: list[Observer]) -> Observer:
     return watch
 
 
-def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
+def _run_to_file(
+    path: bytes,
+    scene: Scene | None,
+    integrator: Integrator,
+    state: State,
+    watchers: list[Observer],
+    on_step: tuple[int, Observer] | None,
+) -> str:
     if not isinstance(integrator._problem, System):
         raise BadValue("output: a first-order problem has no particles to write")
     pointer = TRAJECTORY()
@@ -200,7 +210,7 @@ def _run_to_file(path, scene, integrator, state, watchers, on_step) -> str:
         lib.hooke_trajectory_write(pointer, step, state._handle)
 
     try:
-        status = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
+        status: str = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
     except BaseException as exception:
         outcome = getattr(exception, "status", None)
         lib.hooke_trajectory_close(pointer, outcome if isinstance(outcome, int) else _STOPPED)
@@ -239,5 +249,5 @@ class _Recorder:
         return Frames(self._t[:end], self._q[:end], None if self._v is None else self._v[:end])
 
 
-def _arrays(state: State) -> tuple[np.ndarray, np.ndarray | None]:
+def _arrays(state: State) -> tuple[Table, Table | None]:
     return (state.x, None) if state._v is None else (state.q, state.v)

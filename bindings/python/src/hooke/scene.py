@@ -1,57 +1,238 @@
-"""Scenes: JSON files that describe a system and how to run it."""
+"""Scenes: a system and how to run it, built in Python or read from JSON files."""
 
 from __future__ import annotations
 
 import ctypes
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ._library import lib
-from ._memory import Handle, text
+from ._memory import Handle, doubles, indices, rows, text
+from ._place import placed
 from ._prototypes import SCENE
-from .options import Options
-from .system import System, write_scene
+from ._status import BadCall, BadValue
+from ._types import FloatArray, IntArray, Numbers, Particle, Path
+from .options import Options, as_number, option_name
+from .parts import Parts
+from .system import System, read_mesh, write_scene
 
 if TYPE_CHECKING:
     from .results import Result
 
 
-class Scene:
+class Scene(Parts):
     """A scene: its `system` and its `run_options`.
 
-    The system is still open after loading, so that a force callback can be added; the first use commits it,
-    with messages that give the place in the file.
+    Built by calls that can be chained, with the keywords of the scene format; arrays may be NumPy's::
+
+        scene = hooke.Scene(gravity=(0, -9.81, 0)).cloth(
+            size=(12, 12), edges=((1, 0, 0), (0, 0, 1)), mass=1,
+            structural=dict(stiffness=50, damping=0.01), pinned="top-corners")
+
+    or read with `load` and `parse`, and then added to in the same way. Each call checks what it is given and raises
+    `BadValue` with the place (``cloth.structural.stiffness: ...``), leaving the scene as it was. Particles are numbered
+    from 0: those of `particles` first, then those of parts in their order. The first use that needs a finished system
+    (a run, a state, `save`) commits it; after that nothing can be added. Until then ``scene.system`` also takes what
+    has no word in the format, such as a force of your own.
+
+    `gravity` (3,) [m/s^2]; `drag` [N s/m] of the ether, ``f = -c v``; `run` are defaults for runs of the scene, see
+    `run_defaults`.
     """
 
-    def __init__(self, handle: Handle):
-        self._handle = handle
-        self._system = System._of_scene(handle)
+    def __init__(
+        self,
+        title: str = "",
+        *,
+        gravity: Numbers | None = None,
+        drag: float | None = None,
+        run: Mapping[str, Any] | None = None,
+    ):
+        self._system = System()
+        self._run = Options.for_run()
+        self._title = title
+        self._parts: dict[str, range] = {}  # of those that are known
+        self._text: str | None = None  # None: to be made from the document
+        self._document: dict[str, Any] | None = {"hooke": 1}
+        if title:
+            self._document["title"] = title
+        if gravity is not None:
+            self._system.set_gravity(gravity)
+            self._document["gravity"] = doubles(gravity, "gravity")
+        if drag is not None:
+            self._document["drag"] = as_number("drag", drag)
+            self._system.set_drag(self._document["drag"])
+        if run:
+            self.run_defaults(**run)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene file. BadValue says what is wrong where; IOFailed if it cannot be read."""
+    def _of_handle(cls, handle: Handle) -> Scene:
+        scene = cls.__new__(cls)
+        scene._system = System._of_scene(handle)
+        scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
+        scene._title = text(lib.hooke_scene_title(handle))
+        scene._text = text(lib.hooke_scene_text(handle))
+        scene._document = None  # read from the text when it is needed
+        scene._parts = {}
+        return scene
+
+    @classmethod
+    def load(cls, path: Path) -> Scene:
+        """Reads a scene file, or the scene of a trajectory file with the options of its run.
+
+        BadValue says what is wrong where; IOFailed if it cannot be read.
+        """
         pointer = SCENE()
         lib.hooke_scene_load(os.fsencode(path), ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_scene_destroy))
+        return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
 
     @classmethod
-    def parse(
-        cls,
-        scene: str | bytes | Mapping,
-        name: str = "scene",
-        folder: None | str | os.PathLike[str] = None,
-    ) -> Scene:
-        """Reads a scene from its text, or from a dict of the same shape. `name` stands for the file in
-        messages; files named in the scene are looked up in `folder` (None: none are allowed)."""
+    def parse(cls, scene: str | bytes | Mapping[str, Any], name: str = "scene", folder: Path | None = None) -> Scene:
+        """Reads a scene from its text, or from a dict of the same shape, which may hold NumPy arrays.
+
+        `name` stands for the file in messages; files named in the scene are looked up in `folder` (None: none are
+        allowed).
+        """
         if isinstance(scene, Mapping):
-            scene = json.dumps(scene)
+            scene = _dump(scene)
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         where = None if folder is None else os.fsencode(folder)
         pointer = SCENE()
         lib.hooke_scene_parse(data, len(data), name.encode(), where, ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_scene_destroy))
+        return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
+
+    # building
+
+    def particles(
+        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers, pinned: Numbers | None = None
+    ) -> Scene:
+        """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
+        number for all or (n,); `pinned` are the numbers of those held still.
+
+        A scene has one block of them, given before its parts, since they are numbered first. Returns the scene.
+        """
+        with placed("particles"):
+            self._require_no_particles()
+            q = np.atleast_2d(doubles(position, "position"))
+            count = len(q)
+            piece: dict[str, Any] = {"position": doubles(q, "position", (count, 3)).copy()}
+            if velocity is not None:
+                piece["velocity"] = rows(velocity, "velocity", count).reshape(count, 3).copy()
+            held = None if pinned is None else np.unique(_in_range(indices(pinned, "pinned"), "pinned", count))
+            if held is not None and "velocity" in piece:
+                _require_rest(piece["velocity"], held)
+            kilograms = doubles(mass, "mass").reshape(-1)
+            piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+            self._system.add_particles(piece["position"], piece.get("velocity"), mass=kilograms)
+            if held is not None and held.size:
+                self._system.pin(held)
+                piece["pinned"] = held
+        self._changed()["particles"] = piece
+        return self
+
+    def springs(
+        self,
+        name: str | None = None,
+        *,
+        between: Sequence[Sequence[Particle]] | IntArray,
+        stiffness: Numbers,
+        law: str | None = None,
+        damping: Numbers | None = None,
+        rest_length: str | Numbers | None = None,
+        rest_scale: float | None = None,
+        compression: bool | None = None,
+    ) -> Scene:
+        """Adds a group of springs `between` pairs of particles (m, 2), which are there already: numbers, or
+        ``("part", number)`` within a part of that name.
+
+        `law` is "strain" (default) or "length"; `stiffness` [N], or [N/m] in the length law; `damping` [N s], or
+        [N s/m]; `rest_length` [m] or "initial" (default), the distance at the start: each one number or (m,).
+        `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the scene.
+        """
+        given = {
+            "law": law,
+            "stiffness": stiffness,
+            "damping": damping,
+            "rest_length": rest_length,
+            "rest_scale": rest_scale,
+            "compression": compression,
+        }
+        keys = {key: _kept(value) for key, value in given.items() if value is not None}
+        with placed(f"springs[{self._count('springs')}]"):
+            ends = self._numbers(between, "between")
+            if ends.size == 0:
+                ends = ends.reshape(0, 2)
+            self._system.add_springs(name, ends, **keys)
+        self._note("springs", {**({"name": name} if name else {}), "between": ends, **keys})
+        return self
+
+    def driven(
+        self,
+        particles: Particle | Sequence[Particle] | IntArray,
+        *,
+        motion: str = "harmonic",
+        amplitude: Numbers | None = None,
+        frequency: float | None = None,
+        phase: float | None = None,
+        time: Numbers | None = None,
+        position: Numbers | None = None,
+    ) -> Scene:
+        """Moves `particles`, which are there already, as prescribed about where they are.
+
+        With `motion` "harmonic" by ``amplitude * sin(2 pi frequency t + phase)``: `amplitude` (3,) [m], `frequency`
+        [Hz], `phase` [rad], 0 if None; with "table" along a smooth curve through `position` (k, 3) [m], displacements
+        at ascending `time` (k,) [s]. Returns the scene.
+        """
+        given = {"amplitude": amplitude, "frequency": frequency, "phase": phase, "time": time, "position": position}
+        keys = {key: _kept(value) for key, value in given.items() if value is not None}
+        with placed(f"driven[{self._count('driven')}]"):
+            _check_motion(motion, keys)
+            numbers = self._numbers(particles, "particles").reshape(-1)
+            if motion == "table":
+                self._system.drive_table(numbers, keys["time"], keys["position"])
+            else:
+                turns, angle = (as_number(key, keys.get(key, 0.0)) for key in ("frequency", "phase"))
+                self._system.drive_harmonic(numbers, keys["amplitude"], turns, angle)
+        self._note("driven", {"particles": numbers, "motion": motion, **keys})
+        return self
+
+    def run_defaults(self, **options: Any) -> Scene:
+        """Sets options that runs of the scene have unless they are given others: method, step [s], duration [s],
+        every [s], ..., as ``hooke.describe("run")`` lists them. Returns the scene."""
+        with placed("run"):
+            self._run.copy().set(**options)  # all of them or none
+        self._run.set(**options)
+        self._changed()
+        return self
+
+    def _part(self, kind: str, given: dict[str, Any]) -> Scene:
+        keys = {
+            option_name(key): _kept(value)
+            for key, value in given.items()
+            if key not in ("self", "name", "file") and value is not None
+        }
+        name, names = given["name"], self._part_names()
+        options = Options.for_part(kind)
+        with placed(kind):
+            called = name or f"{kind}{len(names)}"
+            if called in names:
+                raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
+            for key, value in keys.items():
+                options[key] = value
+            if given.get("file") is not None:
+                if "vertices" in keys or "triangles" in keys:
+                    raise BadValue("file: is not allowed together with vertices and triangles")
+                read_mesh(given["file"], options)
+                read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
+                keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
+            self._parts[called] = self._system._add_part(kind, called, options)
+        self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
+        return self
+
+    # using
 
     @property
     def system(self) -> System:
@@ -61,17 +242,20 @@ class Scene:
     @property
     def run_options(self) -> Options:
         """The options of a run that the scene gives; they may be changed."""
-        return Options(Handle(lib.hooke_scene_run_options(self._handle), None, self._handle))
+        return self._run
 
     @property
     def title(self) -> str:
         """Its title, "" if it has none."""
-        return text(lib.hooke_scene_title(self._handle))
+        return self._title
 
     @property
     def text(self) -> str:
-        """The JSON text that was read."""
-        return text(lib.hooke_scene_text(self._handle))
+        """The scene as JSON text: what was read, or what was built."""
+        if self._text is not None:
+            return self._text
+        run = {name: self._run[name] for name in self._run if self._run.is_set(name)}
+        return _dump({**self._opened(), **({"run": run} if run else {})})
 
     def run(self, **options: Any) -> Result:
         """Runs the scene; see `hooke.run`."""
@@ -79,13 +263,123 @@ class Scene:
 
         return run(self, **options)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: Path) -> None:
         """Writes the scene as it is now, its system and `run_options`, as a scene file; see `System.save`."""
         write_scene(path, self._system, self.title, self.run_options)
 
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"
 
+    # the document
+
+    def _opened(self) -> dict[str, Any]:
+        if self._document is None:
+            self._document = json.loads(self._text or "{}")
+        return self._document
+
+    def _changed(self) -> dict[str, Any]:
+        document = self._opened()
+        self._text = None
+        return document
+
+    def _note(self, key: str, piece: dict[str, Any]) -> None:
+        self._changed().setdefault(key, []).append(piece)
+
+    def _count(self, key: str) -> int:
+        return len(self._opened().get(key, ()))
+
+    def _part_names(self) -> list[str]:
+        return [part.get("name") or f"{part['kind']}{k}" for k, part in enumerate(self._opened().get("parts", ()))]
+
+    def _require_no_particles(self) -> None:
+        if "particles" in self._opened():
+            raise BadCall("the scene has its particles already; give them all in one call")
+        if self._system.particle_count:
+            raise BadCall("they are numbered before those of parts, so give them before the first part")
+
+    def _numbers(self, particles: Any, name: str) -> IntArray:
+        """Particles as numbers, those of parts by the names of these resolved."""
+        if isinstance(particles, np.ndarray):
+            return np.array(indices(particles, name))  # the caller's may change
+        return indices(self._resolved(particles, name), name)
+
+    def _resolved(self, particles: Any, name: str) -> Any:
+        if not isinstance(particles, (list, tuple)):
+            return particles
+        if len(particles) == 2 and isinstance(particles[0], str):
+            return self._number_in_part(particles[0], particles[1], name)
+        return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
+
+    def _number_in_part(self, part: str, number: Any, name: str) -> int:
+        names = self._part_names()
+        if part not in names:
+            known = ", ".join(f'"{other}"' for other in names) or "there are none"
+            raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
+        if part not in self._parts:
+            self._find_parts(names)
+        particles = self._parts[part]
+        if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
+            raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
+        return particles[int(number)]
+
+    def _find_parts(self, names: list[str]) -> None:
+        """The particles of parts that were read: each is as large as the same one in a system of its own."""
+        ranges: dict[str, range] = {}
+        last = self._system.particle_count
+        for name, part in reversed(list(zip(names, self._opened()["parts"]))):
+            options = Options.for_part(part["kind"])
+            for key, value in part.items():
+                if key not in ("kind", "name", "pinned"):
+                    options[key] = value
+            count = len(System()._add_part(part["kind"], name, options))
+            ranges[name] = range(last - count, last)
+            last -= count
+        self._parts = ranges
+
 
 def scene_text(scene: Scene | None) -> bytes | None:
-    return None if scene is None else lib.hooke_scene_text(scene._handle)
+    """The text that files of a run keep, None if there is no scene."""
+    return None if scene is None else scene.text.encode()
+
+
+_MOTIONS = {
+    "harmonic": (("amplitude", "frequency"), ("phase",)),
+    "table": (("time", "position"), ()),
+}
+
+
+def _check_motion(motion: str, keys: dict[str, Any]) -> None:
+    if motion not in _MOTIONS:
+        raise BadValue(f'motion: "{motion}" is not allowed; allowed: "harmonic" or "table"')
+    required, optional = _MOTIONS[motion]
+    for key in required:
+        if key not in keys:
+            raise BadValue(f'{key}: is required with motion "{motion}" but missing')
+    for key in keys:
+        if key not in (*required, *optional):
+            raise BadValue(f'{key}: is not allowed with motion "{motion}"; allowed: {", ".join((*required, *optional))}')
+
+
+def _in_range(particles: IntArray, name: str, count: int) -> IntArray:
+    particles = particles.reshape(-1)
+    wrong = np.flatnonzero((particles < 0) | (particles >= count))
+    if wrong.size:
+        first = int(wrong[0])
+        raise BadValue(f"{name}[{first}]: there is no particle {particles[first]}; allowed: 0 to {count - 1}")
+    return particles
+
+
+def _require_rest(velocity: FloatArray, held: IntArray) -> None:
+    moving = held[velocity[held].any(axis=1)]
+    if moving.size:
+        row = velocity[moving[0]].tolist()
+        raise BadValue(f"velocity[{moving[0]}]: {row} is not allowed, the particle is pinned; allowed: 0")
+
+
+def _kept(value: Any) -> Any:
+    """What the document keeps of a value, which is the caller's and may change."""
+    return value.copy() if isinstance(value, np.ndarray) else value
+
+
+def _dump(document: Mapping[str, Any]) -> str:
+    return json.dumps(document, default=lambda value: value.tolist() if hasattr(value, "tolist") else list(value))

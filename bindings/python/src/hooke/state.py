@@ -10,6 +10,7 @@ import numpy as np
 from ._library import lib
 from ._memory import Handle, address_of, view
 from ._prototypes import STATE
+from ._types import FloatArray, Table
 
 
 class State:
@@ -21,7 +22,7 @@ class State:
     gone.
     """
 
-    __slots__ = ("_handle", "_x", "_v", "__weakref__")
+    __slots__ = ("__weakref__", "_handle", "_q", "_v", "_x")
 
     def __init__(self, handle: Handle, dtype: Any = float):
         self._handle = handle
@@ -29,8 +30,10 @@ class State:
         velocity = lib.hooke_state_velocity(handle)
         numbers = size if np.dtype(dtype) == float else size // 2
         self._x = view(address_of(lib.hooke_state_position(handle)), (numbers,), handle, dtype=dtype)
-        self._v: np.ndarray | None = None
+        self._q: FloatArray | None = None
+        self._v: FloatArray | None = None
         if velocity or not size:
+            self._q = self._x.reshape(-1, 3)
             self._v = view(address_of(velocity), (size // 3, 3), handle)
 
     @classmethod
@@ -48,23 +51,23 @@ class State:
     @property
     def t(self) -> float:
         """Time [s]."""
-        return lib.hooke_state_time(self._handle)
+        return float(lib.hooke_state_time(self._handle))
 
     @t.setter
     def t(self, value: float) -> None:
         lib.hooke_state_set_time(self._handle, value)
 
     @property
-    def q(self) -> np.ndarray:
+    def q(self) -> FloatArray:
         """Positions (n, 3) [m], a view."""
-        return self._x.reshape(-1, 3) if self._v is not None else self._no_particles("q")
+        return self._q if self._q is not None else self._no_particles("q")
 
     @q.setter
     def q(self, value: Any) -> None:
         self.q[...] = value
 
     @property
-    def v(self) -> np.ndarray:
+    def v(self) -> FloatArray:
         """Velocities (n, 3) [m/s], a view."""
         return self._v if self._v is not None else self._no_particles("v")
 
@@ -73,7 +76,7 @@ class State:
         self.v[...] = value
 
     @property
-    def x(self) -> np.ndarray:
+    def x(self) -> Table:
         """All positions in one row (3n,) [m], or the unknowns of a first-order problem (size,); a view."""
         return self._x
 

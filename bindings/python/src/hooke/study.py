@@ -10,13 +10,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._callback import listening
+from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, address_of, text, view
 from ._prototypes import STUDY
 from ._status import OUTCOMES
 from ._tables import read_rows
+from ._types import BoolArray, FloatArray, Path, StrArray, Table
 from .options import Options
-from .results import Path, Runnable, WorkProgress, prepare
+from .results import Runnable, WorkProgress, prepare
 from .scene import Scene, scene_text
 from .system import Force, System
 
@@ -68,9 +70,9 @@ class Order(NamedTuple):
 class Series(NamedTuple):
     """One row over the frames that are judged, each (k,): time [s], error [m], energy_drift [J]."""
 
-    time: np.ndarray
-    error: np.ndarray
-    energy_drift: np.ndarray
+    time: FloatArray
+    error: FloatArray
+    energy_drift: FloatArray
 
 
 class Recommendation(NamedTuple):
@@ -99,7 +101,7 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study:
+class Study(Closing):
     """A study that was made: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped",
@@ -117,29 +119,29 @@ class Study:
     budget_spent: bool
     duration: float
     reference: Reference
-    rows: np.ndarray
+    rows: Table
     orders: dict[str, Order]
 
-    method: np.ndarray
-    status: np.ndarray
-    step: np.ndarray
-    rtol: np.ndarray
-    atol: np.ndarray
-    error: np.ndarray
-    error_max: np.ndarray
-    error_final: np.ndarray
-    energy_drift: np.ndarray
-    force_evaluations: np.ndarray
-    steps: np.ndarray
-    linear_iterations: np.ndarray
-    wall_seconds: np.ndarray
-    wall_median: np.ndarray
-    repeats: np.ndarray
-    near_floor: np.ndarray
-    timed_alone: np.ndarray
+    method: StrArray
+    status: StrArray
+    step: FloatArray
+    rtol: FloatArray
+    atol: FloatArray
+    error: FloatArray
+    error_max: FloatArray
+    error_final: FloatArray
+    energy_drift: FloatArray
+    force_evaluations: FloatArray
+    steps: FloatArray
+    linear_iterations: FloatArray
+    wall_seconds: FloatArray
+    wall_median: FloatArray
+    repeats: FloatArray
+    near_floor: BoolArray
+    timed_alone: BoolArray
 
     def __init__(
-        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | None
+        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | bool | None
     ):
         self._handle = handle
         self._scene = scene
@@ -170,14 +172,15 @@ class Study:
             return None
 
         def number(what: str) -> float:
-            return lib.hooke_study_recommendation_number(self._handle, what.encode())
+            return float(lib.hooke_study_recommendation_number(self._handle, what.encode()))
 
         def word(what: str) -> str:
             return text(lib.hooke_study_recommendation_text(self._handle, what.encode()))
 
         names = ("step", "rtol", "atol", "error", "wall_seconds", "force_evaluations")
+        numbers = {name: number(name) for name in names}
         return Recommendation(
-            bool(number("met")), number("want"), word("method"), *map(number, names), word("note")
+            met=bool(number("met")), want=number("want"), method=word("method"), note=word("note"), **numbers
         )
 
     def recommend(self, want: float) -> Recommendation:
@@ -240,7 +243,7 @@ def study(
     tolerances: Any = None,
     output: Path | None = None,
     force: Force | None = None,
-    progress: WorkProgress | None = None,
+    progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
     """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
@@ -249,7 +252,8 @@ def study(
 
     `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want`
     [m] asks for a recommendation, `budget` [s] limits the time. `output` is a file to write (see
-    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress and stops
+    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress
+    (``progress=True`` shows a bar, with tqdm) and stops
     the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
     every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
@@ -276,6 +280,6 @@ def _read_orders(handle: Handle, methods: list[str]) -> dict[str, Order]:
         name = method.encode()
         if lib.hooke_method_is_adaptive(name):
             continue
-        numbers = (lib.hooke_study_order(handle, name, what.encode()) for what in Order._fields[:-1])
-        orders[method] = Order(*numbers, text(lib.hooke_study_order_note(handle, name)))
+        numbers = {what: lib.hooke_study_order(handle, name, what.encode()) for what in Order._fields[:-1]}
+        orders[method] = Order(note=text(lib.hooke_study_order_note(handle, name)), **numbers)
     return orders

@@ -13,6 +13,7 @@ from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
+from ._types import FloatArray
 from .options import Options
 from .state import State
 
@@ -20,11 +21,11 @@ if TYPE_CHECKING:
     from .results import Result
 
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
-Force = Callable[[float, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+Force = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: product(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to `out`; all arrays (n, 3).
-ForceProduct = Callable[[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], Optional[int]]
+ForceProduct = Callable[[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: drive(t, q, v): writes positions [m] and velocities [m/s] at time t, arrays (count, 3).
-Drive = Callable[[float, np.ndarray, np.ndarray], Optional[int]]
+Drive = Callable[[float, FloatArray, FloatArray], Optional[int]]
 
 
 class System(Queries):
@@ -52,7 +53,7 @@ class System(Queries):
         return system
 
     @classmethod
-    def _committed_by(cls, handle: Handle, callbacks: list) -> System:
+    def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
         """One that the library made and keeps, with the callbacks of another."""
         system = cls.__new__(cls)
         system._adopt(handle, lambda: None)
@@ -62,7 +63,8 @@ class System(Queries):
     def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
         self._handle = handle
         self._commit = commit
-        self._callbacks: list = []  # the library calls them as long as the system is in use
+        self._final = False  # whether it is known to be committed
+        self._callbacks: list[Any] = []  # the library calls them as long as the system is in use
 
     # building
 
@@ -156,13 +158,16 @@ class System(Queries):
         file = options.pop("file", None)
         part = Options.for_part(kind).set(**options)
         if file is not None:
-            lib.hooke_mesh_read(os.fsencode(file), part._handle)
+            read_mesh(file, part)
+        return self._add_part(kind, name, part)
+
+    def _add_part(self, kind: str, name: str | None, options: Options) -> range:
         first, count = ctypes.c_int64(), ctypes.c_int64()
         lib.hooke_system_add_part(
             self._handle,
             kind.encode(),
             None if name is None else name.encode(),
-            part._handle,
+            options._handle,
             ctypes.byref(first),
             ctypes.byref(count),
         )
@@ -224,6 +229,7 @@ class System(Queries):
         """Checks the system as a whole and makes it constant; a second call is a BadCall. Returns the
         system."""
         self._commit()
+        self._committed()
         return self
 
     # using
@@ -250,13 +256,22 @@ class System(Queries):
         return Handle(pointer, lib.hooke_integrator_destroy, self._handle)
 
     def _committed(self) -> Handle:
-        if not self.is_committed:
-            self._commit()
+        if not self._final:
+            if not self.is_committed:
+                self._commit()
+            self._shape = (self.particle_count, 3)
+            self._final = True
         return self._handle
 
     def __repr__(self) -> str:
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
 
 
+def read_mesh(file: str | os.PathLike[str], options: Options) -> None:
+    """Reads an OBJ file into the options of a mesh, whose `transform` and `weld` are set."""
+    lib.hooke_mesh_read(os.fsencode(file), options._handle)
+
+
 def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
+    """Writes a system as a scene file, with the options of a run."""
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)

@@ -442,6 +442,9 @@ HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
+HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
+HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
+HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 typedef struct hooke_comparison_file hooke_comparison_file;
 HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
                                                hooke_comparison *comparison, const char *scene_text,

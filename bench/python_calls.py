@@ -1,0 +1,62 @@
+"""Times the calls of the Python package that a time loop makes: of each the time that Python adds to the library.
+
+    HOOKE_LIBRARY=build/release/libhooke.so PYTHONPATH=bindings/python/src python bench/python_calls.py
+
+One particle on one spring, so that the library itself has next to nothing to do. What it does take is timed by steps in
+one call (``step(state, 10**6)``) and by evaluations of the energy from C, and is not taken off the other rows, so that
+these are what a caller sees. The least of several rounds, since other programs only ever add time.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Callable
+
+import hooke
+
+ROUNDS, CALLS = 400, 250
+
+
+def seconds(function: Callable[[], object]) -> float:
+    """The least time of one call [s], the loop's own taken off."""
+
+    def once(calls: range, f: Callable[[], object]) -> float:
+        begin = time.perf_counter()
+        for _ in calls:
+            f()
+        return (time.perf_counter() - begin) / len(calls)
+
+    calls = range(CALLS)
+    empty = min(once(calls, int) for _ in range(ROUNDS))
+    nothing = min(once(calls, lambda: None) for _ in range(ROUNDS))
+    return min(once(calls, function) for _ in range(ROUNDS)) - min(empty, nothing)
+
+
+def main() -> None:
+    scene = hooke.Scene().particles([[0, 0, 0], [1.25, 0, 0]], mass=1, pinned=0)
+    system = scene.springs(between=[[0, 1]], stiffness=20, rest_length=1).system
+    state = system.state()
+    integrator = hooke.Integrator(system, method="symplectic-euler", step=1e-3)
+    q, v = state.q, state.v
+    steps = 10**6
+    begin = time.perf_counter()
+    integrator.step(state, steps)
+    own = (time.perf_counter() - begin) / steps
+    rows: dict[str, Callable[[], object]] = {
+        "integrator.step(state)": lambda: integrator.step(state),
+        "state.t": lambda: state.t,
+        "state.q": lambda: state.q,
+        "state.v": lambda: state.v,
+        "system.energy(q, v)": lambda: system.energy(q, v),
+        "system.energy(state.q, state.v)": lambda: system.energy(state.q, state.v),
+        "system.kinetic_energy(v)": lambda: system.kinetic_energy(v),
+        "system.particle_count": lambda: system.particle_count,
+    }
+    print(f"{'call':36}{'microseconds':>14}")
+    for name, function in rows.items():
+        print(f"{name:36}{1e6 * seconds(function):14.2f}")
+    print(f"{'one of a million steps in one call':36}{1e6 * own:14.2f}")
+
+
+if __name__ == "__main__":
+    main()

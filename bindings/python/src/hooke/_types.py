@@ -1,0 +1,45 @@
+"""Names for the types that several modules of the package use."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, TypedDict, Union
+
+import numpy as np
+import numpy.typing as npt
+
+Path = Union[str, os.PathLike[str]]
+Numbers = npt.ArrayLike
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+StrArray = npt.NDArray[np.str_]
+ComplexArray = npt.NDArray[np.complex128]
+#: Structured rows, or numbers of more than one kind.
+Table = npt.NDArray[Any]
+#: Particles that a part holds still: numbers within it, words such as "top-corners", or both.
+Pins = Union[str, int, Sequence[Union[str, int]], Table]
+#: A particle of a scene: its number, or the name of a part and the number within it.
+Particle = Union[int, tuple[str, int], list[Any]]
+
+
+class Springs(TypedDict, total=False):
+    """A family of springs of a part; `stiffness` is required.
+
+    `stiffness` [N] is the force at double length; `damping` [N s], or `damping_ratio` as a share of the critical
+    one; `rest_scale` a factor on the rest length; ``compression=False`` makes springs that only pull.
+    """
+
+    stiffness: float
+    damping: float
+    damping_ratio: float
+    rest_scale: float
+    compression: bool
+
+
+class Transform(TypedDict, total=False):
+    """From the coordinates of a mesh to metres: a factor `scale`, then a vector `translate` (3,) [m] that is added."""
+
+    scale: float
+    translate: Numbers

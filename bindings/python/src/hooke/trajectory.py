@@ -1,0 +1,267 @@
+"""Trajectory files read back, without h5py: what a run wrote, as arrays.
+
+The files are H5MD 1.1 (HDF5), so that h5py and other programs read them, too.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+
+from ._closing import Closing
+from ._library import lib
+from ._memory import Handle, double_pointer, text
+from ._prototypes import RECORD
+from ._status import BadValue
+from ._types import FloatArray, IntArray, Path
+from .options import Options
+from .results import Frames
+from .scene import Scene
+from .state import State
+from .system import System
+
+if TYPE_CHECKING:
+    from .animation import Animation
+
+
+class Frame(NamedTuple):
+    """One frame: the number of its step, its time [s], positions (n, 3) [m] and velocities (n, 3) [m/s]."""
+
+    step: int
+    t: float
+    q: FloatArray
+    v: FloatArray
+
+
+class Energy(NamedTuple):
+    """Energies [J] and dissipated power [W] at every frame, each (frames,)."""
+
+    kinetic: FloatArray
+    potential: FloatArray
+    total: FloatArray
+    dissipated_power: FloatArray
+
+
+class Trajectory(Closing):
+    """What a run wrote to a file, see `open`.
+
+    ``len(trajectory)`` is the number of frames that are there; frames of a run that was killed before it wrote them
+    are not. ``trajectory[k]`` is a `Frame`, ``trajectory[a:b]`` the `Frames` of a slice, and a loop goes over frames.
+    Positions and velocities are mapped from the file, not read: only the pages that are looked at come into memory.
+    """
+
+    def __init__(self, path: Path):
+        pointer = RECORD()
+        self.path: str = os.fsdecode(path)  #: the file
+        lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
+        self._handle = Handle(pointer, lib.hooke_record_close)
+        self._kept: dict[str, Any] = {}
+        self._count: int = lib.hooke_record_frame_count(self._handle)
+
+    # frames
+
+    @property
+    def t(self) -> FloatArray:
+        """Times of the frames (frames,) [s]."""
+        return self._numbers("time")[: self._count]
+
+    @property
+    def steps(self) -> IntArray:
+        """Numbers of the steps at the frames (frames,)."""
+        return self._numbers("step")[: self._count].astype(np.int64)
+
+    @property
+    def q(self) -> FloatArray:
+        """Positions (frames, n, 3) [m], read-only, mapped from the file."""
+        return self._rows("position")
+
+    @property
+    def v(self) -> FloatArray:
+        """Velocities (frames, n, 3) [m/s], read-only, mapped from the file."""
+        return self._rows("velocity")
+
+    @property
+    def energy(self) -> Energy:
+        """Energies at every frame: `kinetic`, `potential`, `total` [J], `dissipated_power` [W], each (frames,)."""
+        names = ("kinetic_energy", "potential_energy", "total_energy", "dissipated_power")
+        return Energy(*(self._numbers(name)[: self._count] for name in names))
+
+    @property
+    def momentum(self) -> FloatArray:
+        """Momentum of the free particles (frames, 3) [kg m/s]."""
+        return self._numbers("momentum")[: self._count]
+
+    @property
+    def angular_momentum(self) -> FloatArray:
+        """Angular momentum of the free particles about the origin (frames, 3) [kg m^2/s]."""
+        return self._numbers("angular_momentum")[: self._count]
+
+    # what was run
+
+    @property
+    def status(self) -> str:
+        """How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running"
+        while it lasts, or where it was killed."""
+        return text(lib.hooke_record_text(self._handle, b"status"))
+
+    @property
+    def options(self) -> Options:
+        """The options of the run, as it ran."""
+        return Options(Handle(lib.hooke_record_options(self._handle), None, self._handle), read_only=True)
+
+    @property
+    def scene(self) -> Scene | None:
+        """The scene that was run, with the options of the run; None if the run was not made from one."""
+        if not text(lib.hooke_record_text(self._handle, b"scene")):
+            return None
+        if "scene" not in self._kept:
+            self._kept["scene"] = Scene.load(self.path)
+        scene: Scene = self._kept["scene"]
+        return scene
+
+    @property
+    def system(self) -> System:
+        """The system of the scene; a force or a drive that was a callback is not in it."""
+        if self.scene is None:
+            raise BadValue(f"{self.path}: holds no scene: the run was not made from one")
+        return self.scene.system
+
+    @property
+    def mass(self) -> FloatArray:
+        """Mass of every particle (n,) [kg]."""
+        return self._numbers("mass")
+
+    @property
+    def springs(self) -> IntArray:
+        """The particles at both ends of every spring (m, 2), in spring order."""
+        return self._numbers("springs").astype(np.int64).reshape(-1, 2)
+
+    @property
+    def pinned(self) -> IntArray:
+        """Numbers of the particles that are held still (k,)."""
+        return np.flatnonzero(self._numbers("species") == 1)
+
+    @property
+    def driven(self) -> IntArray:
+        """Numbers of the particles that are moved as prescribed (k,)."""
+        return np.flatnonzero(self._numbers("species") == 2)
+
+    def state(self, frame: int = -1) -> State:
+        """The state at a frame, of its own, to go on from or to ask the system about; needs the scene."""
+        state = self.system.state()
+        lib.hooke_record_read(self._handle, frame, state._handle)
+        return state
+
+    def strain(self, frame: int = -1) -> FloatArray:
+        """Strain of every spring at a frame (m,): length over rest length, less 1; infinite or NaN where the rest
+        length is 0. Needs the scene."""
+        rest = self.system.spring_material.rest_length
+        q, ends = self[frame].q, self.springs
+        length = np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            strain: FloatArray = length / rest - 1
+        return strain
+
+    # pictures
+
+    def plot(self, ax: Any = None, *, frame: int = -1, **options: Any) -> Any:
+        """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
+        from .plot import cloth
+
+        return cloth(self, ax, frame=frame, **options)
+
+    def animate(self, **options: Any) -> Animation:
+        """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
+        `hooke.animation.animate`."""
+        from .animation import animate
+
+        return animate(self, **options)
+
+    # as a sequence
+
+    def __len__(self) -> int:
+        """The number of frames."""
+        return self._count
+
+    @overload
+    def __getitem__(self, frame: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, frame: slice) -> Frames: ...
+
+    def __getitem__(self, frame: int | slice) -> Frame | Frames:
+        """A `Frame`, negative numbers from the end; the `Frames` of a slice."""
+        if isinstance(frame, slice):
+            return Frames(self.t[frame], self.q[frame], self.v[frame])
+        if not -self._count <= frame < self._count:
+            raise IndexError(f"frame {frame}: {self.path} has {self._count} frames")
+        return Frame(int(self.steps[frame]), float(self.t[frame]), self.q[frame], self.v[frame])
+
+    def __iter__(self) -> Iterator[Frame]:
+        """The frames in order."""
+        return (self[frame] for frame in range(self._count))
+
+    def __repr__(self) -> str:
+        return f"Trajectory({self.path!r}, {self._count} frames)"
+
+    def close(self) -> None:
+        """Lets go of the file; arrays that were given out stay valid. A second call does nothing."""
+        self._kept.clear()
+        super().close()
+
+    # reading
+
+    def _numbers(self, what: str) -> FloatArray:
+        if what not in self._kept:
+            size = (ctypes.c_int64(), ctypes.c_int64())
+            name = what.encode()
+            lib.hooke_record_size(self._handle, name, ctypes.byref(size[0]), ctypes.byref(size[1]))
+            numbers = np.empty((size[0].value, size[1].value))
+            lib.hooke_record_numbers(self._handle, name, double_pointer(numbers))
+            numbers.flags.writeable = False
+            self._kept[what] = numbers[:, 0] if size[1].value == 1 else numbers
+        kept: FloatArray = self._kept[what]
+        return kept
+
+    def _rows(self, what: str) -> FloatArray:
+        if what not in self._kept:
+            self._kept[what] = self._mapped(what)
+        kept: FloatArray = self._kept[what]
+        return kept
+
+    def _mapped(self, what: str) -> FloatArray:
+        shape = (self._count, len(self.mass), 3)
+        place = lib.hooke_record_place(self._handle, what.encode())
+        if 0 in shape:
+            return np.empty(shape)
+        if place >= 0:
+            mapped = np.memmap(self.path, np.float64, "r", offset=place, shape=shape)
+            return mapped.view(np.ndarray)
+        return self._copied(what, shape)
+
+    def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
+        """Frames that another program has stored in another way, such as compressed."""
+        system = System()
+        system.add_particles(np.zeros(shape[1:]), mass=1)
+        state, frames = system.state(), np.empty(shape)
+        for frame in range(self._count):
+            lib.hooke_record_read(self._handle, frame, state._handle)
+            frames[frame] = state.q if what == "position" else state.v
+        frames.flags.writeable = False
+        return frames
+
+
+def open(path: Path) -> Trajectory:
+    """Opens the file that a run wrote, finished or not, as a `Trajectory`::
+
+        with hooke.open("out.h5") as out:
+            print(len(out), out.t[-1], out.energy.total[-1])
+            out.animate().save("out.gif")
+
+    IOFailed if it cannot be read, BadValue if it is none of hooke's.
+    """
+    return Trajectory(path)

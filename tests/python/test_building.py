@@ -1,0 +1,304 @@
+"""Scenes built in Python: the same as from a file, every keyword of the tables, errors where they are made."""
+
+import inspect
+import json
+import re
+import typing
+
+import numpy as np
+import pytest
+from conftest import ROOT, SIX_PARTICLES
+
+import hooke
+from hooke._types import Springs
+
+CLOTH = {"size": (12, 12), "edges": ((1, 0, 0), (0, 0, 1)), "mass": 1}
+SQUARE = {"size": (3, 2), "edges": [[2, 0, 0], [0, 0, 1]], "mass": 6}
+
+
+def six_particles():
+    particles, springs = SIX_PARTICLES["particles"], SIX_PARTICLES["springs"]
+    scene = hooke.Scene(SIX_PARTICLES["title"], gravity=SIX_PARTICLES["gravity"], run=SIX_PARTICLES["run"])
+    return scene.particles(**particles).springs(**springs[0])
+
+
+def same(a, b):
+    """Two systems are equal to the bit."""
+    state, other = a.state(), b.state()
+    assert np.array_equal(state.q, other.q) and np.array_equal(state.v, other.v)
+    assert np.array_equal(a.masses, b.masses) and np.array_equal(a.inverse_masses, b.inverse_masses)
+    assert np.array_equal(a.spring_ends, b.spring_ends) and a.groups == b.groups and a.forces == b.forces
+    for mine, theirs in zip(a.spring_material, b.spring_material):
+        assert np.array_equal(mine, theirs)
+    assert np.array_equal(a.bending_ends, b.bending_ends)
+    v = np.ones_like(state.v)
+    assert np.array_equal(a.force(state.q, v, 0.25), b.force(other.q, v, 0.25))
+    return True
+
+
+# keywords
+
+
+@pytest.mark.parametrize("kind", hooke.part_kinds())
+def test_every_kind_of_part_has_a_method_with_the_keywords_of_its_table(kind):
+    method = getattr(hooke.Scene, kind)
+    keywords = {name.rstrip("_") for name in inspect.signature(method).parameters} - {"self", "name"}
+    table = [line.split()[0] for line in hooke.describe(kind).splitlines()]
+    assert keywords == {name.split(".")[0] for name in table}
+    for keyword in keywords:
+        assert re.search(rf"`{keyword}(_|\b)", method.__doc__), f"{keyword} is not in the docstring of {kind}"
+
+
+@pytest.mark.parametrize("kind", hooke.part_kinds())
+def test_families_of_springs_have_the_keys_of_the_table(kind):
+    rows = [line.split()[0].split(".") for line in hooke.describe(kind).splitlines()]
+    families = {row[0] for row in rows if row[-1] == "stiffness" and len(row) == 2}
+    hints = typing.get_type_hints(getattr(hooke.Scene, kind))
+    for family in families:
+        assert {row[1] for row in rows if row[0] == family and len(row) == 2} == set(Springs.__annotations__)
+        assert hints[family] == typing.Optional[Springs]
+
+
+def test_springs_have_the_keywords_of_their_table():
+    keywords = set(inspect.signature(hooke.Scene.springs).parameters) - {"self", "name", "between"}
+    assert keywords == {line.split()[0] for line in hooke.describe("springs").splitlines()}
+
+
+def test_keywords_are_those_of_the_schema():
+    """What the tables do not tell: the keys of a scene itself, of particles and of drives."""
+    schema = json.loads((ROOT / "examples/scene.schema.json").read_text())
+
+    def keywords(method):
+        return set(inspect.signature(method).parameters) - {"self"}
+
+    properties = schema["properties"]
+    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "parts", "driven"}
+    assert keywords(hooke.Scene.__init__) == pieces
+    assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
+    assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))
+
+
+def _keys(schema, node):
+    if "$ref" in node:
+        node = schema["$defs"][node["$ref"].rsplit("/", 1)[1]]
+    keys = set(node.get("properties", ()))
+    for other in [*node.get("oneOf", ()), *node.get("anyOf", ())]:
+        keys |= _keys(schema, other)
+    return keys
+
+
+# the same scene
+
+
+def test_a_built_scene_is_the_parsed_one():
+    built, parsed = six_particles(), hooke.Scene.parse(SIX_PARTICLES)
+    assert type(built) is type(parsed) and built.title == parsed.title == "six particles"
+    assert same(built.system, parsed.system)
+    assert same(hooke.Scene.parse(built.text).system, parsed.system)
+    results = [scene.run(frames=True) for scene in (built, parsed)]
+    assert np.array_equal(results[0].frames.q, results[1].frames.q) and len(results[0].frames.t) == 11
+
+
+def test_a_cloth_runs_as_it_is_typed(tmp_path):
+    s = hooke.Scene(gravity=(0, -9.81, 0)).cloth(
+        size=(12, 12),
+        edges=((1, 0, 0), (0, 0, 1)),
+        mass=1,
+        structural=dict(stiffness=50, damping=0.01),
+        pinned="top-corners",
+    )
+    result = hooke.run(
+        s, method="symplectic-euler", step=1e-4, duration=0.3, every=0.01, output=tmp_path / "o.h5"
+    )
+    assert result.status == "finished" and result.system.particle_count == 144
+    assert np.array_equal(s.system.state().q[0], [0, 0, 0])
+    assert np.array_equal(result.state.q[11], [1, 0, 0]) and result.state.q[60, 1] < -0.1
+    saved = json.loads(hooke.open(tmp_path / "o.h5").scene.text)
+    assert saved["parts"][0]["structural"] == {"stiffness": 50, "damping": 0.01}
+
+
+@pytest.mark.parametrize("way", ["text", "file"])
+def test_everything_comes_back(way, tmp_path):
+    rng = np.random.default_rng(7)
+    scene = hooke.Scene("all of it", gravity=np.array([0, -9.81, 0]), drag=0.125, run={"step": 1e-3})
+    scene.particles(rng.random((5, 3)), np.diag([1, 2, 0, 3, 0])[:, :3], mass=rng.random(5) + 1, pinned=np.array([4, 2]))
+    scene.rope("line", from_=(2, 0, 0), to=(3, 0, 0), segments=4, density=0.5, stretch={"stiffness": 30}, bending=1e-3)
+    scene.cloth(**CLOTH, origin=(0, 2, 0), shear={"stiffness": 5, "compression": False}, pinned=["corners", 7])
+    scene.springs("some", between=[[0, 1], [1, 3]], stiffness=rng.random(2), rest_length=np.array([0.5, 0.25]))
+    scene.springs(between=[[0, ("line", 4)], [("cloth1", 3), ("line", 0)]], law="length", stiffness=3, damping=[1, 2])
+    scene.driven(1, amplitude=(0.1, 0, 0), frequency=2, phase=0.5)
+    scene.driven(("line", 2), motion="table", time=[0, 1, 2], position=np.outer([0, 1, 0], [0, 1, 0]))
+    scene.run_defaults(duration=0.01, method="verlet")
+    if way == "text":
+        again = hooke.Scene.parse(scene.text)
+    else:
+        scene.save(tmp_path / "s.json")
+        again = hooke.Scene.load(tmp_path / "s.json")
+    assert same(scene.system, again.system) and again.title == "all of it"
+    assert {name: again.run_options[name] for name in again.run_options if again.run_options.is_set(name)} == {
+        "step": 1e-3,
+        "duration": 0.01,
+        "method": "verlet",
+    }
+    results = [hooke.run(one) for one in (scene, again)]
+    assert np.array_equal(results[0].state.q, results[1].state.q)
+
+
+def test_a_parsed_scene_can_be_added_to(tmp_path):
+    scene = hooke.Scene.parse(SIX_PARTICLES).cloth(**SQUARE).springs("tie", between=[[0, ("cloth0", 1)]], stiffness=2)
+    scene.run_options["step"] = 5e-4
+    again = hooke.Scene.parse(scene.text)
+    assert same(again.system, scene.system) and scene.system.particle_count == 12
+    assert again.run_options["step"] == 5e-4 and again.run_options["duration"] == 0.5
+    untouched = json.dumps(SIX_PARTICLES, indent=3)
+    assert hooke.Scene.parse(untouched).text == untouched
+
+
+def test_a_mesh_keeps_the_vertices_of_its_file(tmp_path):
+    path = tmp_path / "square.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    shape = {"mass": 4, "transform": {"scale": 2, "translate": (0, 0, 1)}, "structural": {"stiffness": 3}}
+    scene = hooke.Scene().mesh("m", file=path, **shape)
+    vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    again = hooke.Scene().mesh("m", vertices=vertices, triangles=np.array([[0, 1, 2], [0, 2, 3]]), **shape)
+    path.unlink()
+    assert same(scene.system, again.system) and same(hooke.Scene.parse(scene.text).system, scene.system)
+    assert scene.system.state().q[2].tolist() == [2, 2, 1] and scene.system.spring_count == 5
+    with pytest.raises(hooke.BadValue, match="mesh: .*cannot be opened"):
+        hooke.Scene().mesh(file=path, **shape)
+    path.write_text("v 0 0 0\n")
+    with pytest.raises(hooke.BadValue, match="file: is not allowed together with vertices"):
+        hooke.Scene().mesh(file=path, vertices=vertices, **shape)
+
+
+def test_a_lattice_begins_at_zero():
+    scene = hooke.Scene().lattice(
+        size=(2, 3, 2), edges=np.diag([1, 2, 1]), mass=12, structural={"stiffness": 3}, pinned="bottom"
+    )
+    assert scene.system.state().q[:3].tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    assert scene.system.free_count == 6 and same(hooke.Scene.parse(scene.text).system, scene.system)
+
+
+def test_parts_that_were_read_have_their_names():
+    text = hooke.Scene().particles([[9, 9, 9]], mass=1).cloth("a", **SQUARE).cloth(**SQUARE).text
+    scene = hooke.Scene.parse(text).cloth("b", **SQUARE)
+    scene.springs(between=[[("a", 5), 0], [("cloth1", 0), ("b", 2)]], stiffness=1)
+    assert scene.system.spring_ends.tolist() == [[6, 0], [7, 15]]
+    with pytest.raises(hooke.BadValue, match='no part called "c"; allowed: "a", "cloth1", "b"'):
+        scene.springs(between=[[0, ("c", 1)]], stiffness=1)
+
+
+def test_the_scene_keeps_what_it_was_given():
+    """Arrays of the caller may change afterwards."""
+    q, ends, stiffness = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1]]), np.array([5.0])
+    scene = hooke.Scene().particles(q, mass=1).springs(between=ends, stiffness=stiffness)
+    text = scene.text
+    q += 1
+    ends[:] = 0
+    stiffness[:] = 0
+    assert scene.text == text
+
+
+# errors
+
+ERRORS = [
+    (lambda s: s.cloth(**{**CLOTH, "size": (1, 12)}), "cloth.size[0]: 1 is not allowed"),
+    (lambda s: s.cloth(**{**CLOTH, "mass": None}), "cloth: neither mass nor density is given"),
+    (lambda s: s.cloth(**CLOTH, structural={"stiffness": -1}), "cloth.structural.stiffness: -1 is not allowed"),
+    (lambda s: s.cloth(**CLOTH, structural={"damping": 1}), "cloth.structural.stiffness: is required but missing"),
+    (lambda s: s.cloth(**CLOTH, shear={"stifness": 1}), 'unknown option "stifness"; did you mean "stiffness"?'),
+    (lambda s: s.cloth(**CLOTH, bend=5), "cloth.bend: a number is not allowed"),
+    (lambda s: s.cloth(**CLOTH, pinned=[144]), "cloth.pinned[0]: the part has no particle 144; allowed: 0 to 143"),
+    (lambda s: s.cloth(**CLOTH, pinned="left"), 'cloth.pinned: "left" is not allowed'),
+    (lambda s: s.cloth("line", **CLOTH), 'cloth.name: "line" is the name of another part'),
+    (lambda s: s.springs(between=[[0, 8]], stiffness=1), "springs[1].between[0][1]: there is no particle 8"),
+    (lambda s: s.springs(between=[[0, 1]], stiffness=-1), "springs[1].stiffness: -1 is not allowed"),
+    (lambda s: s.springs(between=[[0, 1]], stiffness=[1, 2]), "springs[1].stiffness: 2 values for 1 springs"),
+    (lambda s: s.springs(between=[[0.5, 1]], stiffness=1), "springs[1].between: whole numbers are needed"),
+    (lambda s: s.springs(between=[[0, ("x", 1)]], stiffness=1), 'between[0][1]: there is no part called "x"; allowed: "line"'),
+    (lambda s: s.springs(between=[[0, ("line", 3)]], stiffness=1), '"line" has no particle 3; allowed: 0 to 2'),
+    (lambda s: s.driven(0, frequency=2), 'driven[0].amplitude: is required with motion "harmonic" but missing'),
+    (lambda s: s.driven(0, motion="round"), 'driven[0].motion: "round" is not allowed'),
+    (lambda s: s.driven(0, amplitude=(1, 0, 0), frequency=2, time=[1]), "driven[0].time: is not allowed with"),
+    (lambda s: s.driven(0, amplitude=(1, 0), frequency=2), "driven[0].amplitude: its shape is (2,), allowed is (3,)"),
+    (lambda s: s.driven(99, amplitude=(1, 0, 0), frequency=2), "driven[0].particles[0]: there is no particle 99"),
+    (lambda s: s.run_defaults(duration=1, step=-1), "run.step: -1 is not allowed"),
+    (lambda s: s.run_defaults(stepp=1), 'run: unknown option "stepp"'),
+]
+
+
+@pytest.mark.parametrize("call, message", ERRORS, ids=[message for _, message in ERRORS])
+def test_an_error_comes_at_once_names_its_keyword_and_changes_nothing(call, message):
+    scene = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1).springs(between=[[0, 1]], stiffness=1)
+    scene.rope("line", from_=(0, 0, 1), to=(1, 0, 1), segments=2, mass=1)
+    text = scene.text
+    with pytest.raises(hooke.BadValue) as caught:
+        call(scene)
+    assert message in str(caught.value) and caught.value.status == -2
+    assert scene.text == text and scene.system.particle_count == 5 and scene.system.spring_count == 1
+    scene.cloth(**SQUARE)  # and more can be added
+    assert scene.system.particle_count == 11
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: hooke.Scene(gravity=(1, 2)), "gravity: its shape is (2,), allowed is (3,)"),
+        (lambda: hooke.Scene(drag=-1), "drag: -1 is not allowed"),
+        (lambda: hooke.Scene(drag="much"), "drag: a number is needed, this is 'much'"),
+        (lambda: hooke.Scene().particles([[0, 0, 0]], mass=-1), "particles.mass: -1 is not allowed"),
+        (lambda: hooke.Scene().particles([[0, 0]], mass=1), "particles.position: its shape is (1, 2)"),
+        (lambda: hooke.Scene().particles([[0, 0, 0]], mass=1, pinned=[1]), "particles.pinned[0]: there is no particle 1"),
+        (lambda: hooke.Scene().particles([[0, 0, 0]], [[1, 2, 3]], mass=1, pinned=0), "particles.velocity[0]: [1.0, 2.0, 3.0]"),
+        (lambda: hooke.Scene().particles([[0, 0, 0]], [[1, 2]], mass=1), "particles.velocity: its shape is (1, 2)"),
+    ],
+)
+def test_errors_of_the_first_pieces(call, message):
+    with pytest.raises(hooke.BadValue) as caught:
+        call()
+    assert message in str(caught.value)
+
+
+def test_the_order_of_particles_is_that_of_the_format():
+    scene = hooke.Scene().cloth(**SQUARE)
+    with pytest.raises(hooke.BadCall, match="particles: they are numbered before those of parts"):
+        scene.particles([[0, 0, 0]], mass=1)
+    with pytest.raises(hooke.BadCall, match="particles: the scene has its particles already"):
+        hooke.Scene.parse(SIX_PARTICLES).particles([[0, 0, 0]], mass=1)
+
+
+def test_a_scene_in_use_is_finished(tmp_path):
+    scene = hooke.Scene().cloth(**SQUARE)
+    text = scene.text
+    scene.system.state()
+    with pytest.raises(hooke.BadCall, match="cloth: the system is committed"):
+        scene.cloth(**SQUARE)
+    assert scene.text == text
+
+
+def test_an_unknown_keyword_is_a_type_error():
+    with pytest.raises(TypeError, match="stifness"):
+        hooke.Scene().springs(between=[[0, 1]], stifness=1)
+
+
+def test_a_force_of_ones_own_joins_a_built_scene():
+    scene = hooke.Scene().particles([[0, 0, 0]], mass=2)
+    scene.system.set_force(lambda t, q, v, force: force.__iadd__([0, 4, 0]) is None)
+    result = hooke.run(scene, method="symplectic-euler", step=0.5, duration=1)
+    assert result.state.v[0, 1] == 2
+
+
+def test_large_arrays_go_straight_to_the_library():
+    """No text is made of them: it would take a thousand times the memory of this scene's messages."""
+    import tracemalloc
+
+    n = 200_000
+    q = np.column_stack([np.arange(n), np.zeros(n), np.zeros(n)]).astype(float)
+    ends = np.column_stack([np.arange(n - 1), np.arange(1, n)])
+    tracemalloc.start()
+    scene = hooke.Scene().particles(q, mass=1.0).springs(between=ends, stiffness=np.full(n - 1, 5.0))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    arrays = q.nbytes + ends.nbytes + 8 * n
+    assert peak < 4 * arrays  # a list of as many numbers takes ten times its array
+    assert scene.system.spring_count == n - 1

@@ -1,0 +1,145 @@
+"""The sources of the package: types, style, and a docstring on every public thing."""
+
+import importlib
+import inspect
+import os
+import pkgutil
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+import hooke
+
+PACKAGE = ROOT / "bindings/python"
+CONFIGURATION = next(
+    path
+    for path in (PACKAGE / "pyproject.toml", ROOT / "pyproject.toml")
+    if path.exists() and "[tool.ruff" in path.read_text()
+)
+
+
+def run(*command):
+    environment = {**os.environ, "MYPYPATH": str(PACKAGE / "src")}
+    return subprocess.run(
+        [sys.executable, "-m", *map(str, command)], cwd=PACKAGE, env=environment, capture_output=True, text=True
+    )
+
+
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    """What NumPy and matplotlib are made of is looked at once in a build."""
+    build = os.environ.get("HOOKE_BUILD_DIR")
+    cache = f"{build}/mypy" if build else tmp_path_factory.mktemp("mypy")
+    return ("mypy", "--strict", "--config-file", CONFIGURATION, "--cache-dir", cache)
+
+
+def test_types(mypy):
+    checked = run(*mypy, "src/hooke")
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "Success" in checked.stdout
+
+
+def test_types_as_a_user_sees_them(tmp_path, mypy):
+    """What is right passes, what is wrong does not."""
+    (tmp_path / "right.py").write_text(
+        """
+import numpy as np
+import hooke
+
+scene = hooke.Scene(gravity=(0, -9.81, 0)).cloth(
+    size=(12, 12), edges=((1, 0, 0), (0, 0, 1)), mass=1,
+    structural=dict(stiffness=50, damping=0.01), pinned="top-corners")
+scene.springs(between=[[0, 1], [("cloth0", 2), 3]], stiffness=np.ones(2)).run_defaults(step=1e-3)
+result: hooke.Result = hooke.run(scene, duration=0.3, output="o.h5", progress=lambda fraction, state: None)
+with hooke.open("o.h5") as out:
+    energy: float = float(out.energy.total[-1])
+    q: "np.ndarray[tuple[int, ...], np.dtype[np.float64]]" = out[-1].q
+"""
+    )
+    (tmp_path / "wrong.py").write_text(
+        """
+import hooke
+
+hooke.Scene().cloth(size=(2, 2), edges=((1, 0, 0), (0, 0, 1)), structural=dict(stifness=50))
+hooke.Scene().rope(from_=(0, 0, 0), to=(1, 0, 0), segments="many")
+hooke.open("o.h5")["last"]
+"""
+    )
+    checked = run(*mypy, tmp_path / "right.py", tmp_path / "wrong.py")
+    errors = re.findall(r"(\w+\.py):(\d+): error", checked.stdout)
+    assert errors == [("wrong.py", line) for line in "456"], checked.stdout
+
+
+def test_the_package_is_marked_as_typed():
+    assert (PACKAGE / "src/hooke/py.typed").exists()
+
+
+def test_style():
+    checked = run("ruff", "check", "--no-cache", "--config", CONFIGURATION, "src")
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+# docstrings
+
+
+def public_modules():
+    names = [name for _, name, _ in pkgutil.iter_modules(hooke.__path__) if not name.startswith("_")]
+    return [hooke, *(importlib.import_module(f"hooke.{name}") for name in names)]
+
+
+def public_things():
+    """Every public name of the package with the methods and properties that it defines."""
+    for module in public_modules():
+        yield module.__name__, module
+        for name, thing in vars(module).items():
+            where = getattr(thing, "__module__", "")
+            own = where.startswith("hooke") if module is hooke else where == module.__name__
+            if name.startswith("_") or not own or not (inspect.isclass(thing) or inspect.isfunction(thing)):
+                continue
+            yield f"{module.__name__}.{name}", thing
+            if not inspect.isclass(thing):
+                continue
+            fields = getattr(thing, "_fields", ())
+            for base in thing.__mro__:
+                if not base.__module__.startswith("hooke"):
+                    continue  # NumPy's and Python's own
+                for member, value in vars(base).items():
+                    if member.startswith("_") or member in fields:
+                        continue
+                    if isinstance(value, (property, classmethod, staticmethod)) or inspect.isfunction(value):
+                        yield f"{thing.__qualname__}.{member}", value
+
+
+THINGS = dict(public_things())
+
+
+def test_the_docstring_test_sees_the_package():
+    assert {"Scene.cloth", "Scene.load", "Trajectory.q", "State.q", "hooke.run", "hooke.plot.cloth"} <= set(THINGS)
+    assert len(THINGS) > 200
+
+
+@pytest.mark.parametrize("name", sorted(THINGS))
+def test_a_public_thing_says_what_it_is(name):
+    text = inspect.getdoc(THINGS[name])
+    assert text and len(text) > 8, f"{name} has no docstring"
+    assert not text.startswith(f"{name.rsplit('.', 1)[-1]}("), f"{name} has only the docstring that it was born with"
+
+
+@pytest.mark.parametrize(
+    "cls", [thing for name, thing in THINGS.items() if inspect.isclass(thing) and hasattr(thing, "_fields")]
+)
+def test_a_named_tuple_names_its_fields(cls):
+    text = cls.__doc__
+    assert not text.startswith(f"{cls.__name__}("), "has only the docstring that it was born with"
+
+
+def gives_an_array(thing):
+    return isinstance(thing, property) and "Array" in str(inspect.signature(thing.fget).return_annotation)
+
+
+@pytest.mark.parametrize("name", [name for name, thing in THINGS.items() if gives_an_array(thing)])
+def test_an_array_has_its_shape_in_the_docstring(name):
+    assert re.search(r"\(\w+(, \w+)*,?\)", inspect.getdoc(THINGS[name])), f"{name}: what shape?"
