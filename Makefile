@@ -4,7 +4,7 @@
 
 PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev libgsl-dev libarpack2-dev libhdf5-dev libjansson-dev libjs-chart.js \
-           chromium abigail-tools
+           libjs-three chromium abigail-tools
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python

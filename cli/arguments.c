@@ -62,7 +62,7 @@ static int collect(struct hooke_arguments *arguments) {
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
   for (int64_t row = 0; row < rows; row++) {
-    if (!is_among(verb->without, hooke_options_row(arguments->run, row, "name")))
+    if (!verb->input && !is_among(verb->without, hooke_options_row(arguments->run, row, "name")))
       add_option(arguments, arguments->run, row);
   }
   return HOOKE_EXIT_DONE;
@@ -147,15 +147,16 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     int answer = take(arguments, argument, optarg);
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
+  const char *input = arguments->verb->input;
   arguments->help = hooke_arguments_text(arguments, "help") != NULL;
   if (arguments->help) return HOOKE_EXIT_DONE;
   if (optind >= argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no scene given; usage: hooke %s SCENE [options]",
-                        arguments->verb->name);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                        input ? input : "scene", arguments->verb->name, input ? input : "SCENE");
   }
   if (optind + 1 < argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one scene at a time: '%s' and '%s' were given",
-                        argv[optind], argv[optind + 1]);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }
   arguments->scene = argv[optind];
   return HOOKE_EXIT_DONE;

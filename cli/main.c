@@ -8,9 +8,9 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct hooke_verb *const verbs[] = {
-    &hooke_verb_run, &hooke_verb_compare, &hooke_verb_study, &hooke_verb_limit,
-    &hooke_verb_why, &hooke_verb_needs,   &hooke_verb_check, NULL};
+static const struct hooke_verb *const verbs[] = {&hooke_verb_run,   &hooke_verb_compare, &hooke_verb_study,
+                                                 &hooke_verb_limit, &hooke_verb_why,     &hooke_verb_needs,
+                                                 &hooke_verb_check, &hooke_verb_view,    NULL};
 
 static const char *next_verb(int64_t i, const void *ctx) {
   (void)ctx;

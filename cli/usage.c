@@ -82,7 +82,7 @@ static void print_table(FILE *file, const struct hooke_arguments *arguments, con
 
 void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments) {
   const struct hooke_verb *verb = arguments->verb;
-  fprintf(file, "usage: hooke %s SCENE [options]\n\n", verb->name);
+  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, verb->input ? verb->input : "SCENE");
   hooke_print_wrapped(file, 0, 0, WIDTH, verb->text);
   fputs("\noptions:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -92,11 +92,13 @@ void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments)
   char title[HOOKE_FLAG_SIZE], times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
   snprintf(title, sizeof title, "options of the %s", verb->name);
   print_table(file, arguments, arguments->more, title);
-  print_table(file, arguments, arguments->run,
-              "options of the run, instead of what the scene's \"run\" says (defaults: where neither says "
-              "anything)");
-  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
-          hooke_unit_list("m", lengths));
+  if (!verb->input) {
+    print_table(file, arguments, arguments->run,
+                "options of the run, instead of what the scene's \"run\" says (defaults: where neither says "
+                "anything)");
+    fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
+            hooke_unit_list("m", lengths));
+  }
   fprintf(file, "\n%s", exit_codes);
 }
 
@@ -117,6 +119,7 @@ void hooke_usage_print_version(FILE *file) {
   print_part(file, "HDF5", "hdf5");
   print_part(file, "jansson", "jansson");
   print_part(file, "Chart.js", "chartjs");
+  print_part(file, "three.js", "threejs");
   print_part(file, "instructions", "instructions");
   fprintf(file, "%-13s %ld on this machine\n", "threads", threads > 0 ? threads : 1);
   print_part(file, "licence", "licence");

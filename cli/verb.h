@@ -28,6 +28,8 @@ struct hooke_verb_row {
 
 struct hooke_verb {
   const char *name;
+  const char
+      *input; /* what it works on, such as "OUT.h5", with no options of a run; NULL: a scene, with them */
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
   const struct hooke_verb_row *rows;
@@ -47,5 +49,6 @@ extern const struct hooke_verb hooke_verb_study;
 extern const struct hooke_verb hooke_verb_limit;
 extern const struct hooke_verb hooke_verb_why;
 extern const struct hooke_verb hooke_verb_needs;
+extern const struct hooke_verb hooke_verb_view;
 
 #endif

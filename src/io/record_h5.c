@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/record.h"
 
 #if HOOKE_HAVE_HDF5
 
@@ -18,6 +19,7 @@ static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 struct hooke_record {
   char *path, *scene, *status;
   hooke_options *options; /* of a run, as they were stored */
+  int32_t is_run;
   int64_t frame_count;
   double *time;
 };
@@ -107,6 +109,7 @@ static int32_t read_hooke(struct hooke_record *record) {
   if (status == HOOKE_OK) {
     record->scene = read_text(file, "hooke/scene");
     record->status = read_text(file, "hooke/status");
+    record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     status = read_options(file, record->options);
   }
   if (file >= 0) H5Fclose(file);
@@ -155,6 +158,14 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  return record->path;
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  return record->is_run;
 }
 
 const hooke_options *hooke_record_options(const hooke_record *record) {
@@ -209,6 +220,16 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   (void)record, (void)what;
   return NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  (void)record;
+  return NULL;
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  (void)record;
+  return 0;
 }
 
 const hooke_options *hooke_record_options(const hooke_record *record) {
