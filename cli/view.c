@@ -10,10 +10,10 @@
 
 /* What is left out of the page, "every 10th" of something; "" if nothing is. */
 static void describe_stride(const hooke_view *view, const char *what, char *text, size_t size) {
-  const double stride = hooke_view_number(view, what);
-  const char *ending = stride == 2 ? "nd" : stride == 3 ? "rd" : "th";
+  static const char *const endings[] = {"th", "st", "nd", "rd"};
+  const int stride = (int)hooke_view_number(view, what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;
   text[0] = '\0';
-  if (stride > 1) snprintf(text, size, ", every %.0f%s", stride, ending);
+  if (stride > 1) snprintf(text, size, ", every %d%s", stride, endings[last < 4 ? last : 0]);
 }
 
 static void print_words(const struct hooke_arguments *arguments, const hooke_view *view, const char *output) {

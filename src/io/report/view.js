@@ -24,7 +24,8 @@ function number(value, digits = 3) {
 const whole = (value) => value.toLocaleString("en-US");
 const percent = (value) => `${number(100 * value)} %`;
 const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
-const every = (stride) => (stride === 1 ? "all" : `every ${stride}${["", "", "nd", "rd"][stride] || "th"}`);
+const ending = (n) => ["st", "nd", "rd"][Math.floor(n / 10) % 10 === 1 ? 3 : (n % 10) - 1] || "th";
+const every = (stride) => (stride === 1 ? "every" : `every ${stride}${ending(stride)}`);
 
 function element(kind, text, options = {}) {
   return Object.assign(document.createElement(kind), { textContent: text }, options);
@@ -58,8 +59,9 @@ function writeHead() {
 }
 
 function writeShown() {
-  const words = [`Shown: ${every(data.frame_stride)} of ${counted(data.frames_there, "frame")}` +
-    (data.frame_stride > 1 ? ` and the last (${whole(data.frames)})` : "")];
+  const words = [data.frame_stride > 1
+    ? `Shown: ${every(data.frame_stride)} of ${counted(data.frames_there, "frame")} and the last (${whole(data.frames)})`
+    : `Shown: ${data.frames_there === 1 ? "the one frame that there is" : `all ${counted(data.frames_there, "frame")}`}`];
   words.push(data.spring_stride > 1
     ? `drawn: ${every(data.spring_stride)} spring of ${whole(data.springs_there)} (${whole(data.springs)})` : "all springs");
   if (data.loose_stride > 1) words.push(`${every(data.loose_stride)} of ${whole(data.loose_there)} particles without springs`);
@@ -109,7 +111,8 @@ function energyRange() {
   if (!(most > 0) || sizes[sizes.length - 1] <= 30 * most) return {};
   at("clipped").textContent = `Energies reach ${number(sizes[sizes.length - 1])} J, beyond the edge of the diagram.`;
   at("clipped").hidden = false;
-  return { min: -2 * most, max: 2 * most };
+  const power = 10 ** Math.floor(Math.log10(2 * most)), round = power * [1, 2, 5, 10].find((head) => head * power >= 2 * most);
+  return { min: -round, max: round };
 }
 
 let chart = null;
@@ -179,10 +182,11 @@ function drawAxes() {
 
 /* ---- frames ---- */
 
-let picture = null, shown = 0, playing = false, wanted = false, time = data.time[0], before = 0, drawn = [];
+let picture = null, shown = 0, playing = false, wanted = false, turned = false, time = data.time[0], before = 0, drawn = [];
 
 /* Draws at the next occasion, once. */
 function draw() {
+  turned = true;
   if (wanted || playing) return;
   wanted = true;
   requestAnimationFrame(() => {
@@ -199,7 +203,7 @@ function drawNow() {
 
 function show(k, now = false) {
   shown = Math.max(0, Math.min(last, k));
-  if (picture) picture.show(bytesOfFrame(shown), data.box[shown]);
+  if (picture) picture.show(shown);
   const number_ = Math.min(shown * data.frame_stride, data.frames_there - 1);
   at("frame").value = shown;
   at("now").textContent = `frame ${number_} / ${data.frames_there - 1}  \u00b7  t = ${number(data.time[shown], 4)} s`;
@@ -218,33 +222,56 @@ function step(by) {
 /* ---- playing ---- */
 
 function writeSpeeds() {
-  const range = data.time[last] - data.time[0], seconds = Math.max(4, data.frames / 30);
-  const power = 10 ** Math.floor(Math.log10(range / seconds || 1)), head = (range / seconds || 1) / power;
-  const middle = power * (head < 1.5 ? 1 : head < 3.5 ? 2 : head < 7.5 ? 5 : 10);
+  const pace = (data.time[last] - data.time[0]) / Math.max(3, data.frames / 30) || 1;
+  const power = 10 ** Math.floor(Math.log10(pace)), near = (head) => Math.abs(Math.log(head * power / pace));
+  const middle = power * [1, 2, 3, 5, 10].sort((a, b) => near(a) - near(b))[0];
   const list = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10].map((factor) => Number((factor * middle).toPrecision(2)));
   at("speed").append(...list.map((value) => element("option", value === 1 ? "real time" : `${number(value)} \u00d7 real time`,
     { value, selected: value === list[4] })));
 }
 
+/* Where drawing does not keep up, as without a graphics card, it draws fewer springs as long as something moves. */
+const SLOW = 1000 / 28, WANTED = 1000 / 34, FEWEST = 5000; // [ms] for a picture; springs
+let enough = 1, costs = [];
+
+function thin(stride) {
+  if (!picture || picture.stride === stride) return;
+  picture.thin(stride);
+  at("thinned").textContent = `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`;
+  at("thinned").hidden = stride === 1;
+  show(shown);
+}
+
+function keepUp(cost) {
+  costs = [...costs.slice(-8), cost];
+  const usual = middleOf(costs), most = Math.floor(data.springs / FEWEST);
+  if (costs.length < 6 || usual <= SLOW || enough >= most) return;
+  enough = Math.min(most, Math.ceil((enough * usual) / WANTED));
+  costs = [];
+  thin(enough);
+}
+
 /* How many pictures a second, of the last second. */
 function tellRate(now) {
   drawn = [...drawn.filter((then) => now - then <= 1000), now];
-  if (drawn.length > 2) {
-    const rate = (1000 * (drawn.length - 1)) / (now - drawn[0]);
-    at("rate").textContent = `${rate.toFixed(0)} pictures/s`;
-    document.body.dataset.rate = rate.toFixed(1);
-  }
+  const rate = (1000 * (drawn.length - 1)) / (now - drawn[0] || 1);
+  if (drawn.length > 2) at("rate").textContent = `${rate.toFixed(0)} pictures/s`;
+  document.body.dataset.rate = rate.toFixed(1);
 }
 
+let drew = false;
 function tick(now) {
   if (!playing) return;
+  if (drew) keepUp(now - before);
   time += (Math.min(now - before, 250) / 1000) * Number(at("speed").value);
   before = now;
   if (time > data.time[last]) time = data.time[0];
-  let k = frameNear(time);
+  const k = frameNear(time);
+  drew = k !== shown || turned;
+  turned = false;
   if (k !== shown) show(k, true);
-  else drawNow();
-  tellRate(now);
+  else if (drew) drawNow();
+  if (drew) tellRate(now);
   requestAnimationFrame(tick);
 }
 
@@ -254,13 +281,16 @@ function play() {
   playing = true;
   time = data.time[shown];
   before = performance.now();
-  drawn = [];
+  drawn = costs = [];
+  drew = false;
+  thin(enough);
   at("play").textContent = "Pause";
   requestAnimationFrame(tick);
 }
 
 function pause() {
   playing = false;
+  thin(1);
   at("play").textContent = "Play";
   at("rate").textContent = "";
 }
@@ -308,8 +338,10 @@ function start() {
   writeShown();
   writeSpeeds();
   try {
-    picture = new Picture(at("picture"), data, ends, marks);
+    picture = new Picture(at("picture"), data, ends, marks, bytesOfFrame);
     picture.controls.addEventListener("change", draw);
+    picture.controls.addEventListener("start", () => thin(enough));
+    picture.controls.addEventListener("end", () => playing || thin(1));
   } catch (trouble) {
     at("missing").hidden = false;
     at("legend").hidden = true;

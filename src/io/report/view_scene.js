@@ -4,7 +4,7 @@
 
 const MARK = { free: 0, pinned: 1, driven: 2, loose: 3 };
 const THICK_BELOW = 20000; // springs; with more, lines are a pixel wide
-const DOTS_BELOW = 600; // free particles that get a dot each
+const DOTS_BELOW = 60; // free particles that get a dot each
 const NO_STRAIN = 255;
 // Compressed, slack, stretched: blue to orange, told apart by eyes of every kind, dark on paper and bright in the dark.
 const PALETTE = {
@@ -52,7 +52,7 @@ const POINT_VERTEX = `
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     gl_Position.z -= 0.002 * gl_Position.w;
     kind = mark * 255.0;
-    gl_PointSize = scale * (kind < 0.5 ? 0.62 : 1.0);
+    gl_PointSize = scale * (kind < 0.5 ? 0.7 : 1.0);
   }`;
 const POINT_FRAGMENT = `
   uniform vec3 ink; uniform vec3 paper; uniform vec3 driven; uniform float scale; varying float kind;
@@ -61,7 +61,7 @@ const POINT_FRAGMENT = `
     bool pinned = kind > 0.5 && kind < 1.5, moved = kind > 1.5 && kind < 2.5;
     float far = pinned ? max(abs(at.x), abs(at.y)) : moved ? abs(at.x) + abs(at.y) : length(at);
     if (far > 1.0) discard;
-    bool rim = far > 1.0 - 3.2 / scale;
+    bool rim = scale > 8.0 && far > 1.0 - 3.2 / scale;
     gl_FragColor = vec4(moved ? (rim ? ink : driven) : pinned && rim ? paper : ink, 1.0);
   }`;
 
@@ -78,8 +78,7 @@ function bytesOf(text) {
 /* ---- what is drawn ---- */
 
 function attribute(kind, size, length, normalised = false) {
-  const made = new THREE.BufferAttribute(new kind(length), size, normalised);
-  return made.setDynamic ? made.setDynamic(true) : made;
+  return new THREE.BufferAttribute(new kind(length), size, normalised).setUsage(THREE.DynamicDrawUsage);
 }
 
 /* Lines as pairs of vertices, or as four that the shader moves apart. */
@@ -121,23 +120,27 @@ function makePoints(marks, uniforms) {
 
 const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
-/* Around all frames but those that a run that blows up has thrown far out. */
-function boxAround(boxes) {
+/* Numbers of the frames but those that a run that blows up has thrown far out. */
+function keptFrames(boxes) {
   const extents = boxes.map((box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]));
   const most = 8 * middleOf(extents);
-  const kept = boxes.filter((box, k) => extents[k] <= most || k === 0);
+  return [...boxes.keys()].filter((k) => extents[k] <= most || k === 0);
+}
+
+function boxAround(kept) {
   const low = [0, 1, 2].map((axis) => Math.min(...kept.map((box) => box[axis])));
   const high = [0, 1, 2].map((axis) => Math.max(...kept.map((box) => box[axis + 3])));
   return [...low, ...high];
 }
 
 class Picture {
-  constructor(canvas, data, ends, marks) {
-    Object.assign(this, { canvas, data, ends, marks });
-    this.home = boxAround(data.box);
+  constructor(canvas, data, ends, marks, bytesOfFrame) {
+    Object.assign(this, { canvas, data, ends, marks, bytesOfFrame });
+    const kept = keptFrames(data.box), some = Math.ceil(kept.length / 16);
+    this.home = boxAround(kept.map((k) => data.box[k]));
     this.centre = [0, 1, 2].map((axis) => this.home[axis] / 2 + this.home[axis + 3] / 2);
     this.radius = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] / 2 - this.home[axis] / 2)) || 1;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: ends.length / 2 <= THICK_BELOW });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.uniforms = { palette: { value: [] }, paper: { value: null }, plain: { value: null }, ink: { value: null },
@@ -146,17 +149,18 @@ class Picture {
     Object.assign(this, makeLines(ends.length / 2, this.uniforms), makePoints(marks, this.uniforms));
     this.scene.add(this.lines, this.points);
     this.place = new Float32Array(3 * marks.length);
-    this.setUp();
+    this.stride = 1; // every how manieth spring is drawn
+    this.setUp(kept.filter((k, place) => place % some === 0 || place === kept.length - 1));
   }
 
-  setUp() {
+  setUp(frames) {
     const { gravity } = this.data, pull = Math.max(...gravity.map(Math.abs));
     const up = pull > 0 ? gravity.findIndex((value) => Math.abs(value) === pull) : 1;
     this.up = up;
     this.camera.up.set(0, 0, 0).setComponent(up, gravity[up] > 0 ? -1 : 1);
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
     this.controls.enableKeys = false; // arrows step frames
-    this.look(this.home, this.directionOf(this.home));
+    this.look(frames, this.directionOf(this.home));
   }
 
   /* What is flat is looked at from its front, all else from a corner and above. */
@@ -170,30 +174,42 @@ class Picture {
     return towards.setComponent(this.up, 0.45 * this.camera.up.getComponent(this.up)).normalize();
   }
 
-  /* Looks at a box along `towards`, from as near as shows all of it. */
-  look(box, towards) {
+  /* Some of the particles in these frames. */
+  sample(frames) {
+    const stride = Math.max(1, Math.floor((this.marks.length * frames.length) / 6000)), points = [];
+    for (const frame of frames) {
+      this.placeAll(this.bytesOfFrame(frame), this.data.box[frame]);
+      for (let k = 0; k < this.marks.length; k += stride) points.push(new THREE.Vector3().fromArray(this.place, 3 * k));
+    }
+    return points;
+  }
+
+  /* Looks along `towards` at what there is in these frames, from as near as shows all of it. */
+  look(frames, towards) {
     this.resize();
-    const unit = (value, axis) => (value - this.centre[axis]) / this.radius;
-    const target = new THREE.Vector3(...[0, 1, 2].map((axis) => (unit(box[axis], axis) + unit(box[axis + 3], axis)) / 2));
+    const points = this.sample(frames), target = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
     const right = new THREE.Vector3().crossVectors(this.camera.up, towards).normalize();
     const above = new THREE.Vector3().crossVectors(towards, right);
-    const tall = 0.88 * Math.tan((this.camera.fov * Math.PI) / 360), wide = tall * this.camera.aspect;
-    let distance = 0.1;
-    for (let corner = 0; corner < 8; corner++) {
-      const at = new THREE.Vector3(...[0, 1, 2].map((axis) => unit(box[axis + (corner >> axis & 1) * 3], axis))).sub(target);
-      const near = at.dot(towards);
-      distance = Math.max(distance, near + Math.abs(at.dot(right)) / wide, near + Math.abs(at.dot(above)) / tall);
+    const tall = 0.86 * Math.tan((this.camera.fov * Math.PI) / 360), wide = tall * this.camera.aspect;
+    let distance = 8;
+    for (let round = 0; round < 4; round++) {
+      const seen = points.map((point) => point.clone().sub(target)).map((at) => [at.dot(right), at.dot(above), at.dot(towards)]);
+      distance = Math.max(0.1, ...seen.map(([x, y, z]) => z + Math.max(Math.abs(x) / wide, Math.abs(y) / tall)));
+      for (const [axis, way] of [right, above].entries()) {
+        const shares = seen.map((at) => at[axis] / Math.max(distance - at[2], 1e-3 * distance));
+        target.addScaledVector(way, (distance * (Math.min(...shares) + Math.max(...shares))) / 2);
+      }
     }
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(towards, distance);
     this.camera.far = 100 * Math.max(distance, 1);
     this.camera.near = this.camera.far / 1e5;
+    this.camera.updateProjectionMatrix();
     this.controls.update();
   }
 
   fit(frame) {
-    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.look(this.data.box[frame], towards);
+    this.look([frame], this.camera.position.clone().sub(this.controls.target).normalize());
   }
 
   resize() {
@@ -208,7 +224,7 @@ class Picture {
     const count = this.ends.length / 2;
     this.uniforms.size.value.set(wide * ratio, tall * ratio);
     this.uniforms.width.value = ratio * (count <= 300 ? 3.4 : count <= 3000 ? 2.2 : 1.5);
-    this.uniforms.scale.value = ratio * (this.list.length <= 400 ? 11 : 7);
+    this.uniforms.scale.value = ratio * (this.list.length <= 100 ? 11 : 6);
   }
 
   paint() {
@@ -222,8 +238,8 @@ class Picture {
 
   /* ---- frames ---- */
 
-  show(bytes, box) {
-    const { place, centre, radius, ends } = this, count = place.length;
+  placeAll(bytes, box) {
+    const { place, centre, radius } = this, count = place.length;
     const words = new Uint16Array(bytes.buffer, 0, count);
     const scale = [0, 1, 2].map((axis) => Math.min((box[axis + 3] / radius - box[axis] / radius) / 65535, 1e30));
     const from = [0, 1, 2].map((axis) => Math.max(-1e30, Math.min(1e30, (box[axis] - centre[axis]) / radius)));
@@ -232,7 +248,22 @@ class Picture {
       place[k + 1] = from[1] + scale[1] * words[k + 1];
       place[k + 2] = from[2] + scale[2] * words[k + 2];
     }
-    const attributes = this.lines.geometry.attributes, strain = bytes.subarray(2 * count);
+  }
+
+  thin(stride) {
+    if (stride === this.stride) return;
+    this.stride = stride;
+    this.lines.geometry.setDrawRange(0, (this.thick ? 6 : 2) * this.drawnSprings());
+  }
+
+  drawnSprings() {
+    return Math.ceil(this.ends.length / 2 / this.stride);
+  }
+
+  show(frame) {
+    const bytes = this.bytesOfFrame(frame), { place } = this;
+    this.placeAll(bytes, this.data.box[frame]);
+    const attributes = this.lines.geometry.attributes, strain = bytes.subarray(2 * place.length);
     if (this.thick) this.fillThick(attributes, strain);
     else this.fillThin(attributes, strain);
     for (const name of ["position", "other", "strain"]) if (attributes[name]) attributes[name].needsUpdate = true;
@@ -242,25 +273,28 @@ class Picture {
   }
 
   fillThin({ position, strain }, values) {
-    const { place, ends } = this, to = position.array, tint = strain.array;
-    for (let k = 0, at = 0; k < ends.length; k++, at += 3) {
-      const from = 3 * ends[k];
-      to[at] = place[from];
-      to[at + 1] = place[from + 1];
-      to[at + 2] = place[from + 2];
-      tint[k] = values[k >> 1];
+    const { place, ends, stride } = this, to = position.array, tint = strain.array;
+    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 6) {
+      const a = 3 * ends[k], b = 3 * ends[k + 1];
+      to[at] = place[a];
+      to[at + 1] = place[a + 1];
+      to[at + 2] = place[a + 2];
+      to[at + 3] = place[b];
+      to[at + 4] = place[b + 1];
+      to[at + 5] = place[b + 2];
+      tint[at / 3] = tint[at / 3 + 1] = values[k >> 1];
     }
   }
 
   fillThick({ position, other, strain }, values) {
-    const { place, ends } = this;
-    for (let k = 0; k < ends.length; k += 2) {
+    const { place, ends, stride } = this, here = position.array, there = other.array;
+    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 12) {
       for (let axis = 0; axis < 3; axis++) {
-        const a = place[3 * ends[k] + axis], b = place[3 * ends[k + 1] + axis], at = 6 * k + axis;
-        position.array[at] = position.array[at + 3] = other.array[at + 6] = other.array[at + 9] = a;
-        position.array[at + 6] = position.array[at + 9] = other.array[at] = other.array[at + 3] = b;
+        const a = place[3 * ends[k] + axis], b = place[3 * ends[k + 1] + axis], to = at + axis;
+        here[to] = here[to + 3] = there[to + 6] = there[to + 9] = a;
+        here[to + 6] = here[to + 9] = there[to] = there[to + 3] = b;
       }
-      strain.array.fill(values[k >> 1], 2 * k, 2 * k + 4);
+      strain.array.fill(values[k >> 1], at / 3, at / 3 + 4);
     }
   }
 

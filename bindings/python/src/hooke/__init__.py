@@ -8,7 +8,7 @@
 A scene comes from a file (`Scene.load`), from text (`Scene.parse`), or is built (`System`). `run` integrates
 it, `compare` sets several methods against a tight reference, `study` measures error against cost and
 recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs` finds what a
-scene can do without, `why` explains a run that blew up, `Integrator` gives you the loop. Units are SI, positions and
+scene can do without, `why` explains a run that blew up, `view` makes a page that plays a trajectory, `Integrator` gives you the loop. Units are SI, positions and
 velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
@@ -31,6 +31,7 @@ from .scene import Scene
 from .state import State
 from .study import Study, study
 from .system import System
+from .view import view, write_xdmf
 from .why import Why, why
 
 __version__ = "0.1.0"
@@ -75,7 +76,9 @@ __all__ = [
     "plot",
     "run",
     "study",
+    "view",
     "why",
+    "write_xdmf",
 ]
 
 
