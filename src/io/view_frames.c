@@ -5,11 +5,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Of each frame so many springs are looked at for the scale of colours; of them so many, and of the frames so many, have a
- * strain within it. A run that blows up does so in its last frames, and the others keep their colours. */
+ * strain within it. Of a run that blew up only frames count that are not much wider than the first, since what comes after
+ * them leaves no colours for the others. */
 enum { LOOKED_AT = 4096, WIDEST = 65535, MIDDLE = 127, NO_STRAIN = 255 };
-static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9;
+static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
@@ -28,6 +30,22 @@ double hooke_view_strain(const struct hooke_view *view, const double *q, int64_t
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
   const double length = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
   return rest > 0.0 ? length / rest - 1.0 : (double)NAN;
+}
+
+/* ---- the box ---- */
+
+static void find_box(const struct hooke_view *view, const double *q, struct hooke_view_box *box) {
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t k = 0; k < view->particles; k++) {
+      const double x = q[3 * view->particle[k] + axis];
+      if (!isfinite(x)) continue;
+      low = fmin(low, x);
+      high = fmax(high, x);
+    }
+    box->low[axis] = low <= high ? low : 0.0;
+    box->high[axis] = low <= high ? high : 0.0;
+  }
 }
 
 /* ---- the scale of colours ---- */
@@ -64,20 +82,40 @@ static double largest_of_most(struct hooke_view *view, const double *q, double *
   return quantile(sizes, count, SPRING_SHARE);
 }
 
+static double extent_of(const struct hooke_view *view, const double *q) {
+  struct hooke_view_box box;
+  double extent = 0.0;
+  find_box(view, q, &box);
+  for (int axis = 0; axis < 3; axis++)
+    extent = fmax(extent, box.high[axis] - box.low[axis]);
+  return extent;
+}
+
+static int blew_up(const struct hooke_view *view) {
+  const char *status = hooke_record_text(view->record, "status");
+  return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
+}
+
 int32_t hooke_view_find_strain(struct hooke_view *view) {
   double *sizes = hooke_new(LOOKED_AT + 1, sizeof *sizes);
   double *largest = hooke_new(view->frames, sizeof *largest);
   int32_t status = sizes && largest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  int64_t count = 0;
+  double widest = INFINITY;
   view->strain_low = INFINITY;
   view->strain_high = -INFINITY;
   for (int64_t k = 0; k < view->frames && view->springs > 0 && status == HOOKE_OK; k++) {
     double *q = NULL;
     status = hooke_view_read(view, position, hooke_view_frame(view, k), view->particles_there, 3, &q);
-    if (status == HOOKE_OK) largest[k] = largest_of_most(view, q, sizes);
+    if (status == HOOKE_OK) {
+      const double most = largest_of_most(view, q, sizes), extent = extent_of(view, q);
+      if (k == 0 && extent > 0.0 && blew_up(view)) widest = WIDENED * extent;
+      if (extent <= widest) largest[count++] = most;
+    }
     hooke_free(q);
   }
   if (status == HOOKE_OK) {
-    const double most = quantile(largest, view->frames, FRAME_SHARE);
+    const double most = quantile(largest, count, FRAME_SHARE);
     const double any = fmax(-view->strain_low, view->strain_high); /* where most springs are slack */
     view->strain = most > 0.0 ? round_up(most) : any > 0.0 ? round_up(any) : 1.0;
   }
@@ -87,20 +125,6 @@ int32_t hooke_view_find_strain(struct hooke_view *view) {
 }
 
 /* ---- packing ---- */
-
-static void find_box(const struct hooke_view *view, const double *q, struct hooke_view_box *box) {
-  for (int axis = 0; axis < 3; axis++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int64_t k = 0; k < view->particles; k++) {
-      const double x = q[3 * view->particle[k] + axis];
-      if (!isfinite(x)) continue;
-      low = fmin(low, x);
-      high = fmax(high, x);
-    }
-    box->low[axis] = low <= high ? low : 0.0;
-    box->high[axis] = low <= high ? high : 0.0;
-  }
-}
 
 /* Halves, since the whole may be too large for a number. */
 static uint32_t place_in(double x, double low, double high) {

@@ -112,10 +112,10 @@ def test_planted(cloth, tmp_path):
     text = cloth.with_suffix(".xdmf").read_text()
     shutil.copy(cloth, tmp_path)
     for old, new in [(">3 0 0 1 1 1", ">4 0 0 1 1 1"), ("/connectivity/springs", "/connectivity/others"), ('Value="0"', 'Value="0.001"'),
-                     ("all/mass<", "all/weights<")]:
+                     ("all/species<", "all/kinds<")]:
         assert old in text
         with h5py.File(tmp_path / "out.h5", "a") as file:
-            for name, source in (("connectivity/others", "connectivity/springs"), ("particles/all/weights", "particles/all/mass")):
+            for name, source in (("connectivity/others", "connectivity/springs"), ("particles/all/kinds", "particles/all/species")):
                 if name not in file:
                     file[name] = file[source][:][::-1]
         (tmp_path / "out.xdmf").write_text(text.replace(old, new))

@@ -106,12 +106,13 @@ const series = (key, look) => ({ label: key, data: data[key].map((y, k) => ({ x:
 
 /* The range of energies, without what a run that blows up ends in. */
 function energyRange() {
-  const all = ["kinetic", "potential", "total"].flatMap((key) => data[key]).filter((value) => value !== null);
-  const sizes = all.map(Math.abs).sort((a, b) => a - b), most = sizes[Math.floor(0.9 * (sizes.length - 1))];
-  if (!(most > 0) || sizes[sizes.length - 1] <= 30 * most) return {};
-  at("clipped").textContent = `Energies reach ${number(sizes[sizes.length - 1])} J, beyond the edge of the diagram.`;
+  const keys = ["kinetic", "potential", "total"], largest = (frames) => frames.reduce((most, k) => Math.max(most,
+    ...keys.map((key) => Math.abs(data[key][k]))), 0);
+  const most = largest(keptFrames(data)), all = largest([...data.time.keys()]);
+  if (!(most > 0) || all <= 2 * most) return {};
+  at("clipped").textContent = `Energies reach ${number(all)} J, beyond the edge of the diagram.`;
   at("clipped").hidden = false;
-  const power = 10 ** Math.floor(Math.log10(2 * most)), round = power * [1, 2, 5, 10].find((head) => head * power >= 2 * most);
+  const power = 10 ** Math.floor(Math.log10(most)), round = power * [1, 2, 5, 10].find((head) => head * power >= most);
   return { min: -round, max: round };
 }
 
@@ -233,6 +234,7 @@ function writeSpeeds() {
 /* Where drawing does not keep up, as without a graphics card, it draws fewer springs as long as something moves. */
 const SLOW = 1000 / 28, WANTED = 1000 / 34, FEWEST = 5000; // [ms] for a picture; springs
 let enough = 1, costs = [];
+const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
 function thin(stride) {
   if (!picture || picture.stride === stride) return;

@@ -118,13 +118,11 @@ function makePoints(marks, uniforms) {
 
 /* ---- the box that the camera looks at ---- */
 
-const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
-
-/* Numbers of the frames but those that a run that blows up has thrown far out. */
-function keptFrames(boxes) {
-  const extents = boxes.map((box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]));
-  const most = 8 * middleOf(extents);
-  return [...boxes.keys()].filter((k) => extents[k] <= most || k === 0);
+/* Numbers of the frames, of a run that blew up of those that are not much wider than the first. */
+function keptFrames({ box, status }) {
+  const extents = box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2]));
+  const most = ["finished", "stopped", "running"].includes(status) || extents[0] === 0 ? Infinity : 8 * extents[0];
+  return [...box.keys()].filter((k) => extents[k] <= most);
 }
 
 function boxAround(kept) {
@@ -136,7 +134,7 @@ function boxAround(kept) {
 class Picture {
   constructor(canvas, data, ends, marks, bytesOfFrame) {
     Object.assign(this, { canvas, data, ends, marks, bytesOfFrame });
-    const kept = keptFrames(data.box), some = Math.ceil(kept.length / 16);
+    const kept = keptFrames(data), some = Math.ceil(kept.length / 16);
     this.home = boxAround(kept.map((k) => data.box[k]));
     this.centre = [0, 1, 2].map((axis) => this.home[axis] / 2 + this.home[axis + 3] / 2);
     this.radius = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] / 2 - this.home[axis] / 2)) || 1;
