@@ -109,7 +109,8 @@ static int32_t write_companion(const struct run *run) {
   if (status == HOOKE_OK) status = hooke_record_write_xdmf(record, NULL);
   hooke_record_close(record);
   if (status != HOOKE_BAD_VALUE) return status;
-  if (!run->arguments->quiet) hooke_report_words(run->arguments, "no .xdmf is written: %s", hooke_last_error());
+  if (!run->arguments->quiet)
+    hooke_report_words(run->arguments, "no .xdmf is written: %s", hooke_last_error());
   return HOOKE_OK;
 }
 
@@ -380,7 +381,9 @@ static int do_run(const struct hooke_arguments *arguments) {
 }
 
 static const struct hooke_verb_row rows[] = {
-    {"output", 'o', "FILE", "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView reads it, replacing them"},
+    {"output", 'o', "FILE",
+     "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
+     "reads it, replacing them"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},

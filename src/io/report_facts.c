@@ -37,7 +37,7 @@ static void add_machine(struct hooke_text *text) {
 }
 
 static void add_versions(struct hooke_text *text) {
-  static const char *const facts[] = {"sundials", "cholmod", "gsl",          "arpack", "hdf5",
+  static const char *const facts[] = {"sundials", "cholmod", "gsl",     "arpack",       "hdf5",
                                       "jansson",  "chartjs", "threejs", "instructions", "licence"};
   hooke_text_open(text, "versions", '{');
   hooke_text_word(text, "hooke", hooke_version());

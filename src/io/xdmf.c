@@ -122,15 +122,14 @@ static char *quote(const char *name) {
 }
 
 /* The reader drops other bytes, takes what is before the first colon for a kind of file, and trims blanks. */
-static int32_t check_name(const char *path, const char *name) {
+static int32_t check_name(const char *name) {
   int fits = !isspace((unsigned char)name[0]);
   for (const char *at = name; *at; at++)
     fits = fits && *at >= ' ' && *at <= '~' && *at != ':';
   return fits ? HOOKE_OK
-              : hooke_fail(
-                    HOOKE_BAD_VALUE, NULL,
-                    "%s: ParaView's reader of XDMF cannot take this name; allowed: ASCII without colons",
-                    path);
+              : hooke_fail(HOOKE_BAD_VALUE, NULL,
+                           "ParaView's reader of XDMF cannot take the name of this trajectory; allowed: "
+                           "ASCII without colons");
 }
 
 /* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else from the root. */
@@ -144,7 +143,7 @@ static int32_t find_name(struct companion *c, const char *path) {
     if (real == NULL) return hooke_place_fail(there, "follow the path", errno);
     name = real;
   }
-  int32_t status = check_name(there, name);
+  int32_t status = check_name(name);
   if (status == HOOKE_OK) c->file = quote(name);
   if (status == HOOKE_OK && c->file == NULL) status = HOOKE_NO_MEMORY;
   free(real);

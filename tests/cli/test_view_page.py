@@ -31,10 +31,17 @@ def make(folder, scene, code=0, *options, **run):
 
 
 @pytest.fixture(scope="module")
-def browser():
+def opened():
     opened = Browser()
     yield opened
     opened.close()
+
+
+@pytest.fixture
+def browser(opened):
+    opened.dark(False)
+    opened.size(700, 620)
+    return opened
 
 
 @pytest.fixture(scope="module")
@@ -44,8 +51,6 @@ def cloth(tmp_path_factory):
 
 @pytest.fixture
 def page(browser, cloth):
-    browser.dark(False)
-    browser.size(700, 620)
     browser.open(cloth)
     yield browser
     assert browser.console == []
