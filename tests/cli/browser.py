@@ -4,6 +4,7 @@ import base64
 import fcntl
 import json
 import os
+import select
 import subprocess
 import tempfile
 
@@ -42,6 +43,7 @@ class Browser:
 
     def receive(self):
         while b"\0" not in self.messages:
+            assert select.select([self.into], [], [], 60)[0], "the browser says nothing"
             piece = os.read(self.into, 1 << 20)
             assert piece, "the browser is gone"
             self.messages += piece
@@ -72,10 +74,11 @@ class Browser:
 
     def open(self, path):
         """Opens a file and waits until its scripts have run."""
-        self.console.clear()
-        self.send("Page.navigate", url=f"file://{path}")
-        while self.receive().get("method") != "Page.loadEventFired":
-            pass
+        for place in ("about:blank", f"file://{path}"):  # a new page also where it is another place of the same
+            self.console.clear()
+            self.send("Page.navigate", url=place)
+            while self.receive().get("method") != "Page.loadEventFired":
+                pass
 
     def run(self, script):
         """The value of a script, waited for if it is a promise."""

@@ -233,7 +233,7 @@ function writeSpeeds() {
 
 /* Where drawing does not keep up, as without a graphics card, it draws fewer springs as long as something moves. */
 const SLOW = 1000 / 28, WANTED = 1000 / 34, FEWEST = 5000; // [ms] for a picture; springs
-let enough = 1, costs = [];
+let enough = 1, costs = [], costBefore = Infinity;
 const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
 function thin(stride) {
@@ -247,8 +247,9 @@ function thin(stride) {
 function keepUp(cost) {
   costs = [...costs.slice(-8), cost];
   const usual = middleOf(costs), most = Math.floor(data.springs / FEWEST);
-  if (costs.length < 6 || usual <= SLOW || enough >= most) return;
-  enough = Math.min(most, Math.ceil((enough * usual) / WANTED));
+  if (costs.length < 6 || usual <= SLOW || enough >= most || usual > 0.9 * costBefore) return; // or it did not help
+  costBefore = usual;
+  enough = Math.min(most, Math.ceil(enough * Math.min(2, usual / WANTED)));
   costs = [];
   thin(enough);
 }
@@ -350,7 +351,7 @@ function start() {
   }
   listen();
   dress();
-  show(0, true);
+  show(Number(new URLSearchParams(location.hash.slice(1)).get("frame")) || 0, true); // page.html#frame=40
 }
 
 start();

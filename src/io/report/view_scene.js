@@ -3,7 +3,7 @@
  * here are in units of `radius` from `centre`, so that numbers of single precision will do. */
 
 const MARK = { free: 0, pinned: 1, driven: 2, loose: 3 };
-const THICK_BELOW = 20000; // springs; with more, lines are a pixel wide
+const THICK_BELOW = 40000; // springs; with more, lines are a pixel wide
 const DOTS_BELOW = 60; // free particles that get a dot each
 const NO_STRAIN = 255;
 // Compressed, slack, stretched: blue to orange, told apart by eyes of every kind, dark on paper and bright in the dark.
@@ -221,7 +221,7 @@ class Picture {
     this.camera.updateProjectionMatrix();
     const count = this.ends.length / 2;
     this.uniforms.size.value.set(wide * ratio, tall * ratio);
-    this.uniforms.width.value = ratio * (count <= 300 ? 3.4 : count <= 3000 ? 2.2 : 1.5);
+    this.uniforms.width.value = ratio * (count <= 300 ? 3.4 : count <= 3000 ? 2.2 : count <= 10000 ? 1.5 : 1.1);
     this.uniforms.scale.value = ratio * (this.list.length <= 100 ? 11 : 6);
   }
 
