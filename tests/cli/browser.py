@@ -18,7 +18,7 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "
 class Browser:
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        self.number, self.messages, self.console, self.session = 0, b"", [], None
+        self.number, self.loads, self.messages, self.console, self.session = 0, 0, b"", [], None
         commands, self.out = os.pipe()
         self.into, answers = os.pipe()
         # It reads commands from descriptor 3 and answers on 4; copies from 10 on, so that neither takes the other's place.
@@ -51,6 +51,7 @@ class Browser:
         message = json.loads(text)
         if message.get("method") in ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"):
             self.console.append(message["params"])
+        self.loads += message.get("method") == "Page.loadEventFired"
         return message
 
     def send(self, method, **params):
@@ -76,9 +77,10 @@ class Browser:
         """Opens a file and waits until its scripts have run."""
         for place in ("about:blank", f"file://{path}"):  # a new page also where it is another place of the same
             self.console.clear()
+            loads = self.loads
             self.send("Page.navigate", url=place)
-            while self.receive().get("method") != "Page.loadEventFired":
-                pass
+            while self.loads == loads:
+                self.receive()
 
     def run(self, script):
         """The value of a script, waited for if it is a promise."""
