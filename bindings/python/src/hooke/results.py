@@ -111,8 +111,8 @@ def run(
 
     The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
     every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
-    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it comes the ``.xdmf`` by which ParaView reads it), ``frames=True``
-    keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
+    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it
+    comes the ``.xdmf`` by which ParaView reads it), ``frames=True`` keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
     state)`` is told at each frame; for `on_frame` and `on_step` see `Integrator.run`.
     """
     scene, problem, given = resolve(problem, force)

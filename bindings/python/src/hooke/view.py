@@ -22,13 +22,17 @@ _PathLike = Union[str, "os.PathLike[str]"]
 
 
 def view(
-    trajectory: _PathLike | Result, output: _PathLike | None = None, *, title: str | None = None, **options: Any
+    trajectory: _PathLike | Result,
+    output: _PathLike | None = None,
+    *,
+    title: str | None = None,
+    **options: Any,
 ) -> Path:
     """Writes a trajectory as one HTML page that plays it, to open in a browser, offline, and returns its path.
 
-    `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a run;
-    `output` the page, by default the file's name with ``.html``; `title` stands over it (by default the scene's). Keywords:
-    `frames` and `springs` at most, `size` of the page [MB]; what is left out is said on the page.
+    `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
+    run; `output` the page, by default the file's name with ``.html``; `title` stands over it (by default the
+    scene's). Keywords: `frames` and `springs` at most, `size` of the page [MB]; what is left out is said on it.
     """
     source = _file_of(trajectory)
     page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
@@ -46,9 +50,9 @@ def view(
 
 
 def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) -> Path:
-    """Writes the companion by which ParaView reads a trajectory, and returns its path: by default beside the trajectory,
-    with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a run that was killed this
-    writes it for the frames that are there."""
+    """Writes the companion by which ParaView reads a trajectory, and returns its path: by default beside the
+    trajectory, with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a run that
+    was killed this writes it for the frames that are there."""
     source = _file_of(trajectory)
     with _record(source) as record:
         lib.hooke_record_write_xdmf(record, None if output is None else os.fsencode(output))
