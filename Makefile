@@ -6,7 +6,7 @@
 
 PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev liblapack-dev libblas-dev libgsl-dev libarpack2-dev libhdf5-dev \
-           libjansson-dev libjs-chart.js chromium abigail-tools mandoc groff-base
+           libjansson-dev libjs-chart.js libjs-three chromium abigail-tools mandoc groff-base
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python

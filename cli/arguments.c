@@ -157,6 +157,7 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     int answer = take(arguments, argument, optarg);
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
+  const char *input = arguments->verb->input;
   arguments->help = hooke_arguments_text(arguments, "help") != NULL;
   if (arguments->help) return HOOKE_EXIT_DONE;
   int answer = set_what_added_up(arguments);
@@ -166,7 +167,6 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     return hooke_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
                         argv[optind + 1], arguments->scene);
   }
-  const char *input = arguments->verb->input;
   if (optind >= argc) {
     return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
                         input ? input : "scene", arguments->verb->name,

@@ -100,6 +100,18 @@ static int32_t prepare(struct run *run) {
   return status == HOOKE_OK ? hooke_trajectory_write_behind(run->trajectory) : status;
 }
 
+/* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
+static int32_t write_companion(const struct run *run) {
+  hooke_record *record = NULL;
+  int32_t status = hooke_record_open(run->output, &record);
+  if (status == HOOKE_OK) status = hooke_record_write_xdmf(record, NULL);
+  hooke_record_close(record);
+  if (status != HOOKE_BAD_VALUE) return status;
+  if (!run->arguments->quiet)
+    hooke_report_words(run->arguments, "no .xdmf is written: %s", hooke_last_error());
+  return HOOKE_OK;
+}
+
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
 static int integrate(struct run *run) {
   hooke_watch_start(&run->watch, run->arguments);
@@ -120,6 +132,7 @@ static int integrate(struct run *run) {
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
+  if (status == HOOKE_OK && run->output) status = write_companion(run);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
 }
 
@@ -366,7 +379,9 @@ static int do_run(const struct hooke_arguments *arguments) {
 }
 
 static const struct hooke_verb_row rows[] = {
-    {"output", 'o', "FILE", "writes the trajectory to FILE (HDF5 in the H5MD layout), replacing it"},
+    {"output", 'o', "FILE",
+     "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
+     "reads it, replacing them"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},

@@ -130,6 +130,7 @@ void hooke_usage_print_version(FILE *file) {
   print_part(file, "HDF5", "hdf5");
   print_part(file, "jansson", "jansson");
   print_part(file, "Chart.js", "chartjs");
+  print_part(file, "three.js", "threejs");
   print_part(file, "instructions", "instructions");
   fprintf(file, "%-13s %ld on this machine\n", "threads", threads > 0 ? threads : 1);
   print_part(file, "licence", "licence");

@@ -83,6 +83,24 @@ function(hooke_find_chartjs)
   endif()
 endfunction()
 
+# three.js likewise, as the script that sets THREE, with OrbitControls as such a script beside it (they were left out of
+# later versions, of which there are modules alone). Sets HOOKE_THREEJS_FOUND, _FILE, _ORBIT_FILE and _VERSION.
+function(hooke_find_threejs)
+  set(HOOKE_THREEJS_FOUND FALSE PARENT_SCOPE)
+  set(folders share/javascript/three share/javascript/three/build share/nodejs/three/build)
+  find_file(HOOKE_THREEJS_FILE NAMES three.min.js PATH_SUFFIXES ${folders})
+  find_file(HOOKE_THREEJS_ORBIT_FILE NAMES OrbitControls.js
+    PATH_SUFFIXES share/javascript/three/examples/js/controls share/nodejs/three/examples/js/controls)
+  mark_as_advanced(HOOKE_THREEJS_FILE HOOKE_THREEJS_ORBIT_FILE)
+  if(HOOKE_THREEJS_FILE AND HOOKE_THREEJS_ORBIT_FILE)
+    file(STRINGS "${HOOKE_THREEJS_FILE}" line REGEX "REVISION *= *\"[0-9]+" LIMIT_COUNT 1)
+    if(line MATCHES "REVISION *= *\"([0-9]+)")
+      set(HOOKE_THREEJS_VERSION ${CMAKE_MATCH_1} PARENT_SCOPE)
+      set(HOOKE_THREEJS_FOUND TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
+
 # Its three numbers are in lines of their own; in cholmod.h from SuiteSparse 7 on.
 function(hooke_read_cholmod_version)
   set(numbers)
@@ -152,5 +170,7 @@ macro(hooke_find name)
       VERSION jansson.h "JANSSON_VERSION +\"([^\"]+)\"")
   elseif("${name}" STREQUAL "chartjs")
     hooke_find_chartjs()
+  elseif("${name}" STREQUAL "threejs")
+    hooke_find_threejs()
   endif()
 endmacro()

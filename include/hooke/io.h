@@ -150,6 +150,38 @@ HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_sys
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 
+/* ---- trajectories shown ---- */
+
+/* Writes a trajectory as one HTML page that plays it, readable offline: springs coloured by strain, what is pinned and what
+ * is driven, energies over time. A view is what of the file the page shows; the record has to stay as long as it does. */
+typedef struct hooke_view hooke_view;
+
+/* Options of a view: frames and springs at most, size of the page [MB]. */
+HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
+/* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow, evenly, the
+ * last one always. `options` are copied; NULL: defaults. HOOKE_BAD_VALUE for a file of several runs, one without frames, or
+ * a size that is too small; HOOKE_NOT_BUILT in a build without three.js and Chart.js, or where files of share/hooke are
+ * missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
+                                    hooke_view **view);
+/* Writes the page. `title` stands over it; NULL: the scene's, or the name of the file. An older file is replaced when the
+ * new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
+/* "frames", "springs", "particles" that are shown, and "frames_there", "springs_there", "particles_there";
+ * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the ends of the
+ * scale of colours, "strain_low", "strain_high": those met; "bytes" of the page that was written. NaN if it does not apply,
+ * and for another word. */
+HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
+/* NULL is allowed. */
+HOOKE_API void hooke_view_destroy(hooke_view *view);
+
+/* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame that is there, which
+ * refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in place of its .h5; a file of
+ * this name that is no XDMF is then not replaced. Springs are lines, with rest_length; particles have velocity, mass and
+ * species. HOOKE_BAD_VALUE if there are no frames, and for a name of the trajectory that ParaView's reader cannot take: it
+ * wants ASCII without colons; HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
+
 /* ---- studies ---- */
 
 /* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time, orders,

@@ -96,6 +96,19 @@ static herr_t refer(hid_t file, const char *group) {
   return result;
 }
 
+static herr_t write_rest_lengths(hid_t file, const hooke_system *system) {
+  const hsize_t count = (hsize_t)hooke_system_spring_count(system);
+  double *rest_length = hooke_new((int64_t)count, sizeof(double));
+  herr_t result = rest_length == NULL ? -1 : 0;
+  if (result >= 0 && hooke_system_spring_material(system, NULL, NULL, rest_length) != HOOKE_OK) result = -1;
+  if (result >= 0) {
+    result = hooke_h5_array_of(file, "hooke/rest_length", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &count,
+                               rest_length);
+  }
+  hooke_free(rest_length);
+  return result;
+}
+
 herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group) {
   const int64_t count = hooke_system_spring_count(system);
   const hsize_t size[2] = {(hsize_t)count, 2};
@@ -107,7 +120,7 @@ herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *gr
   if (result >= 0) result = refer(file, group);
   hooke_h5_drop(connectivity);
   hooke_free(ends);
-  return result;
+  return result < 0 ? result : write_rest_lengths(file, system);
 }
 
 herr_t hooke_h5md_copy(hid_t from, hid_t to, const char *group) {

@@ -3,6 +3,7 @@
  *   /h5md                    version [1, 1]; author, creator
  *   /hooke                   attributes version, abi, units, method; `scene`: the text of the scene;
  * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
+ *   /hooke/rest_length       [springs]
  *   /particles/<group>       frames (recording_h5.h)
  *   /connectivity/springs    [springs][2] particle numbers
  *   /observables             frames (recording_h5.h)
@@ -24,7 +25,7 @@ herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *
 /* A group `options` with an attribute for each option that has a value. Negative on failure. */
 herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options);
 
-/* /connectivity/springs; the particles group has to be there. */
+/* /connectivity/springs and /hooke/rest_length; the particles group has to be there. */
 herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
 /* Copies both to another file, in which the particles group has to be there. */

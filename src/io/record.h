@@ -1,4 +1,4 @@
-/* Telling the files apart that a scene can come from. */
+/* Telling the files apart that a scene can come from, and what is known of one inside the library. */
 #ifndef HOOKE_IO_RECORD_H
 #define HOOKE_IO_RECORD_H
 
@@ -6,5 +6,11 @@
 
 /* 1 if the file begins as HDF5 files do. */
 int32_t hooke_record_is_one(const char *path);
+
+/* Where it was opened; valid as long as the record. */
+const char *hooke_record_path(const hooke_record *record);
+
+/* 0 for a file of several runs, a comparison or a study. */
+int32_t hooke_record_is_run(const hooke_record *record);
 
 #endif

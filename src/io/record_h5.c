@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/record.h"
 
 #if HOOKE_HAVE_HDF5
 
@@ -101,6 +102,7 @@ static int32_t read_hooke(struct hooke_record *record) {
   if (status == HOOKE_OK) {
     record->scene = read_text(file, "hooke/scene");
     record->status = read_text(file, "hooke/status");
+    record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     status = read_options(file, record->options);
     hooke_record_find_places(record, file);
   }
@@ -151,6 +153,14 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  return record->path;
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  return record->is_run;
 }
 
 const hooke_options *hooke_record_options(const hooke_record *record) {
@@ -205,6 +215,16 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   (void)record, (void)what;
   return NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  (void)record;
+  return NULL;
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  (void)record;
+  return 0;
 }
 
 const hooke_options *hooke_record_options(const hooke_record *record) {

@@ -11,6 +11,7 @@ enum hooke_record_place { HOOKE_PLACE_POSITION, HOOKE_PLACE_VELOCITY, HOOKE_PLAC
 struct hooke_record {
   char *path, *scene, *status;
   hooke_options *options; /* of a run, as they were stored */
+  int32_t is_run;
   int64_t frame_count;
   double *time;
   int64_t place[HOOKE_PLACE_COUNT]; /* of frames in the file [bytes]; -1: not one after the other */

@@ -2,6 +2,7 @@
 #include "io/report.h"
 
 #include "core/status.h"
+#include "io/form.h"
 #include "io/place.h"
 #include "io/share.h"
 
@@ -32,10 +33,9 @@ static int32_t add_own(struct hooke_text *page, const struct hooke_report *repor
   return hooke_share_read(name, page);
 }
 
-/* What stands in the frame as {{mark}}: a part of the report, or a file that all reports have. */
-static int32_t add_part(struct hooke_text *page, const char *mark, const struct hooke_report *report) {
-  char name[64];
-  snprintf(name, sizeof name, "%.*s", (int)strcspn(mark, "}"), mark);
+/* What stands in the form as {{name}}: a part of the report, or a file that all reports have. */
+static int32_t add_part(const char *name, struct hooke_text *page, void *ctx) {
+  const struct hooke_report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
@@ -43,33 +43,10 @@ static int32_t add_part(struct hooke_text *page, const char *mark, const struct 
   return hooke_share_read(name, page);
 }
 
-static int32_t fill(struct hooke_text *page, const struct hooke_text *form,
-                    const struct hooke_report *report) {
-  const char *from = form->bytes, *mark;
-  int32_t status = HOOKE_OK;
-  while (status == HOOKE_OK && (mark = strstr(from, "{{")) != NULL) {
-    hooke_text_add(page, from, mark - from);
-    status = add_part(page, mark + 2, report);
-    from = mark + strcspn(mark, "}");
-    from += strspn(from, "}");
-  }
-  if (status == HOOKE_OK) hooke_text_add(page, from, (int64_t)strlen(from));
-  return status == HOOKE_OK ? page->status : status;
-}
-
-static int32_t make_page(struct hooke_text *page, const struct hooke_report *report) {
-  struct hooke_text form = {.bytes = NULL};
-  int32_t status = hooke_share_read("page.html", &form);
-  hooke_text_add(&form, "", 1); /* ends it */
-  if (status == HOOKE_OK) status = form.status;
-  if (status == HOOKE_OK) status = fill(page, &form, report);
-  hooke_text_release(&form);
-  return status;
-}
-
 int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
   struct hooke_text page = {.bytes = NULL};
-  int32_t status = make_page(&page, report);
+  struct hooke_report copy = *report;
+  int32_t status = hooke_form_fill("page.html", add_part, &copy, &page);
   if (status == HOOKE_OK) status = hooke_place_write(path, page.bytes, page.length);
   hooke_text_release(&page);
   return status;

@@ -37,8 +37,8 @@ static void add_machine(struct hooke_text *text) {
 }
 
 static void add_versions(struct hooke_text *text) {
-  static const char *const facts[] = {"sundials", "cholmod", "lapack",  "gsl",          "arpack",
-                                      "hdf5",     "jansson", "chartjs", "instructions", "licence"};
+  static const char *const facts[] = {"sundials", "cholmod", "lapack",  "gsl",          "arpack", "hdf5",
+                                      "jansson",  "chartjs", "threejs", "instructions", "licence"};
   hooke_text_open(text, "versions", '{');
   hooke_text_word(text, "hooke", hooke_version());
   for (int k = 0; k < (int)(sizeof facts / sizeof facts[0]); k++)

@@ -76,7 +76,7 @@ def test_report(prefix, tmp_path):
     if "HOOKE_CLI" not in os.environ or not pages:
         pytest.skip("this build writes no reports")
     sources = {p.name for p in (ROOT / "src/io/report").iterdir()}
-    assert pages == sources | {"chart.js"}
+    assert pages == sources | {"chart.js", "three.js", "three_orbit.js"}
     seen = set()
     for verb, *options in (("needs", "--want", "0.1"), ("limit", "--methods", "rk4"), ("study", "--methods", "rk4")):
         command = [prefix / "bin/hooke", verb, prefix / "share/hooke/examples/scenes/oscillator.json", "--duration", "0.5",
@@ -84,7 +84,11 @@ def test_report(prefix, tmp_path):
         run(*command)
         text = (tmp_path / "page.html").read_text()
         seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
-    assert pages - seen == {"page.html"}, "the frame, with marks where the others are put in"
+    run(prefix / "bin/hooke", "run", command[2], "-o", tmp_path / "out.h5")
+    run(prefix / "bin/hooke", "view", tmp_path / "out.h5", "-o", tmp_path / "page.html")
+    text = (tmp_path / "page.html").read_text()
+    seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
+    assert pages - seen == {"page.html", "view.html"}, "the forms, with marks where the others are put in"
     (prefix / "share/hooke/study.js").rename(prefix / "share/hooke/away.js")
     assert "share/hooke/study.js" in run(*command, expect=6)
     (prefix / "share/hooke/away.js").rename(prefix / "share/hooke/study.js")

@@ -11,7 +11,8 @@
 A scene is built (`Scene`, `System`) or comes from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
 it, `open` reads what a run wrote, `compare` sets several methods against a tight reference, `study` measures error
 against cost and recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs`
-finds what a scene can do without, `why` explains a run that blew up, `Integrator` gives you the loop. Units are SI,
+finds what a scene can do without, `why` explains a run that blew up, `view` makes a page that plays a
+trajectory, `Integrator` gives you the loop. Units are SI,
 positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
@@ -35,6 +36,7 @@ from .state import State
 from .study import Study, study
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
+from .view import view, write_xdmf
 from .why import Why, why
 
 __version__ = "0.1.0"
@@ -87,7 +89,9 @@ __all__ = [
     "plot",
     "run",
     "study",
+    "view",
     "why",
+    "write_xdmf",
 ]
 
 

@@ -35,6 +35,7 @@ COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
+VIEW = _handle("hooke_view")
 LIMIT = _handle("hooke_limit")
 COST = _handle("hooke_cost")
 NEEDS = _handle("hooke_needs")
@@ -307,6 +308,12 @@ PROTOTYPES = {
     "hooke_record_size": (STATUS, RECORD, TEXT, INTEGERS, INTEGERS),
     "hooke_record_numbers": (STATUS, RECORD, TEXT, DOUBLES),
     "hooke_record_place": (INT64, RECORD, TEXT),
+    "hooke_record_write_xdmf": (STATUS, RECORD, TEXT),
+    "hooke_view_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_view_create": (STATUS, RECORD, OPTIONS, POINTER(VIEW)),
+    "hooke_view_write": (STATUS, VIEW, TEXT, TEXT),
+    "hooke_view_number": (DOUBLE, VIEW, TEXT),
+    "hooke_view_destroy": (None, VIEW),
     "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
     "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
     "hooke_study_write_csv": (STATUS, STUDY, TEXT),

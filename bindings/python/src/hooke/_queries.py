@@ -362,4 +362,6 @@ def build_facts() -> dict[str, str]:
     return {"version": text(lib.hooke_version()), "path": str(lib.path), **facts}
 
 
-_FACTS = ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson", "chartjs", "instructions", "licence")
+_FACTS = (
+    "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson", "chartjs", "threejs", "instructions", "licence",
+)

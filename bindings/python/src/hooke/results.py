@@ -32,6 +32,7 @@ from .options import Options
 from .scene import Scene, scene_text
 from .state import State
 from .system import Force, System
+from .view import write_companion
 
 #: What can be run: a scene or the path of one, a system, a first-order problem.
 Runnable = Union[Path, Scene, System, FirstOrder]
@@ -58,7 +59,7 @@ class Result:
 
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
     `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
-    `stop_value` is what the callback that stopped the run returned. `integrator` is kept of a run that blew up,
+    `stop_value` is what the callback that stopped the run returned, `output` the file that was written. `integrator` is kept of a run that blew up,
     to be asked why.
     """
 
@@ -72,6 +73,7 @@ class Result:
     diverged_at: float
     stop_value: int
     frames: Frames | None = None
+    output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -110,8 +112,8 @@ def run(
 
     The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
     every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
-    start (it is changed; by default the initial state), `output` the HDF5 file to write, ``frames=True``
-    keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
+    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it
+    comes the ``.xdmf`` by which ParaView reads it), ``frames=True`` keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
     state)`` is told at each frame, ``progress=True`` shows a bar (with tqdm);
     for `on_frame` and `on_step` see `Integrator.run`.
     """
@@ -142,6 +144,7 @@ def run(
         diverged_at=integrator.diverged_at,
         stop_value=integrator.stop_value,
         frames=recorder.frames() if recorder is not None else None,
+        output=output,
         integrator=integrator if status in ("diverged", "step-limit") else None,
     )
 
@@ -216,6 +219,7 @@ def _run_to_file(
         lib.hooke_trajectory_close(pointer, outcome if isinstance(outcome, int) else _STOPPED)
         raise
     lib.hooke_trajectory_close(pointer, integrator.outcome)
+    write_companion(path)
     return status
 
 

@@ -450,6 +450,14 @@ HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_sys
                                                hooke_comparison *comparison, const char *scene_text,
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+typedef struct hooke_view hooke_view;
+HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
+                                    hooke_view **view);
+HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
+HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
+HOOKE_API void hooke_view_destroy(hooke_view *view);
+HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
                                        int32_t outcome);
 HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);

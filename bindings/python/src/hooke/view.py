@@ -1,0 +1,89 @@
+"""Showing trajectory files: as a page for a browser, and to ParaView."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import warnings
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterator, Union
+
+from ._library import lib
+from ._memory import Handle
+from ._prototypes import OPTIONS, RECORD, VIEW
+from ._status import BadValue
+from .options import Options
+
+if TYPE_CHECKING:
+    from .results import Result
+
+_PathLike = Union[str, "os.PathLike[str]"]
+
+
+def view(
+    trajectory: _PathLike | Result,
+    output: _PathLike | None = None,
+    *,
+    title: str | None = None,
+    **options: Any,
+) -> Path:
+    """Writes a trajectory as one HTML page that plays it, to open in a browser, offline, and returns its path.
+
+    `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
+    run; `output` the page, by default the file's name with ``.html``; `title` stands over it (by default the
+    scene's). Keywords: `frames` and `springs` at most, `size` of the page [MB]; what is left out is said on it.
+    """
+    source = _file_of(trajectory)
+    page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
+    pointer = OPTIONS()
+    lib.hooke_view_options_create(ctypes.byref(pointer))
+    given = Options(Handle(pointer, lib.hooke_options_destroy)).set(**options)
+    made = VIEW()
+    with _record(source) as record:
+        try:
+            lib.hooke_view_create(record, given._handle, ctypes.byref(made))
+            lib.hooke_view_write(made, os.fsencode(page), None if title is None else title.encode())
+        finally:
+            lib.hooke_view_destroy(made)
+    return page
+
+
+def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) -> Path:
+    """Writes the companion by which ParaView reads a trajectory, and returns its path: by default beside the
+    trajectory, with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a run that
+    was killed this writes it for the frames that are there."""
+    source = _file_of(trajectory)
+    with _record(source) as record:
+        lib.hooke_record_write_xdmf(record, None if output is None else os.fsencode(output))
+    if output is not None:
+        return Path(os.fspath(output))
+    known = source.suffix in (".h5", ".hdf5", ".h5md")
+    return source.with_suffix(".xdmf") if known else source.with_name(source.name + ".xdmf")
+
+
+def write_companion(path: bytes) -> None:
+    """The same at the end of a run, for which a name that ParaView cannot take is no failure."""
+    try:
+        write_xdmf(os.fsdecode(path))
+    except BadValue as trouble:
+        warnings.warn(f"no .xdmf is written: {trouble}", stacklevel=4)
+
+
+def _file_of(trajectory: _PathLike | Result) -> Path:
+    if isinstance(trajectory, (str, os.PathLike)):
+        return Path(os.fspath(trajectory))
+    output = getattr(trajectory, "output", None)
+    if output is None:
+        raise BadValue("trajectory: this run was not written to a file; run it with output=...")
+    return Path(os.fspath(output))
+
+
+@contextmanager
+def _record(path: Path) -> Iterator[Any]:
+    record = RECORD()
+    lib.hooke_record_open(os.fsencode(path), ctypes.byref(record))
+    try:
+        yield record
+    finally:
+        lib.hooke_record_close(record)

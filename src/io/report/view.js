@@ -1,0 +1,357 @@
+"use strict";
+/* The page: time, controls, energies, words. The data are those of the element #data, in SI units; frames are in #frames, in
+ * texts of one length. Text is set as text, never as markup. */
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const at = (id) => document.getElementById(id);
+const last = data.frames - 1;
+
+/* ---- bytes ---- */
+
+const fixed = bytesOf(at("fixed").textContent);
+const ends = new Uint32Array(fixed.buffer, 0, 2 * data.springs);
+const marks = fixed.subarray(8 * data.springs);
+const frameText = at("frames").textContent, frameLength = frameText.length / data.frames;
+const bytesOfFrame = (k) => bytesOf(frameText.slice(k * frameLength, (k + 1) * frameLength));
+
+/* ---- words ---- */
+
+function number(value, digits = 3) {
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e5)) return String(Number(value.toPrecision(digits)));
+  return value.toExponential(digits - 1).replace(/\.?0+e/, "e");
+}
+const whole = (value) => value.toLocaleString("en-US");
+const percent = (value) => `${number(100 * value)} %`;
+const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
+const ending = (n) => ["st", "nd", "rd"][Math.floor(n / 10) % 10 === 1 ? 3 : (n % 10) - 1] || "th";
+const every = (stride) => (stride === 1 ? "every" : `every ${stride}${ending(stride)}`);
+
+function element(kind, text, options = {}) {
+  return Object.assign(document.createElement(kind), { textContent: text }, options);
+}
+
+const OUTCOMES = {
+  finished: "finished", stopped: "stopped early", diverged: "diverged", "step-limit": "ended at its limit of steps",
+  "solver-failed": "ended, its solver having failed", failed: "failed", running: "not closed",
+};
+const ALERTS = {
+  diverged: "The run diverged. These are the frames up to then",
+  "step-limit": "The run used up its steps. These are the frames up to then",
+  "solver-failed": "The solver of the run failed. These are the frames up to then",
+  failed: "The run failed. These are the frames up to then",
+  running: "The run has not been closed: it still goes on, or was killed. These are the frames so far",
+};
+
+function writeHead() {
+  document.title = `hooke view: ${data.title}`;
+  at("title").textContent = data.title;
+  const accuracy = data.step !== undefined ? `step ${number(data.step, 6)} s`
+    : data.rtol !== undefined ? `rtol ${number(data.rtol, 6)}` : "";
+  at("lead").textContent = [`${data.method}${accuracy ? `, ${accuracy}` : ""}`,
+    `${OUTCOMES[data.status] || data.status} at t = ${number(data.time_last, 6)} s`,
+    counted(data.particles_there, "particle"), counted(data.springs_there, "spring")].join(" \u00b7 ");
+  if (ALERTS[data.status]) {
+    at("alert").textContent = `${ALERTS[data.status]}, t = ${number(data.time_last, 6)} s` +
+      (data.duration ? ` of ${number(data.duration, 6)} s.` : ".");
+    at("alert").hidden = false;
+  }
+}
+
+function writeShown() {
+  const words = [data.frame_stride > 1
+    ? `Shown: ${every(data.frame_stride)} of ${counted(data.frames_there, "frame")} and the last (${whole(data.frames)})`
+    : `Shown: ${data.frames_there === 1 ? "the one frame that there is" : `all ${counted(data.frames_there, "frame")}`}`];
+  words.push(data.spring_stride > 1
+    ? `drawn: ${every(data.spring_stride)} spring of ${whole(data.springs_there)} (${whole(data.springs)})` : "all springs");
+  if (data.loose_stride > 1) words.push(`${every(data.loose_stride)} of ${whole(data.loose_there)} particles without springs`);
+  const far = Math.max(...data.box.map((box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2])));
+  words.push(`positions to 1/131,070 of the extent of their frame (at most ${number(far / 131070)} m)`);
+  if (data.by_first_frame) words.push("strain against the first frame, since the file holds no rest lengths");
+  at("shown").textContent = `${words.join("; ")}.`;
+  const { machine, versions } = data;
+  const facts = { file: data.file, written: data.date, hooke: versions.hooke, "three.js": versions.threejs,
+    "Chart.js": versions.chartjs, processor: machine.processor,
+    licences: "three.js, its OrbitControls and Chart.js, which are in this page, are under the MIT licence; copyright their authors" };
+  for (const [name, value] of Object.entries(facts)) if (value) at("about").append(element("dt", name), element("dd", value));
+}
+
+function writeLegend(palette) {
+  at("scale").hidden = data.springs === 0;
+  at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
+  at("low").textContent = `\u2212${percent(data.strain)}`;
+  at("high").textContent = `+${percent(data.strain)}`;
+  const beyond = [];
+  if (data.strain_low < -data.strain) beyond.push(`least ${percent(data.strain_low)}`);
+  if (data.strain_high > data.strain) beyond.push(`largest ${percent(data.strain_high)}`);
+  at("beyond").textContent = beyond.join(", ");
+  const shapes = { [MARK.pinned]: ["pinned", "M0,0H11V11H0Z", "var(--ink)"],
+    [MARK.driven]: ["driven", "M5.5,-1L12,5.5L5.5,12L-1,5.5Z", isDark() ? "#ff8fd0" : "#d6409f"] };
+  at("marks").replaceChildren(...Object.entries(shapes).filter(([mark]) => marks.includes(Number(mark))).map(([, shape]) => {
+    const item = element("li"), space = "http://www.w3.org/2000/svg";
+    const svg = document.createElementNS(space, "svg"), path = document.createElementNS(space, "path");
+    path.setAttribute("d", shape[1]);
+    path.setAttribute("fill", shape[2]);
+    svg.append(path);
+    item.append(svg, shape[0]);
+    return item;
+  }));
+}
+
+/* ---- energies ---- */
+
+const COLOURS = { kinetic: "#2f86c9", potential: "#e2711d" };
+const series = (key, look) => ({ label: key, data: data[key].map((y, k) => ({ x: data.time[k], y })), pointRadius: 0,
+  pointHitRadius: 0, showLine: true, borderWidth: 2, ...look });
+
+/* The range of energies, without what a run that blows up ends in. */
+function energyRange() {
+  const keys = ["kinetic", "potential", "total"], largest = (frames) => frames.reduce((most, k) => Math.max(most,
+    ...keys.map((key) => Math.abs(data[key][k]))), 0);
+  const most = largest(keptFrames(data)), all = largest([...data.time.keys()]);
+  if (!(most > 0) || all <= 2 * most) return {};
+  at("clipped").textContent = `Energies reach ${number(all)} J, beyond the edge of the diagram.`;
+  at("clipped").hidden = false;
+  const power = 10 ** Math.floor(Math.log10(most)), round = power * [1, 2, 5, 10].find((head) => head * power >= most);
+  return { min: -round, max: round };
+}
+
+let chart = null;
+function drawEnergies() {
+  const ink = styleOf("--ink"), grid = styleOf("--line"), text = styleOf("--dim");
+  if (chart) chart.destroy();
+  const axis = (title, more) => ({ type: "linear", title: { display: true, text: title, color: text }, ticks: { color: text,
+    maxRotation: 0 }, grid: { color: grid, borderColor: grid }, ...more });
+  chart = new Chart(at("energy"), {
+    type: "scatter",
+    data: { datasets: [series("total", { borderColor: ink, borderDash: [6, 4] }), series("kinetic", { borderColor: COLOURS.kinetic }),
+      series("potential", { borderColor: COLOURS.potential })] },
+    options: {
+      animation: false, maintainAspectRatio: false, events: [],
+      scales: { x: axis("t [s]", { min: data.time[0], max: data.time[last] > data.time[0] ? data.time[last] : undefined }),
+        y: axis("energy [J]", energyRange()) },
+      plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, usePointStyle: true, pointStyle: "line",
+        boxHeight: 6 } } },
+      onResize: () => requestAnimationFrame(moveCursor),
+    },
+  });
+}
+
+function moveCursor() {
+  const { left, top, bottom } = chart.chartArea, cursor = at("cursor");
+  Object.assign(cursor.style, { display: "block", top: `${top}px`, height: `${bottom - top}px`,
+    left: `${Math.max(left, chart.scales.x.getPixelForValue(data.time[shown])) - 0.75}px` });
+}
+
+/* The frame whose time is nearest. */
+function frameNear(time) {
+  let low = 0, high = last;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (data.time[middle] <= time) low = middle;
+    else high = middle;
+  }
+  return Math.abs(data.time[high] - time) < Math.abs(data.time[low] - time) ? high : low;
+}
+
+function seekOnEnergies() {
+  const seek = (event) => show(frameNear(chart.scales.x.getValueForPixel(event.clientX -
+    at("energy").getBoundingClientRect().left)));
+  at("energy").addEventListener("pointerdown", (event) => {
+    pause();
+    at("energy").setPointerCapture(event.pointerId);
+    seek(event);
+  });
+  at("energy").addEventListener("pointermove", (event) => event.buttons && seek(event));
+}
+
+/* ---- axes ---- */
+
+const AXES = [["x", "#d1495b"], ["y", "#3a9d5d"], ["z", "#3f78c9"]];
+function drawAxes() {
+  const space = "http://www.w3.org/2000/svg", turn = picture.camera.quaternion.clone().conjugate();
+  at("axes").replaceChildren(...AXES.map(([name, stroke], axis) => {
+    const to = new THREE.Vector3().setComponent(axis, 1).applyQuaternion(turn), group = document.createElementNS(space, "g");
+    const line = document.createElementNS(space, "line"), text = document.createElementNS(space, "text");
+    for (const [key, value] of Object.entries({ x2: 20 * to.x, y2: -20 * to.y, stroke })) line.setAttribute(key, value);
+    for (const [key, value] of Object.entries({ x: 27 * to.x, y: -27 * to.y })) text.setAttribute(key, value);
+    text.textContent = name;
+    if (Math.hypot(to.x, to.y) > 0.25) group.append(line, text);
+    return group;
+  }));
+}
+
+/* ---- frames ---- */
+
+let picture = null, shown = 0, playing = false, wanted = false, turned = false, time = data.time[0], before = 0, drawn = [];
+
+/* Draws at the next occasion, once. */
+function draw() {
+  turned = true;
+  if (wanted || playing) return;
+  wanted = true;
+  requestAnimationFrame(() => {
+    wanted = false;
+    drawNow();
+  });
+}
+
+function drawNow() {
+  if (!picture) return;
+  picture.draw();
+  drawAxes();
+}
+
+function show(k, now = false) {
+  shown = Math.max(0, Math.min(last, k));
+  if (picture) picture.show(shown);
+  const number_ = Math.min(shown * data.frame_stride, data.frames_there - 1);
+  at("frame").value = shown;
+  at("now").textContent = `frame ${number_} / ${data.frames_there - 1}  \u00b7  t = ${number(data.time[shown], 4)} s`;
+  document.body.dataset.frame = shown;
+  if (!playing) time = data.time[shown];
+  moveCursor();
+  if (now) drawNow();
+  else draw();
+}
+
+function step(by) {
+  pause();
+  show(shown + by);
+}
+
+/* ---- playing ---- */
+
+function writeSpeeds() {
+  const pace = (data.time[last] - data.time[0]) / Math.max(3, data.frames / 30) || 1;
+  const power = 10 ** Math.floor(Math.log10(pace)), near = (head) => Math.abs(Math.log(head * power / pace));
+  const middle = power * [1, 2, 3, 5, 10].sort((a, b) => near(a) - near(b))[0];
+  const list = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10].map((factor) => Number((factor * middle).toPrecision(2)));
+  at("speed").append(...list.map((value) => element("option", value === 1 ? "real time" : `${number(value)} \u00d7 real time`,
+    { value, selected: value === list[4] })));
+}
+
+/* Where drawing does not keep up, as without a graphics card, it draws fewer springs as long as something moves. */
+const SLOW = 1000 / 28, WANTED = 1000 / 34, FEWEST = 5000; // [ms] for a picture; springs
+let enough = 1, costs = [], costBefore = Infinity;
+const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+function thin(stride) {
+  if (!picture || picture.stride === stride) return;
+  picture.thin(stride);
+  at("thinned").textContent = `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`;
+  at("thinned").hidden = stride === 1;
+  show(shown);
+}
+
+function keepUp(cost) {
+  costs = [...costs.slice(-8), cost];
+  const usual = middleOf(costs), most = Math.floor(data.springs / FEWEST);
+  if (costs.length < 6 || usual <= SLOW || enough >= most || usual > 0.9 * costBefore) return; // or it did not help
+  costBefore = usual;
+  enough = Math.min(most, Math.ceil(enough * Math.min(2, usual / WANTED)));
+  costs = [];
+  thin(enough);
+}
+
+/* How many pictures a second, of the last second. */
+function tellRate(now) {
+  drawn = [...drawn.filter((then) => now - then <= 1000), now];
+  const rate = (1000 * (drawn.length - 1)) / (now - drawn[0] || 1);
+  if (drawn.length > 2) at("rate").textContent = `${rate.toFixed(0)} pictures/s`;
+  document.body.dataset.rate = rate.toFixed(1);
+}
+
+let drew = false;
+function tick(now) {
+  if (!playing) return;
+  if (drew) keepUp(now - before);
+  time += (Math.min(now - before, 250) / 1000) * Number(at("speed").value);
+  before = now;
+  if (time > data.time[last]) time = data.time[0];
+  const k = frameNear(time);
+  drew = k !== shown || turned;
+  turned = false;
+  if (k !== shown) show(k, true);
+  else if (drew) drawNow();
+  if (drew) tellRate(now);
+  requestAnimationFrame(tick);
+}
+
+function play() {
+  if (playing || last === 0) return;
+  if (shown === last) show(0);
+  playing = true;
+  time = data.time[shown];
+  before = performance.now();
+  drawn = costs = [];
+  drew = false;
+  thin(enough);
+  at("play").textContent = "Pause";
+  requestAnimationFrame(tick);
+}
+
+function pause() {
+  playing = false;
+  thin(1);
+  at("play").textContent = "Play";
+  at("rate").textContent = "";
+}
+
+const KEYS = {
+  " ": () => (playing ? pause() : play()), ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
+  ArrowRight: (event) => step(event.shiftKey ? 10 : 1), Home: () => step(-data.frames), End: () => step(data.frames), f: fit, F: fit,
+};
+
+function fit() {
+  if (!picture) return;
+  picture.fit(shown);
+  draw();
+}
+
+function listen() {
+  at("play").onclick = () => (playing ? pause() : play());
+  at("fit").onclick = fit;
+  at("frame").max = last;
+  at("frame").oninput = () => {
+    pause();
+    show(Number(at("frame").value));
+  };
+  addEventListener("keydown", (event) => {
+    const own = event.key === " " ? "BUTTON SELECT SUMMARY" : "SELECT";
+    if (event.ctrlKey || event.metaKey || event.altKey || own.includes(event.target.tagName) || !KEYS[event.key]) return;
+    event.preventDefault();
+    KEYS[event.key](event);
+  });
+  addEventListener("resize", draw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", dress);
+  seekOnEnergies();
+}
+
+/* Colours, as light or dark as the reader's. */
+function dress() {
+  writeLegend(picture ? picture.paint() : PALETTE[isDark() ? "dark" : "light"]);
+  drawEnergies();
+  moveCursor();
+  draw();
+}
+
+function start() {
+  writeHead();
+  writeShown();
+  writeSpeeds();
+  try {
+    picture = new Picture(at("picture"), data, ends, marks, bytesOfFrame);
+    picture.controls.addEventListener("change", draw);
+    picture.controls.addEventListener("start", () => thin(enough));
+    picture.controls.addEventListener("end", () => playing || thin(1));
+  } catch (trouble) {
+    at("missing").hidden = false;
+    at("legend").hidden = true;
+  }
+  listen();
+  dress();
+  show(Number(new URLSearchParams(location.hash.slice(1)).get("frame")) || 0, true); // page.html#frame=40
+}
+
+start();

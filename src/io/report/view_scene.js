@@ -1,0 +1,306 @@
+"use strict";
+/* The picture: springs as lines coloured by strain, particles that are marked as points, a camera that turns. Lengths in
+ * here are in units of `radius` from `centre`, so that numbers of single precision will do. */
+
+const MARK = { free: 0, pinned: 1, driven: 2, loose: 3 };
+const THICK_BELOW = 40000; // springs; with more, lines are a pixel wide
+const DOTS_BELOW = 60; // free particles that get a dot each
+const NO_STRAIN = 255;
+// Compressed, slack, stretched: blue to orange, told apart by eyes of every kind, dark on paper and bright in the dark.
+const PALETTE = {
+  light: ["#063b75", "#2f86c9", "#a7adb3", "#e2711d", "#7f2704"],
+  dark: ["#b5dcff", "#3f93dd", "#67717b", "#ef8a2c", "#ffe0ad"],
+};
+
+const SHADE = `
+  uniform vec3 palette[5]; uniform vec3 paper; uniform vec3 plain; uniform vec2 reach;
+  vec3 colourOf(float strain) {
+    if (strain > 0.998) return plain;
+    float x = min(strain * 255.0 / 254.0, 1.0) * 4.0;
+    vec3 c = mix(palette[0], palette[1], clamp(x, 0.0, 1.0));
+    c = mix(c, palette[2], clamp(x - 1.0, 0.0, 1.0));
+    c = mix(c, palette[3], clamp(x - 2.0, 0.0, 1.0));
+    return mix(c, palette[4], clamp(x - 3.0, 0.0, 1.0));
+  }
+  vec3 faded(vec3 c, float depth) { return mix(c, paper, 0.5 * clamp((depth - reach.x) / (reach.y - reach.x), 0.0, 1.0)); }`;
+
+const LINE_VERTEX = `${SHADE}
+  attribute vec3 other; attribute float side; attribute float strain;
+  uniform vec2 size; uniform float width; varying vec3 tint;
+  void main() {
+    vec4 here = modelViewMatrix * vec4(position, 1.0);
+    vec4 a = projectionMatrix * here, b = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
+    vec2 along = (b.xy / b.w - a.xy / a.w) * size;
+    float reachOf = length(along);
+    vec2 across = reachOf > 0.0 ? vec2(-along.y, along.x) / reachOf : vec2(0.0);
+    a.xy += across * side * width * a.w / size;
+    gl_Position = a;
+    tint = faded(colourOf(strain), -here.z);
+  }`;
+const THIN_VERTEX = `${SHADE}
+  attribute float strain; varying vec3 tint;
+  void main() {
+    vec4 here = modelViewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * here;
+    tint = faded(colourOf(strain), -here.z);
+  }`;
+const FLAT = "varying vec3 tint; void main() { gl_FragColor = vec4(tint, 1.0); }";
+
+const POINT_VERTEX = `
+  attribute float mark; uniform float scale; varying float kind;
+  void main() {
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    gl_Position.z -= 0.002 * gl_Position.w;
+    kind = mark * 255.0;
+    gl_PointSize = scale * (kind < 0.5 ? 0.7 : 1.0);
+  }`;
+const POINT_FRAGMENT = `
+  uniform vec3 ink; uniform vec3 paper; uniform vec3 driven; uniform float scale; varying float kind;
+  void main() {
+    vec2 at = 2.0 * gl_PointCoord - 1.0;
+    bool pinned = kind > 0.5 && kind < 1.5, moved = kind > 1.5 && kind < 2.5;
+    float far = pinned ? max(abs(at.x), abs(at.y)) : moved ? abs(at.x) + abs(at.y) : length(at);
+    if (far > 1.0) discard;
+    bool rim = scale > 8.0 && far > 1.0 - 3.2 / scale;
+    gl_FragColor = vec4(moved ? (rim ? ink : driven) : pinned && rim ? paper : ink, 1.0);
+  }`;
+
+const colour = (text) => new THREE.Color(text);
+const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
+const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function bytesOf(text) {
+  const binary = atob(text), bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
+  return bytes;
+}
+
+/* ---- what is drawn ---- */
+
+function attribute(kind, size, length, normalised = false) {
+  return new THREE.BufferAttribute(new kind(length), size, normalised).setUsage(THREE.DynamicDrawUsage);
+}
+
+/* Lines as pairs of vertices, or as four that the shader moves apart. */
+function makeLines(count, uniforms) {
+  const thick = count <= THICK_BELOW, each = thick ? 4 : 2;
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", attribute(Float32Array, 3, 3 * each * count));
+  geometry.setAttribute("strain", attribute(Uint8Array, 1, each * count, true));
+  if (thick) {
+    const side = new Float32Array(4 * count), index = new Uint32Array(6 * count);
+    for (let k = 0; k < count; k++) {
+      side.set([1, -1, -1, 1], 4 * k);
+      index.set([0, 1, 2, 2, 1, 3].map((corner) => 4 * k + corner), 6 * k);
+    }
+    geometry.setAttribute("other", attribute(Float32Array, 3, 12 * count));
+    geometry.setAttribute("side", new THREE.BufferAttribute(side, 1));
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  }
+  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: thick ? LINE_VERTEX : THIN_VERTEX, fragmentShader: FLAT,
+    side: THREE.DoubleSide });
+  const lines = thick ? new THREE.Mesh(geometry, material) : new THREE.LineSegments(geometry, material);
+  lines.frustumCulled = false;
+  return { lines, thick };
+}
+
+function makePoints(marks, uniforms) {
+  const free = marks.reduce((sum, mark) => sum + (mark === MARK.free), 0);
+  const list = [...marks.keys()].filter((k) => marks[k] !== MARK.free || free <= DOTS_BELOW);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", attribute(Float32Array, 3, 3 * list.length));
+  geometry.setAttribute("mark", new THREE.BufferAttribute(Uint8Array.from(list, (k) => marks[k]), 1, true));
+  const points = new THREE.Points(geometry, new THREE.ShaderMaterial({ uniforms, vertexShader: POINT_VERTEX,
+    fragmentShader: POINT_FRAGMENT }));
+  points.frustumCulled = false;
+  return { points, list };
+}
+
+/* ---- the box that the camera looks at ---- */
+
+/* Numbers of the frames, of a run that blew up of those that are not much wider than the first. */
+function keptFrames({ box, status }) {
+  const extents = box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2]));
+  const most = ["finished", "stopped", "running"].includes(status) || extents[0] === 0 ? Infinity : 8 * extents[0];
+  return [...box.keys()].filter((k) => extents[k] <= most);
+}
+
+function boxAround(kept) {
+  const low = [0, 1, 2].map((axis) => Math.min(...kept.map((box) => box[axis])));
+  const high = [0, 1, 2].map((axis) => Math.max(...kept.map((box) => box[axis + 3])));
+  return [...low, ...high];
+}
+
+class Picture {
+  constructor(canvas, data, ends, marks, bytesOfFrame) {
+    Object.assign(this, { canvas, data, ends, marks, bytesOfFrame });
+    const kept = keptFrames(data), some = Math.ceil(kept.length / 16);
+    this.home = boxAround(kept.map((k) => data.box[k]));
+    this.centre = [0, 1, 2].map((axis) => this.home[axis] / 2 + this.home[axis + 3] / 2);
+    this.radius = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] / 2 - this.home[axis] / 2)) || 1;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: ends.length / 2 <= THICK_BELOW });
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
+    this.uniforms = { palette: { value: [] }, paper: { value: null }, plain: { value: null }, ink: { value: null },
+      driven: { value: null }, reach: { value: new THREE.Vector2() }, size: { value: new THREE.Vector2() }, width: { value: 1 },
+      scale: { value: 9 } };
+    Object.assign(this, makeLines(ends.length / 2, this.uniforms), makePoints(marks, this.uniforms));
+    this.scene.add(this.lines, this.points);
+    this.place = new Float32Array(3 * marks.length);
+    this.stride = 1; // every how manieth spring is drawn
+    this.setUp(kept.filter((k, place) => place % some === 0 || place === kept.length - 1));
+  }
+
+  setUp(frames) {
+    const { gravity } = this.data, pull = Math.max(...gravity.map(Math.abs));
+    const up = pull > 0 ? gravity.findIndex((value) => Math.abs(value) === pull) : 1;
+    this.up = up;
+    this.camera.up.set(0, 0, 0).setComponent(up, gravity[up] > 0 ? -1 : 1);
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.enableKeys = false; // arrows step frames
+    this.look(frames, this.directionOf(this.home));
+  }
+
+  /* What is flat is looked at from its front, all else from a corner and above. */
+  directionOf(box) {
+    const extent = [0, 1, 2].map((axis) => box[axis + 3] - box[axis]);
+    const [side, front] = [[1, 2], [2, 0], [0, 1]][this.up].map((axis, k, both) => (this.up === 1 ? both[1 - k] : axis));
+    const towards = new THREE.Vector3();
+    const thin = [front, side].find((axis) => extent[axis] <= 0.02 * this.radius);
+    if (thin !== undefined) return towards.setComponent(thin, thin === front || this.up !== 1 ? 1 : -1);
+    towards.setComponent(front, 1).setComponent(side, 0.62);
+    return towards.setComponent(this.up, 0.45 * this.camera.up.getComponent(this.up)).normalize();
+  }
+
+  /* Some of the particles in these frames. */
+  sample(frames) {
+    const stride = Math.max(1, Math.floor((this.marks.length * frames.length) / 6000)), points = [];
+    for (const frame of frames) {
+      this.placeAll(this.bytesOfFrame(frame), this.data.box[frame]);
+      for (let k = 0; k < this.marks.length; k += stride) points.push(new THREE.Vector3().fromArray(this.place, 3 * k));
+    }
+    return points;
+  }
+
+  /* Looks along `towards` at what there is in these frames, from as near as shows all of it. */
+  look(frames, towards) {
+    this.resize();
+    const points = this.sample(frames), target = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
+    const right = new THREE.Vector3().crossVectors(this.camera.up, towards).normalize();
+    const above = new THREE.Vector3().crossVectors(towards, right);
+    const tall = 0.86 * Math.tan((this.camera.fov * Math.PI) / 360), wide = tall * this.camera.aspect;
+    let distance = 8;
+    for (let round = 0; round < 4; round++) {
+      const seen = points.map((point) => point.clone().sub(target)).map((at) => [at.dot(right), at.dot(above), at.dot(towards)]);
+      distance = Math.max(0.1, ...seen.map(([x, y, z]) => z + Math.max(Math.abs(x) / wide, Math.abs(y) / tall)));
+      for (const [axis, way] of [right, above].entries()) {
+        const shares = seen.map((at) => at[axis] / Math.max(distance - at[2], 1e-3 * distance));
+        target.addScaledVector(way, (distance * (Math.min(...shares) + Math.max(...shares))) / 2);
+      }
+    }
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(towards, distance);
+    this.camera.far = 100 * Math.max(distance, 1);
+    this.camera.near = this.camera.far / 1e5;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+  }
+
+  fit(frame) {
+    this.look([frame], this.camera.position.clone().sub(this.controls.target).normalize());
+  }
+
+  resize() {
+    const { clientWidth: wide, clientHeight: tall } = this.canvas, ratio = Math.min(devicePixelRatio || 1, 2);
+    if (!wide || !tall) return;
+    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
+    if (size.x === Math.floor(wide * ratio) && size.y === Math.floor(tall * ratio)) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(wide, tall, false);
+    this.camera.aspect = wide / tall;
+    this.camera.updateProjectionMatrix();
+    const count = this.ends.length / 2;
+    this.uniforms.size.value.set(wide * ratio, tall * ratio);
+    this.uniforms.width.value = ratio * (count <= 300 ? 3.4 : count <= 3000 ? 2.2 : count <= 10000 ? 1.5 : 1.1);
+    this.uniforms.scale.value = ratio * (this.list.length <= 100 ? 11 : 6);
+  }
+
+  paint() {
+    const palette = PALETTE[isDark() ? "dark" : "light"];
+    this.uniforms.palette.value = palette.map(colour);
+    for (const [name, stop] of [["paper", styleOf("--paper")], ["ink", styleOf("--ink")], ["plain", styleOf("--edge")],
+      ["driven", isDark() ? "#ff8fd0" : "#d6409f"]]) this.uniforms[name].value = colour(stop);
+    this.renderer.setClearColor(this.uniforms.paper.value);
+    return palette;
+  }
+
+  /* ---- frames ---- */
+
+  placeAll(bytes, box) {
+    const { place, centre, radius } = this, count = place.length;
+    const words = new Uint16Array(bytes.buffer, 0, count);
+    const scale = [0, 1, 2].map((axis) => Math.min((box[axis + 3] / radius - box[axis] / radius) / 65535, 1e30));
+    const from = [0, 1, 2].map((axis) => Math.max(-1e30, Math.min(1e30, (box[axis] - centre[axis]) / radius)));
+    for (let k = 0; k < count; k += 3) {
+      place[k] = from[0] + scale[0] * words[k];
+      place[k + 1] = from[1] + scale[1] * words[k + 1];
+      place[k + 2] = from[2] + scale[2] * words[k + 2];
+    }
+  }
+
+  thin(stride) {
+    if (stride === this.stride) return;
+    this.stride = stride;
+    this.lines.geometry.setDrawRange(0, (this.thick ? 6 : 2) * this.drawnSprings());
+  }
+
+  drawnSprings() {
+    return Math.ceil(this.ends.length / 2 / this.stride);
+  }
+
+  show(frame) {
+    const bytes = this.bytesOfFrame(frame), { place } = this;
+    this.placeAll(bytes, this.data.box[frame]);
+    const attributes = this.lines.geometry.attributes, strain = bytes.subarray(2 * place.length);
+    if (this.thick) this.fillThick(attributes, strain);
+    else this.fillThin(attributes, strain);
+    for (const name of ["position", "other", "strain"]) if (attributes[name]) attributes[name].needsUpdate = true;
+    const points = this.points.geometry.attributes.position;
+    this.list.forEach((k, to) => points.array.set(place.subarray(3 * k, 3 * k + 3), 3 * to));
+    points.needsUpdate = true;
+  }
+
+  fillThin({ position, strain }, values) {
+    const { place, ends, stride } = this, to = position.array, tint = strain.array;
+    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 6) {
+      const a = 3 * ends[k], b = 3 * ends[k + 1];
+      to[at] = place[a];
+      to[at + 1] = place[a + 1];
+      to[at + 2] = place[a + 2];
+      to[at + 3] = place[b];
+      to[at + 4] = place[b + 1];
+      to[at + 5] = place[b + 2];
+      tint[at / 3] = tint[at / 3 + 1] = values[k >> 1];
+    }
+  }
+
+  fillThick({ position, other, strain }, values) {
+    const { place, ends, stride } = this, here = position.array, there = other.array;
+    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 12) {
+      for (let axis = 0; axis < 3; axis++) {
+        const a = place[3 * ends[k] + axis], b = place[3 * ends[k + 1] + axis], to = at + axis;
+        here[to] = here[to + 3] = there[to + 6] = there[to + 9] = a;
+        here[to + 6] = here[to + 9] = there[to] = there[to + 3] = b;
+      }
+      strain.array.fill(values[k >> 1], at / 3, at / 3 + 4);
+    }
+  }
+
+  draw() {
+    this.resize();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const deep = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] - this.home[axis])) / this.radius;
+    this.uniforms.reach.value.set(distance - 0.25 * deep, distance + 1.6 * deep);
+    this.renderer.render(this.scene, this.camera);
+  }
+}

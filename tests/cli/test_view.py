@@ -1,0 +1,219 @@
+"""hooke view: what is in the page, against the file that it was made from."""
+
+import base64
+import json
+import re
+from pathlib import Path
+
+import pytest
+from conftest import CLI, MINIMAL, SIX_PARTICLES, STIFF_PAIR
+from pages import TITLE, VERSION, fetches
+
+np = pytest.importorskip("numpy")
+h5py = pytest.importorskip("h5py")
+
+DRAWS = not MINIMAL and not re.search(r"(Chart|three)\.js +not in this build", VERSION)
+needs_view = pytest.mark.skipif(not DRAWS, reason="this build writes no pages: it has no three.js")
+
+CLOTH = {
+    "hooke": 1,
+    "title": TITLE,
+    "gravity": [0, 0, -9.81],
+    "particles": {"position": [[0.5, 0.3, 0], [0.55, 0.3, 0]], "mass": 1},
+    "parts": [{"kind": "cloth", "origin": [0, 0, 0], "edges": [[0.4, 0, 0], [0, 0, 0.6]], "size": [5, 7], "mass": 0.1,
+               "pinned": ["top"], "structural": {"stiffness": 20, "damping": 0.01}, "shear": {"stiffness": 5}}],
+    "driven": [{"particles": [36], "motion": "harmonic", "amplitude": [0, 0.1, 0], "frequency": 2}],
+    "run": {"method": "symplectic-euler", "step": 1e-4, "duration": 0.1, "every": 0.01},
+}
+MARKS = {"free": 0, "pinned": 1, "driven": 2, "loose": 3}
+
+
+class View:
+    """What a page holds, decoded as its script does it."""
+
+    def __init__(self, page):
+        self.page = page
+        self.data = json.loads(self.element("data"))
+        fixed = base64.b64decode(self.element("fixed"), validate=True)
+        springs = self.data["springs"]
+        self.ends = np.frombuffer(fixed, "<u4", 2 * springs).reshape(-1, 2)
+        self.marks = np.frombuffer(fixed, "u1", offset=8 * springs)
+        text = self.element("frames")
+        length, rest = divmod(len(text), self.data["frames"])
+        assert rest == 0 and len(self.marks) == self.data["particles"]
+        self.frames = [base64.b64decode(text[k * length:(k + 1) * length], validate=True) for k in range(self.data["frames"])]
+
+    def element(self, name):
+        start = self.page.index(f'id="{name}">') + len(f'id="{name}">')
+        return self.page[start:self.page.index("</script>", start)]
+
+    def positions(self, k):
+        low, high = np.array(self.data["box"][k]).reshape(2, 3)
+        shares = np.frombuffer(self.frames[k], "<u2", 3 * len(self.marks)).reshape(-1, 3) / 65535
+        return low + (high - low) * shares, (high - low) / 131070
+
+    def strains(self, k):
+        return np.frombuffer(self.frames[k], "u1", offset=6 * len(self.marks))
+
+
+def look(hooke, folder, *options, source="out.h5"):
+    answer = hooke("view", source, "-o", "page.html", *options)
+    assert answer.code == 0, answer.err
+    return View((folder / "page.html").read_text(encoding="utf-8")), answer
+
+
+def strains_of(file, k, springs=slice(None)):
+    q, ends = file["particles/all/position/value"][k], file["connectivity/springs"][springs]
+    rest = file["hooke/rest_length"][springs]
+    return np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1) / rest - 1
+
+
+@pytest.fixture
+def cloth(hooke, write):
+    assert hooke("run", write(CLOTH), "-o", "out.h5").code == 0
+    return "out.h5"
+
+
+@needs_view
+def test_the_page_holds_the_trajectory(hooke, cloth, tmp_path):
+    view, answer = look(hooke, tmp_path)
+    data = view.data
+    assert answer.out == "" and "11 of 11 frames, 106 of 106 springs\n" in answer.err
+    assert (data["title"], data["method"], data["step"], data["status"]) == (TITLE, "symplectic-euler", 1e-4, "finished")
+    assert data["gravity"] == [0, 0, -9.81] and data["duration"] == 0.1
+    with h5py.File(tmp_path / "out.h5") as file:
+        q = file["particles/all/position/value"][:]
+        assert data["time"] == list(file["particles/all/position/time"])
+        for name in ("kinetic", "potential", "total"):
+            assert data[name] == list(file[f"observables/{name}_energy/value"])
+        assert np.array_equal(view.ends, file["connectivity/springs"])  # every particle is shown, in its own place
+        assert list(view.marks[:2]) == [MARKS["loose"]] * 2 and view.marks[-1] == MARKS["driven"]
+        assert list(view.marks[2:7]) == [MARKS["pinned"]] * 5 and set(view.marks[7:-1]) == {MARKS["free"]}
+        largest = max(np.abs(strains_of(file, k)).max() for k in range(11))
+        r = data["strain"]
+        assert 0.1 * largest < r < 5 * largest and re.fullmatch("[125]0*", f"{r * 1e12:.0f}")
+        for k in range(11):
+            places, allowed = view.positions(k)
+            assert (np.abs(places - q[k]) <= allowed * 1.000001).all()
+            codes = np.clip(np.rint(127 + 127 * strains_of(file, k) / r), 0, 254)
+            assert (np.abs(view.strains(k) - codes) <= 1).all() and (view.strains(k) == codes).mean() > 0.99
+        assert data["strain_high"] == pytest.approx(max(strains_of(file, k).max() for k in range(11)), rel=1e-9)
+
+
+@needs_view
+def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
+    view, _ = look(hooke, tmp_path)
+    library = (Path(CLI).parent / "share/hooke/three.js").read_text(encoding="utf-8")
+    assert library in view.page
+    # names of XML, which no browser fetches, and a paper that a shader of three.js refers to
+    names, paper = "http://www.w3.org/", "https://graphics.stanford.edu/papers/envmap/"
+    assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
+    assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
+    assert view.page.count("default-src 'none'") == 1
+    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 8
+
+
+@needs_view
+def test_what_is_left_out(hooke, cloth, tmp_path):
+    view, answer = look(hooke, tmp_path, "--frames", "4", "--springs", "20", "--json")
+    value = answer.json
+    assert (value["frames"], value["frames_there"], value["frame_stride"]) == (4, 11, 4)
+    assert (value["springs"], value["springs_there"], value["spring_stride"]) == (18, 106, 6)
+    assert value["bytes"] == (tmp_path / "page.html").stat().st_size and value["output"] == "page.html"
+    assert "4 of 11 frames, every 4th, 18 of 106 springs, every 6th; --frames, --springs and --size allow more" in answer.err
+    assert view.data["time"] == pytest.approx([0, 0.04, 0.08, 0.1])
+    with h5py.File(tmp_path / "out.h5") as file:
+        springs, q = file["connectivity/springs"][::6], file["particles/all/position/value"]
+        for place, frame in enumerate([0, 4, 8, 10]):
+            places, allowed = view.positions(place)
+            for side in (0, 1):
+                assert (np.abs(places[view.ends[:, side]] - q[frame][springs[:, side]]) <= allowed * 1.000001).all()
+    assert (view.marks == MARKS["pinned"]).sum() == 5 and (view.marks == MARKS["loose"]).sum() == 2
+
+
+@needs_view
+def test_the_size_of_the_page(hooke, write, tmp_path):
+    assert hooke("run", write(CLOTH, every=5e-4), "-o", "out.h5").code == 0
+    whole = look(hooke, tmp_path, "--json")[1].json
+    size = (whole["bytes"] - 3e4) / 1e6
+    less = look(hooke, tmp_path, "--json", "--size", f"{size:.4f}")[1].json
+    assert whole["frames"] == 201 and 60 < less["frames"] < 200 and less["bytes"] <= size * 1e6
+    answer = hooke("view", "out.h5", "-o", "page.html", "--size", "1")
+    assert answer.code == 3 and re.search(r"allow 1\.\d MB or more", answer.err)
+    assert hooke("view", "out.h5", "-o", "page.html", "--size", re.search(r"allow (\S+) MB", answer.err)[1]).code == 0
+
+
+@needs_view
+def test_runs_that_ended_early(hooke, write, start, tmp_path):
+    assert hooke("run", write(STIFF_PAIR), "-o", "out.h5").code == 4
+    view, _ = look(hooke, tmp_path)
+    assert view.data["status"] == "diverged" and view.data["duration"] == 100 and view.data["time_last"] < 100
+    # a file with room for more frames than there are, which nobody closed
+    assert hooke("run", write(SIX_PARTICLES), "-o", "out.h5").code == 0
+    with h5py.File(tmp_path / "out.h5", "a") as file:
+        file["particles/all/position/time"][7:] = np.nan
+        file["hooke/status"][()] = b"running"
+    view, answer = look(hooke, tmp_path, "--json")
+    assert (view.data["status"], answer.json["status"], answer.json["frames_there"]) == ("running", "running", 7)
+
+
+@needs_view
+def test_files_without_rest_lengths(hooke, cloth, tmp_path):
+    with h5py.File(tmp_path / "out.h5", "a") as file:
+        del file["hooke/rest_length"]
+    view, _ = look(hooke, tmp_path)
+    assert view.data["by_first_frame"] and set(view.strains(0)) == {127} and len(set(view.strains(10))) > 5
+
+
+@needs_view
+def test_what_is_refused(hooke, write, tmp_path):
+    scene = write(SIX_PARTICLES, duration=0.1)
+    assert hooke("run", scene, "-o", "out.h5").code == 0
+    for source, words in ((scene, "HDF5"), ("nothing.h5", "nothing.h5")):
+        answer = hooke("view", source, "-o", "page.html", "--json")
+        assert answer.code == 3 and words in answer.json["error"]["message"]
+    assert hooke("compare", scene, "--methods", "rk4", "-o", "several.h5").code == 0
+    answer = hooke("view", "several.h5", "-o", "page.html")
+    assert answer.code == 3 and "holds several runs" in answer.err
+    answer = hooke("view", "out.h5")
+    assert answer.code == 2 and "-o page.html" in answer.err
+    answer = hooke("view", "out.h5", "-o", "out.h5")
+    assert answer.code == 2
+    assert hooke("view", "out.h5", "-o", "nowhere/page.html").code == 5
+    assert hooke("view", "out.h5", "-o", "page.html", "--frames", "1").code == 2
+    assert hooke("view", "out.h5", "-o", "page.html", "--step", "1").code == 2
+    with h5py.File(tmp_path / "out.h5", "a") as file:
+        file["connectivity/springs"][3] = [2, 77]
+    answer = hooke("view", "out.h5", "-o", "page.html")
+    assert answer.code == 3 and "/connectivity/springs" in answer.err
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_help(hooke):
+    answer = hooke("view", "--help")
+    assert answer.code == 0 and "usage: hooke view OUT.h5 [options]" in answer.out
+    assert "--frames" in answer.out and "[MB]" in answer.out and "--step" not in answer.out
+    answer = hooke("view")
+    assert answer.code == 2 and "no OUT.h5 given" in answer.err
+
+
+@pytest.mark.skipif(DRAWS, reason="this build writes pages")
+def test_not_built(hooke, tmp_path):
+    (tmp_path / "out.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
+    assert hooke("view", "out.h5", "-o", "page.html").code == (6 if MINIMAL else 3)
+
+
+@pytest.mark.everything
+def test_the_companion(hooke, write, tmp_path):
+    """It comes with the output; where the name does not suit it, or is another file's, the run is told, and is fine."""
+    scene = write(SIX_PARTICLES, duration=0.1)
+    assert hooke("run", scene, "-o", "out.h5").err == ""
+    assert (tmp_path / "out.xdmf").read_text().count("<Time ") == 3
+    (tmp_path / "notes.xdmf").write_text("my notes")
+    answer = hooke("run", scene, "-o", "notes.h5")
+    assert answer.code == 0 and "is no XDMF" in answer.err and (tmp_path / "notes.xdmf").read_text() == "my notes"
+    answer = hooke("run", scene, "-o", "a:b.h5")
+    assert answer.code == 0 and "ASCII without colons" in answer.err and (tmp_path / "a:b.h5").exists()
+    (tmp_path / "folder.xdmf").mkdir()
+    answer = hooke("run", scene, "-o", "folder.h5")
+    assert answer.code == 5 and "folder.xdmf" in answer.err
