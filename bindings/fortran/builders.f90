@@ -115,7 +115,8 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status) .or. options%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
     if (size(ends, 1) /= 2) then
       call refuse(hooke_bad_value, "the ends of springs have the shape (2, n)", status)
       return
@@ -163,7 +164,8 @@ contains
     integer(c_int64_t) :: number(1), particles(1)
     if (present(first)) first = 0
     if (present(count)) count = 0
-    if (self%is_missing(status) .or. options%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
     number = -1
     particles = 0
     call to_c_if(name, c_name)

@@ -52,8 +52,10 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: why
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. run%is_missing(status)) return
-    if (first%is_missing(status) .or. last%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (run%is_missing(status)) return
+    if (first%is_missing(status)) return
+    if (last%is_missing(status)) return
     code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), why)
     if (code == 0) call self%take(why, c_why_destroy, system)
     call accept(code, status)
@@ -117,7 +119,8 @@ contains
     integer, intent(in) :: place
     type(hooke_options), intent(inout) :: run
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. run%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (run%is_missing(status)) return
     call accept(c_why_advice_apply(self%address(), zero_based(place), run%address()), status)
   end subroutine
 

@@ -41,7 +41,8 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: comparison
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. options%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (options%is_missing(status)) return
     code = c_comparison_create(system%address(), options%address(), comparison)
     if (code == 0) call self%take(comparison, c_comparison_destroy, system)
     call accept(code, status)

@@ -64,7 +64,8 @@ contains
     class(hooke_cost), intent(inout) :: self
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_cost_find(self%address(), state%address()), status)
   end subroutine
 

@@ -81,7 +81,8 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. options%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (options%is_missing(status)) return
     code = c_integrator_create(system%address(), options%address(), integrator)
     if (code == 0) call take_new(self, integrator, system)
     call accept(code, status)
@@ -205,7 +206,8 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_integrator_run(self%address(), state%address()), status)
   end subroutine
 
@@ -223,7 +225,8 @@ contains
     class(hooke_state), intent(inout) :: state
     integer(hooke_long), intent(in) :: steps
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_integrator_step(self%address(), state%address(), steps), status)
   end subroutine
 
@@ -254,7 +257,8 @@ contains
     integer, intent(in) :: place
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_integrator_recent(self%address(), zero_based(place), state%address()), status)
   end subroutine
 

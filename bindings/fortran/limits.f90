@@ -81,7 +81,8 @@ contains
     class(hooke_limit), intent(inout) :: self
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_limit_find(self%address(), state%address()), status)
   end subroutine
 
@@ -90,7 +91,8 @@ contains
     class(hooke_limit), intent(inout) :: self
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_limit_along(self%address(), state%address()), status)
   end subroutine
 
@@ -208,7 +210,8 @@ contains
     class(hooke_state), intent(in) :: state
     character(*), intent(in) :: path, scene
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_limit_write_report(self%address(), state%address(), to_c(path), to_c(scene)), status)
   end subroutine
 

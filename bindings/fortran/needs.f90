@@ -147,7 +147,8 @@ contains
     real(c_double), intent(inout), contiguous :: position(:, :)
     integer, intent(out), optional :: status
     logical :: fits
-    if (self%is_missing(status) .or. self%lean%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (self%lean%is_missing(status)) return
     fits = is_3_by(q, int(self%lean%particle_count(), c_int64_t)) .and. is_3_by(position, self%particles)
     if (.not. fits) then
       call refuse(hooke_bad_value, "an array has not the shape (3, particle_count()) of its system", status)

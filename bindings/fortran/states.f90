@@ -64,7 +64,8 @@ contains
     class(hooke_state), intent(in) :: self
     class(hooke_state), intent(inout) :: other
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. other%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (other%is_missing(status)) return
     call accept(c_state_copy(self%address(), other%address()), status)
   end subroutine
 

@@ -211,7 +211,8 @@ contains
     integer, intent(out), optional :: status
     type(progress_holder), target :: holder
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. run%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (run%is_missing(status)) return
     if (present(progress)) then
       holder%progress => progress
       code = c_study_pick(system%address(), run%address(), want, c_funloc(call_progress), c_loc(holder))

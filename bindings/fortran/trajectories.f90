@@ -59,7 +59,8 @@ contains
     character(:), allocatable :: c_text
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. integrator%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (integrator%is_missing(status)) return
     call to_c_if(scene_text, c_text)
     code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
     if (code == 0) call self%take(trajectory, abandon_trajectory, system)
@@ -72,7 +73,8 @@ contains
     integer(hooke_long), intent(in) :: step
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     call accept(c_trajectory_write(self%address(), step, state%address()), status)
   end subroutine
 
@@ -147,7 +149,8 @@ contains
     integer, intent(in) :: frame
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status) .or. state%is_missing(status)) return
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
     if (frame == 0) then
       call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
       return
@@ -182,7 +185,8 @@ contains
     character(:), allocatable :: c_text
     type(c_ptr) :: file
     integer(c_int32_t) :: code
-    if (system%is_missing(status) .or. comparison%is_missing(status)) return
+    if (system%is_missing(status)) return
+    if (comparison%is_missing(status)) return
     call to_c_if(scene_text, c_text)
     code = c_comparison_file_create(to_c(path), system%address(), comparison%address(), c_text, file)
     if (code == 0) call self%take(file, abandon_comparison_file, comparison)
