@@ -195,7 +195,7 @@ contains
   ! A force of the caller's own, which has to stay where it is as long as the system is used.
   subroutine set_force(self, force, status)
     class(hooke_builder), intent(inout) :: self
-    class(hooke_force), pointer, intent(in) :: force
+    class(hooke_force), target, intent(inout) :: force
     integer, intent(out), optional :: status
     type(force_holder), pointer :: holder
     type(c_funptr) :: product
@@ -252,7 +252,7 @@ contains
   subroutine drive_callback(self, particles, drive, status)
     class(hooke_builder), intent(inout) :: self
     integer, intent(in) :: particles(:)
-    class(hooke_drive), pointer, intent(in) :: drive
+    class(hooke_drive), target, intent(inout) :: drive
     integer, intent(out), optional :: status
     type(drive_holder), pointer :: holder
     integer(c_int32_t) :: code

@@ -60,7 +60,7 @@ contains
   ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
   subroutine on_progress(self, progress)
     class(hooke_comparison), intent(inout) :: self
-    class(hooke_progress), pointer, intent(in), optional :: progress
+    class(hooke_progress), target, intent(inout), optional :: progress
     type(progress_holder), pointer :: holder
     if (.not. present(progress)) then
       call c_comparison_on_progress(self%address(), c_null_funptr, c_null_ptr)
@@ -75,7 +75,7 @@ contains
   ! Sees the frames of all runs; the same holds.
   subroutine on_frame(self, observer)
     class(hooke_comparison), intent(inout) :: self
-    class(hooke_comparison_observer), pointer, intent(in), optional :: observer
+    class(hooke_comparison_observer), target, intent(inout), optional :: observer
     type(comparison_holder), pointer :: holder
     if (.not. present(observer)) then
       call c_comparison_on_frame(self%address(), c_null_funptr, c_null_ptr)

@@ -47,7 +47,7 @@ contains
   ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
   subroutine on_progress(self, progress)
     class(hooke_cost), intent(inout) :: self
-    class(hooke_progress), pointer, intent(in), optional :: progress
+    class(hooke_progress), target, intent(inout), optional :: progress
     type(progress_holder), pointer :: holder
     if (.not. present(progress)) then
       call c_cost_on_progress(self%address(), c_null_funptr, c_null_ptr)

@@ -92,7 +92,7 @@ contains
   subroutine create_first_order(self, size, rate, options, status)
     class(hooke_integrator), intent(inout) :: self
     integer, intent(in) :: size
-    class(hooke_rate), pointer, intent(in) :: rate
+    class(hooke_rate), target, intent(inout) :: rate
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
     type(rate_holder), pointer :: holder
@@ -125,7 +125,7 @@ contains
 
   subroutine on_frame(self, observer, status)
     class(hooke_integrator), intent(inout) :: self
-    class(hooke_observer), pointer, intent(in), optional :: observer
+    class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
     type(observer_holder), pointer :: holder
     integer(c_int32_t) :: code
@@ -149,7 +149,7 @@ contains
   subroutine on_step(self, stride, observer, status)
     class(hooke_integrator), intent(inout) :: self
     integer, intent(in) :: stride
-    class(hooke_observer), pointer, intent(in), optional :: observer
+    class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
     type(observer_holder), pointer :: holder
     integer(c_int32_t) :: code
@@ -173,7 +173,7 @@ contains
   ! Told once a run when the step is near the safe one, and when it is above.
   subroutine on_warning(self, warning, status)
     class(hooke_integrator), intent(inout) :: self
-    class(hooke_warning), pointer, intent(in), optional :: warning
+    class(hooke_warning), target, intent(inout), optional :: warning
     integer, intent(out), optional :: status
     type(warning_holder), pointer :: holder
     integer(c_int32_t) :: code

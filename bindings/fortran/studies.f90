@@ -57,7 +57,7 @@ contains
   ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
   subroutine on_progress(self, progress)
     class(hooke_study), intent(inout) :: self
-    class(hooke_progress), pointer, intent(in), optional :: progress
+    class(hooke_progress), target, intent(inout), optional :: progress
     type(progress_holder), pointer :: holder
     if (.not. present(progress)) then
       call c_study_on_progress(self%address(), c_null_funptr, c_null_ptr)
@@ -207,7 +207,7 @@ contains
     class(hooke_system), intent(in) :: system
     type(hooke_options), intent(inout) :: run
     real(c_double), intent(in) :: want
-    class(hooke_progress), pointer, intent(in), optional :: progress
+    class(hooke_progress), target, intent(inout), optional :: progress
     integer, intent(out), optional :: status
     type(progress_holder), target :: holder
     integer(c_int32_t) :: code
