@@ -147,14 +147,14 @@ contains
   end function
 
   ! Lets go of the object before the variable is gone.
-  subroutine release(self)
+  recursive subroutine release(self)
     class(hooke_handle), intent(inout) :: self
     if (self%home == place_of(self)) call release_object(self%object)
     self%object => null()
     self%home = 0
   end subroutine
 
-  impure elemental subroutine finish(self)
+  impure recursive elemental subroutine finish(self)
     type(hooke_handle), intent(inout) :: self
     call self%destroy()
   end subroutine
