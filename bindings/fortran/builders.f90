@@ -66,7 +66,11 @@ contains
     real(c_double), intent(in) :: mass
     real(c_double), intent(in), contiguous, optional :: velocity(:, :)
     integer, intent(out), optional :: first, status
-    call self%add_particles(position, [mass], velocity, first, status)
+    if (present(velocity)) then
+      call self%add_particles(position, [mass], velocity, first, status)
+    else
+      call self%add_particles(position, [mass], first=first, status=status)
+    end if
   end subroutine
 
   ! The same with a mass for each.
@@ -75,7 +79,8 @@ contains
     real(c_double), intent(in), contiguous :: position(:, :), mass(:)
     real(c_double), intent(in), contiguous, optional :: velocity(:, :)
     integer, intent(out), optional :: first, status
-    integer(c_int64_t) :: number(1)
+    integer(c_int64_t) :: count, number(1)
+    integer(c_int32_t) :: code
     logical :: fits
     if (present(first)) first = 0
     if (self%is_missing(status)) return
@@ -86,8 +91,14 @@ contains
       return
     end if
     number = -1
-    call accept(c_system_add_particles(self%address(), size(position, 2, c_int64_t), position, velocity, &
-      size(mass, kind=c_int64_t), mass, number), status)
+    count = size(position, 2, c_int64_t)
+    if (present(velocity)) then
+      code = c_system_add_particles(self%address(), count, position, velocity, size(mass, kind=c_int64_t), mass, number)
+    else
+      code = c_system_add_particles(self%address(), count, position, mass_count=size(mass, kind=c_int64_t), mass=mass, &
+        first=number)
+    end if
+    call accept(code, status)
     if (present(first)) first = int(number(1)) + 1
   end subroutine
 
