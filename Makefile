@@ -2,7 +2,7 @@
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make test   sets up, builds, and runs every test
 
-PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
+PACKAGES = build-essential gfortran cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev libgsl-dev libarpack2-dev libhdf5-dev libjansson-dev libjs-chart.js \
            chromium abigail-tools
 PYTHON ?= python3
