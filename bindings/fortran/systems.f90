@@ -3,7 +3,7 @@
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, stop_with, to_c, to_c_if, to_integer, &
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
     to_series, to_text, zero_based
   use hooke_builders, only: hooke_builder
   use hooke_c_io, only: c_scene_write
@@ -272,7 +272,7 @@ contains
     class(hooke_system), intent(in) :: self
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
-    if (.not. suits(self, first=first, second=second)) call stop_with("an array has the wrong shape")
+    if (.not. suits(self, first=first, second=second)) return ! the program has ended
   end subroutine
 
   ! Force on every particle [N].
