@@ -1,10 +1,11 @@
 ! Named options, with their types, units, bounds and defaults.
 module hooke_option_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, to_c, to_integer, to_series, to_text, zero_based
-  use hooke_c_build, only: c_part_options_create
+  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
+  use hooke_c_build, only: c_mesh_set, c_part_options_create
   use hooke_c_cost, only: c_cost_options_create
   use hooke_c_integrator, only: c_run_options_create
+  use hooke_c_io, only: c_mesh_read
   use hooke_c_limit, only: c_limit_options_create
   use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
@@ -27,6 +28,8 @@ module hooke_option_tables
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
     generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
+    procedure :: set_mesh        ! the surface of a part of the kind "mesh", from arrays
+    procedure :: read_mesh       ! or from an OBJ file
     procedure :: unset
     procedure :: is_set
     procedure :: number          ! the first number, NaN if there is none
@@ -187,6 +190,29 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     call accept(c_options_set_text(self%address(), to_c(name), to_c(value)), status)
+  end subroutine
+
+  ! vertices(3, m) [m] and triangles(3, n) of their numbers, from 1.
+  subroutine set_mesh(self, vertices, triangles, status)
+    class(hooke_options), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: vertices(:, :)
+    integer, intent(in) :: triangles(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (size(vertices, 1) /= 3 .or. size(triangles, 1) /= 3) then
+      call refuse(hooke_bad_value, "vertices and triangles of a mesh have the shapes (3, m) and (3, n)", status)
+      return
+    end if
+    call accept(c_mesh_set(self%address(), size(vertices, 2, c_int64_t), vertices, size(triangles, 2, c_int64_t), &
+      zero_based(triangles)), status)
+  end subroutine
+
+  subroutine read_mesh(self, path, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_mesh_read(to_c(path), self%address()), status)
   end subroutine
 
   subroutine unset(self, name, status)

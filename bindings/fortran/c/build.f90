@@ -1,6 +1,6 @@
 ! Made from include/hooke/build.h by make_interfaces.py.
 module hooke_c_build
-  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
   implicit none
 
   interface
@@ -22,6 +22,14 @@ module hooke_c_build
       type(c_ptr), value :: system, options
       character(kind=c_char), intent(in), optional :: kind(*), name(*)
       integer(c_int64_t), intent(inout), optional :: first(*), count(*)
+    end function
+    integer(c_int32_t) function c_mesh_set(options, vertex_count, vertices, triangle_count, triangles) &
+      bind(c, name="hooke_mesh_set")
+      import
+      type(c_ptr), value :: options
+      integer(c_int64_t), value :: vertex_count, triangle_count
+      real(c_double), intent(in), optional :: vertices(*)
+      integer(c_int64_t), intent(in), optional :: triangles(*)
     end function
   end interface
 end module

@@ -47,6 +47,11 @@ module hooke_c_io
       import
       type(c_ptr), value :: scene
     end function
+    integer(c_int32_t) function c_mesh_read(path, options) bind(c, name="hooke_mesh_read")
+      import
+      character(kind=c_char), intent(in), optional :: path(*)
+      type(c_ptr), value :: options
+    end function
     integer(c_int32_t) function c_trajectory_create(path, system, integrator, scene_text, trajectory) &
       bind(c, name="hooke_trajectory_create")
       import
