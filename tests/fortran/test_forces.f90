@@ -9,6 +9,7 @@ program test_forces
   call as_gravity()
   call as_drag()
   call products()
+  call blocks()
   call stops()
   call many_systems()
   call finish()
@@ -136,6 +137,43 @@ contains
     call system%acceleration(0.0_hooke_real, q, at_rest, a)
     call expect(same_count(a(:, 1), [0, 0, 0]*1.0_hooke_real) == 3, "what is held is not accelerated")
     call expect_near(a(3, 2), f(3, 2)/2, 1e-15_hooke_real, "force by mass")
+  end subroutine
+
+  ! The derivative by blocks is that by products; and what moves.
+  subroutine blocks()
+    type(hooke_system) :: system
+    integer, allocatable :: row_start(:), column(:)
+    real(hooke_real), allocatable :: dfdq(:, :, :), dfdv(:, :, :)
+    real(hooke_real), dimension(3, 4) :: q, v, dq, dv, wanted, found
+    real(hooke_real) :: p(3), l(3), skew
+    integer :: row, k
+    call make(system)
+    call system%commit()
+    call random_number(q)
+    call random_number(v)
+    call random_number(dq)
+    call random_number(dv)
+    call system%derivative_product(0.0_hooke_real, q, v, dq, dv, wanted)
+    call system%derivative_pattern(row_start, column)
+    call system%derivative_blocks(q, v, dfdq, dfdv)
+    call expect(size(dfdq, 3) == system%block_count() .and. row_start(1) == 1, "blocks count from 1")
+    call expect(row_start(5) == size(column) + 1 .and. all(column >= 1 .and. column <= 4), "in compressed rows")
+    found = 0
+    skew = 0
+    do row = 1, 4
+      do k = row_start(row), row_start(row + 1) - 1
+        found(:, row) = found(:, row) + matmul(dfdq(:, :, k), dq(:, column(k))) + matmul(dfdv(:, :, k), dv(:, column(k)))
+        skew = max(skew, maxval(abs(dfdq(:, :, k) - transpose(dfdq(:, :, k)))))
+      end do
+    end do
+    call expect(maxval(abs(found - wanted)) < 1e-10_hooke_real*maxval(abs(wanted)), "blocks are products")
+    call expect(skew > 1e-3_hooke_real, "which tells rows from columns, damped springs being not symmetric")
+    p = system%momentum(v)
+    call expect_near(p(2), 2*v(2, 2) + 3*v(2, 3) + 4*v(2, 4), 1e-13_hooke_real, "momentum of what is free")
+    l = system%angular_momentum(q, v)
+    call expect_near(l(3), sum([2, 3, 4]*(q(1, 2:)*v(2, 2:) - q(2, 2:)*v(1, 2:))), 1e-13_hooke_real, "angular momentum")
+    call expect(system%dissipated_power(q, v) > 0, "damping takes power")
+    call expect(system%dissipated_power(q, 0*v) < 1e-30_hooke_real, "from what moves")
   end subroutine
 
   subroutine stops()
