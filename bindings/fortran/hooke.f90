@@ -4,8 +4,8 @@
 ! Texts count from 0, as scene files do: messages, sentences, and values of options such as `pinned` and `watch`.
 ! Arrays of positions, velocities and forces are (3, n); units are SI.
 !
-! What can fail has a last argument `status`, optional: 0 is fine, a negative one a failure, a positive one an outcome of
-! a run; hooke_message() then says what. Without it anything but 0 ends the program with the message.
+! What can fail has a last argument `status`, optional: 0 is fine, a negative one a failure, a positive one an outcome
+! of a run; hooke_message() then says what. Without it anything but 0 ends the program with the message.
 !
 ! Variables of these types are released when they go out of scope, in any order. Assignment makes a second name of the
 ! same object; copy_to(), where there is one, copies.

@@ -1,6 +1,7 @@
 ! Methods, and the loop that runs them.
 module hooke_integrators
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
+    c_null_ptr, c_ptr
   use hooke_base, only: accept, hooke_long, to_c, to_integer, to_text, zero_based
   use hooke_c_integrator
   use hooke_c_why, only: c_integrator_on_warning

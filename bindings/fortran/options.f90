@@ -240,7 +240,8 @@ contains
     character(*), intent(in) :: name
     real(c_double), allocatable :: values(:)
     real(c_double), pointer, contiguous :: there(:)
-    there => to_series(c_options_numbers(self%address(), to_c(name)), c_options_number_count(self%address(), to_c(name)))
+    there => to_series(c_options_numbers(self%address(), to_c(name)), &
+      c_options_number_count(self%address(), to_c(name)))
     allocate (values(0))
     if (associated(there)) values = there
   end function

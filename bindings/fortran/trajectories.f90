@@ -155,7 +155,8 @@ contains
       call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
       return
     end if
-    call accept(c_record_read(self%address(), int(merge(frame - 1, frame, frame > 0), c_int64_t), state%address()), status)
+    call accept(c_record_read(self%address(), int(merge(frame - 1, frame, frame > 0), c_int64_t), state%address()), &
+      status)
   end subroutine
 
   subroutine close_record(self)

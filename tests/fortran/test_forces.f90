@@ -116,7 +116,8 @@ contains
     call expect(maxval(abs(found(:, 2:))) > 0.01_hooke_real, "which is not zero")
     call by_difference%derivative_product(0.0_hooke_real, q, v, dq, dv, plain)
     call expect(constant%calls > 0, "without a product the force is called")
-    call expect(maxval(abs(plain - (found + 0.25_hooke_real*dv))) < 1e-6_hooke_real, "a constant force has no derivative")
+    call expect(maxval(abs(plain - (found + 0.25_hooke_real*dv))) < 1e-6_hooke_real, &
+      "a constant force has no derivative")
     call force_at_rest(own, force, q)
   end subroutine
 
@@ -162,7 +163,8 @@ contains
     skew = 0
     do row = 1, 4
       do k = row_start(row), row_start(row + 1) - 1
-        found(:, row) = found(:, row) + matmul(dfdq(:, :, k), dq(:, column(k))) + matmul(dfdv(:, :, k), dv(:, column(k)))
+        found(:, row) = found(:, row) + matmul(dfdq(:, :, k), dq(:, column(k))) &
+          + matmul(dfdv(:, :, k), dv(:, column(k)))
         skew = max(skew, maxval(abs(dfdq(:, :, k) - transpose(dfdq(:, :, k)))))
       end do
     end do

@@ -146,7 +146,8 @@ contains
     call expect(study%row_count() == 12 .and. study%text(1, "method") == "symplectic-euler", "six rows a method")
     order = study%order("verlet", "order")
     call expect(order > 1.95_hooke_real .and. order < 2.05_hooke_real, "the order of verlet")
-    call expect_near(study%order("symplectic-euler", "theory"), 1.0_hooke_real, 0.0_hooke_real, "and that of the other in theory")
+    call expect_near(study%order("symplectic-euler", "theory"), 1.0_hooke_real, 0.0_hooke_real, &
+      "and that of the other in theory")
     call expect(study%order_note("verlet") == "", "nothing in its way")
     call expect(study%figure("agreement") > 0 .and. study%figure("agreement") < 1e-8_hooke_real, "the reference agrees")
     call expect(study%reference("method") /= study%reference("check"), "by two methods")
@@ -263,7 +264,8 @@ contains
     call state%create(needed%lean)
     position = 0
     call needed%lean_position(state%q, position, status)
-    call expect(status == hooke_ok .and. maxval(abs(position(:, 25) - [1, 0, 1])) < 0.3_hooke_real, "with its positions")
+    call expect(status == hooke_ok .and. maxval(abs(position(:, 25) - [1, 0, 1])) < 0.3_hooke_real, &
+      "with its positions")
     call expect(needed%lean_particle(1) >= 0 .and. needed%lean_particle(1) <= 25, "and numbers")
     call needed%write_report(output("needs.html"), "cloth", status=status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
