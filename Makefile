@@ -4,7 +4,7 @@
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
 
-PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
+PACKAGES = build-essential gfortran cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev liblapack-dev libblas-dev libgsl-dev libarpack2-dev libhdf5-dev \
            libjansson-dev libjs-chart.js libjs-three chromium abigail-tools mandoc groff-base
 PYTHON ?= python3

@@ -1,5 +1,6 @@
-# cmake --install: headers, both libraries, the program with its manual page and completion, the example scenes, the page of a report, and the files by
-# which find_package(hooke) and pkg-config find them. Nothing installed names a folder of this machine, so the result may be moved.
+# cmake --install: headers, both libraries, the program with its manual page and completion, the example scenes, the pages
+# of reports, the sources of the Fortran module, and the files by which find_package(hooke) and pkg-config find them.
+# Nothing installed names a folder of this machine, so the result may be moved.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
 
@@ -9,6 +10,8 @@ install(DIRECTORY examples/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke/exa
 if(HOOKE_CHARTJS_FOUND)
   install(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/share/hooke/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke)
 endif()
+set(HOOKE_FORTRAN_DIR ${CMAKE_INSTALL_DATADIR}/hooke/fortran)
+install(DIRECTORY bindings/fortran/ DESTINATION ${HOOKE_FORTRAN_DIR} FILES_MATCHING PATTERN "*.f90" PATTERN sources.txt)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Two sets of targets: the static library alone needs the other libraries to be found.
@@ -28,12 +31,14 @@ if(HOOKE_PAGES_OF_CLI)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME hooke)
 endif()
 
-configure_package_config_file(cmake/hooke-config.cmake.in hooke-config.cmake INSTALL_DESTINATION ${config_dir})
+configure_package_config_file(cmake/hooke-config.cmake.in hooke-config.cmake INSTALL_DESTINATION ${config_dir}
+  PATH_VARS HOOKE_FORTRAN_DIR)
 write_basic_package_version_file(hooke-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/hooke-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/hooke-config-version.cmake
   cmake/dependencies.cmake
+  cmake/fortran.cmake
   DESTINATION ${config_dir})
 
 # What the static library needs, as -L and -l.
@@ -58,5 +63,11 @@ foreach(dependency IN LISTS HOOKE_DEPENDENCIES)
 endforeach()
 file(RELATIVE_PATH HOOKE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" HOOKE_PREFIX_FROM_PC "${HOOKE_PREFIX_FROM_PC}")
+set(HOOKE_FORTRAN_SOURCES)
+if(EXISTS ${PROJECT_SOURCE_DIR}/bindings/fortran/sources.txt) # sources may come along without the Fortran module
+  file(STRINGS bindings/fortran/sources.txt HOOKE_FORTRAN_SOURCES)
+endif()
+list(TRANSFORM HOOKE_FORTRAN_SOURCES PREPEND "\${fortrandir}/")
+list(JOIN HOOKE_FORTRAN_SOURCES " " HOOKE_FORTRAN_SOURCES)
 configure_file(cmake/hooke.pc.in hooke.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

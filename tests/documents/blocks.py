@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 NOT_RUN = {"text", "json"}
-KINDS = {"c", "python", "console", "sh"} | NOT_RUN
+KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
@@ -70,6 +70,20 @@ def run_c(block, folder):
     return report(block, result) if result.returncode else None
 
 
+def run_fortran(block, folder):
+    if not os.environ["HOOKE_FORTRAN"]:
+        return None
+    library, module = Path(os.environ["HOOKE_LIBRARY"]).parent, Path(os.environ["HOOKE_FORTRAN_LIBRARY"])
+    source, program = folder / "block.f90", folder / "block"
+    source.write_text(block.text)
+    command = [os.environ["HOOKE_FORTRAN"], "-I" + os.environ["HOOKE_FORTRAN_MODULES"], source, module, f"-L{library}",
+               f"-Wl,-rpath,{library}", "-lhooke", "-o", program]
+    result = execute(command, folder)
+    if result.returncode == 0:
+        result = execute([program], folder)
+    return report(block, result) if result.returncode else None
+
+
 def run_python(block, folder):
     result = execute([sys.executable, "-"], folder, input=block.text)
     return report(block, result) if result.returncode else None
@@ -89,7 +103,7 @@ def run_console(block, folder):
     return None
 
 
-RUN = {"c": run_c, "python": run_python, "console": run_console, "sh": run_console}
+RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_console, "sh": run_console}
 
 
 def complaint(block, folder):

@@ -30,6 +30,7 @@ def test_readme_shows_every_language():
     assert {"c", "python"} <= kinds and kinds & {"console", "sh"}
 
 
+FORTRAN = pytest.mark.skipif(not os.environ["HOOKE_FORTRAN"], reason="there is no Fortran compiler")
 PROGRAM = "#include <hooke.h>\nint main(void) { return %s; }\n"
 
 
@@ -39,6 +40,8 @@ PROGRAM = "#include <hooke.h>\nint main(void) { return %s; }\n"
         ("c", PROGRAM % "hooke_abi() + 1"),
         ("c", PROGRAM % "hooke_no_such_function()"),
         ("c", "int32_t status = hooke_scene_load(path, &scene);\n"),
+        pytest.param("fortran", "use hooke\nerror stop hooke_version()\nend\n", marks=FORTRAN),
+        pytest.param("fortran", "use hooke, only: hooke_no_such_name\nend\n", marks=FORTRAN),
         ("python", "import hooke\nhooke.no_such_name\n"),
         ("console", "$ hooke run no-such-scene.json\n"),
         ("sh", "hooke no-such-verb\n"),
@@ -56,6 +59,7 @@ def test_planted(kind, text, folder):
     "kind, text",
     [
         ("c", PROGRAM % "hooke_abi()"),
+        ("fortran", "use hooke\nif (hooke_abi() < 0) error stop\nend\n"),
         ("python", "import hooke\n"),
         ("console", "$ hooke --version\nhooke 0.1.0\n$ git clone something\n"),
         ("sh", "hooke no-such-verb # exit 2\nhooke \\\n  --version | cat\n"),

@@ -58,7 +58,7 @@ STANDARD = set(
 
 # Folders that see the library as a user does.
 OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/support/",
-           "tests/abi/", "bindings/")
+           "tests/abi/", "tests/fortran/", "bindings/")
 
 LINE_LIMIT = 800
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^">]+)[">]', re.MULTILINE)

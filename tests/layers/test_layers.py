@@ -40,7 +40,7 @@ def test_fences_do_not_leak():
 
 
 def test_sizes_and_names():
-    complaints = [c for path, text in tree(".c", ".h", ".py", ".cmake") for c in rules.shape_complaints(path, text)]
+    complaints = [c for path, text in tree(".c", ".h", ".py", ".f90", ".cmake") for c in rules.shape_complaints(path, text)]
     assert not complaints, "\n".join(complaints)
 
 

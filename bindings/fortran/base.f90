@@ -1,0 +1,177 @@
+! Statuses, messages, kinds, facts about the build; and how text and numbers go to C and back.
+module hooke_base
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, &
+    c_null_char, c_ptr, c_size_t
+  use hooke_c_base, only: c_abi, c_build_fact, c_last_error, c_status_name, c_version
+  implicit none
+  private
+  public :: hooke_real, hooke_long
+  public :: message, status_name, version, abi, build_fact ! hooke_message() and so on for users
+  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, is_3_by
+
+  ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
+  integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
+
+  integer, parameter, public :: hooke_ok = 0
+  integer, parameter, public :: hooke_stopped = 1        ! a callback or an observer asked to stop
+  integer, parameter, public :: hooke_diverged = 2       ! the run left every physical bound
+  integer, parameter, public :: hooke_step_limit = 3     ! an error-controlled method used up `max_steps`
+  integer, parameter, public :: hooke_no_memory = -1     ! an allocation failed
+  integer, parameter, public :: hooke_bad_value = -2     ! an argument, an option or a scene is not allowed
+  integer, parameter, public :: hooke_bad_call = -3      ! calls out of order
+  integer, parameter, public :: hooke_io_failed = -4     ! a file could not be read or written
+  integer, parameter, public :: hooke_not_built = -5     ! this build of the library is without it
+  integer, parameter, public :: hooke_unsuited = -6      ! the method does not take this problem
+  integer, parameter, public :: hooke_solver_failed = -7 ! a solver gave up
+
+  ! What this module itself refused last, in this thread; of length 0 where the library spoke last.
+  character(400), save :: refusal = ""
+  integer, save :: refusal_length = 0
+  !$omp threadprivate(refusal, refusal_length)
+
+  interface
+    integer(c_size_t) function strlen(text) bind(c)
+      import
+      type(c_ptr), value :: text
+    end function
+  end interface
+
+contains
+
+  ! The message of the last failure or outcome in this thread; "" if there was none.
+  function message() result(text)
+    character(:), allocatable :: text
+    if (refusal_length > 0) then
+      text = refusal(:refusal_length)
+    else
+      text = to_text(c_last_error())
+    end if
+  end function
+
+  ! A short name of a status, such as "bad value".
+  function status_name(status) result(text)
+    integer, intent(in) :: status
+    character(:), allocatable :: text
+    type(c_ptr) :: name
+    name = c_status_name(int(status, c_int32_t))
+    text = to_text(name)
+  end function
+
+  ! Version of the library that is running.
+  function version() result(text)
+    character(:), allocatable :: text
+    text = to_text(c_version())
+  end function
+
+  ! The ABI number of the library that is running.
+  integer function abi()
+    abi = int(c_abi())
+  end function
+
+  ! One fact about this build: "sundials", "hdf5", "instructions", "licence" and more; "" for what is not there.
+  function build_fact(what) result(text)
+    character(*), intent(in) :: what
+    character(:), allocatable :: text
+    text = to_text(c_build_fact(to_c(what)))
+  end function
+
+  ! ---- for the other modules ----
+
+  ! Hands over the status of a call; where there is nobody to take it, anything but 0 ends the program.
+  subroutine accept(code, status)
+    integer(c_int32_t), intent(in) :: code
+    integer, intent(out), optional :: status
+    refusal_length = 0
+    if (present(status)) then
+      status = int(code)
+    else if (code /= 0) then
+      call stop_with(status_name(int(code)) // ": " // message())
+    end if
+  end subroutine
+
+  ! A failure that is noticed before the library is called.
+  subroutine refuse(code, text, status)
+    integer, intent(in) :: code
+    character(*), intent(in) :: text
+    integer, intent(out), optional :: status
+    if (.not. present(status)) call stop_with(text)
+    refusal = text
+    refusal_length = len_trim(refusal)
+    status = code
+  end subroutine
+
+  subroutine stop_with(text)
+    character(*), intent(in) :: text
+    error stop "hooke: " // text
+  end subroutine
+
+  ! Text of the library as Fortran has it; "" for NULL.
+  function to_text(address) result(text)
+    type(c_ptr), intent(in) :: address
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: k, length
+    if (.not. c_associated(address)) then
+      text = ""
+      return
+    end if
+    length = int(strlen(address))
+    call c_f_pointer(address, letters, [length])
+    allocate (character(length) :: text)
+    do k = 1, length
+      text(k:k) = letters(k)
+    end do
+  end function
+
+  pure function to_c(text) result(terminated)
+    character(*), intent(in) :: text
+    character(len_trim(text) + 1, kind=c_char) :: terminated
+    terminated = trim(text) // c_null_char
+  end function
+
+  ! The same of text that may be absent: what is left unallocated arrives as NULL.
+  subroutine to_c_if(text, terminated)
+    character(*), intent(in), optional :: text
+    character(:, kind=c_char), allocatable, intent(out) :: terminated
+    if (present(text)) terminated = to_c(text)
+  end subroutine
+
+  integer function to_integer(count)
+    integer(c_int64_t), intent(in) :: count
+    if (count > huge(to_integer)) call stop_with("a count is too large for a default integer")
+    to_integer = int(count)
+  end function
+
+  ! The number of a particle, spring, row or frame as C has it.
+  elemental integer(c_int64_t) function zero_based(number)
+    integer, intent(in) :: number
+    zero_based = int(number, c_int64_t) - 1
+  end function
+
+  ! A number by name: those of particles, springs and groups count from 1 here.
+  real(c_double) function to_number(value, what)
+    real(c_double), intent(in) :: value
+    character(*), intent(in) :: what
+    to_number = value
+    select case (what)
+    case ("particle", "spring", "first", "second", "group")
+      to_number = value + 1
+    end select
+  end function
+
+  ! `count` numbers in the library's memory; not associated for NULL.
+  function to_series(address, count) result(series)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: count
+    real(c_double), pointer, contiguous :: series(:)
+    series => null()
+    if (c_associated(address)) call c_f_pointer(address, series, [count])
+  end function
+
+  ! Whether an array has 3 numbers for each of `count` particles.
+  pure logical function is_3_by(array, count)
+    real(c_double), intent(in) :: array(:, :)
+    integer(c_int64_t), intent(in) :: count
+    is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+  end function
+end module

@@ -1,0 +1,290 @@
+! Building a system: particles, springs, bending, parts, forces, motions; the last call is commit().
+module hooke_builders
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_ptr
+  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, to_text, zero_based
+  use hooke_c_build
+  use hooke_c_system
+  use hooke_forces
+  use hooke_handles, only: hooke_handle
+  use hooke_option_tables, only: hooke_options
+  implicit none
+  private
+  public :: hooke_builder, part_kind_count, part_kind
+
+  integer, parameter :: place_of_force = 1
+
+  ! What hooke_system can do until it is committed.
+  type, extends(hooke_handle) :: hooke_builder
+  contains
+    procedure :: create
+    procedure, private :: add_particles_alike, add_particles_each
+    generic :: add_particles => add_particles_alike, add_particles_each
+    procedure, private :: pin_one, pin_some
+    generic :: pin => pin_one, pin_some
+    procedure :: add_springs
+    procedure, private :: add_bending_alike, add_bending_each
+    generic :: add_bending => add_bending_alike, add_bending_each
+    procedure :: add_part
+    procedure :: set_gravity
+    procedure :: set_drag
+    procedure :: set_force
+    procedure :: drive_harmonic
+    procedure :: drive_table
+    procedure :: drive_callback
+    procedure :: commit
+  end type
+
+contains
+
+  ! ---- parts there are: "rope", "cloth" and so on; "" past the last ----
+
+  integer function part_kind_count()
+    part_kind_count = int(c_part_kind_count())
+  end function
+
+  function part_kind(number) result(text)
+    integer, intent(in) :: number
+    character(:), allocatable :: text
+    text = to_text(c_part_kind(zero_based(number)))
+  end function
+
+  subroutine create(self, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: system
+    integer(c_int32_t) :: code
+    code = c_system_create(system)
+    if (code == 0) call self%take(system, c_system_destroy)
+    call accept(code, status)
+  end subroutine
+
+  ! Adds particles at position(3, n) [m], all of one mass [kg], at rest or with velocity(3, n) [m/s]; `first` is the
+  ! number of the first of them.
+  subroutine add_particles_alike(self, position, mass, velocity, first, status)
+    class(hooke_builder), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: position(:, :)
+    real(c_double), intent(in) :: mass
+    real(c_double), intent(in), contiguous, optional :: velocity(:, :)
+    integer, intent(out), optional :: first, status
+    if (present(velocity)) then
+      call self%add_particles(position, [mass], velocity, first, status)
+    else
+      call self%add_particles(position, [mass], first=first, status=status)
+    end if
+  end subroutine
+
+  ! The same with a mass for each.
+  subroutine add_particles_each(self, position, mass, velocity, first, status)
+    class(hooke_builder), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: position(:, :), mass(:)
+    real(c_double), intent(in), contiguous, optional :: velocity(:, :)
+    integer, intent(out), optional :: first, status
+    integer(c_int64_t) :: count, number(1)
+    integer(c_int32_t) :: code
+    logical :: fits
+    if (present(first)) first = 0
+    if (self%is_missing(status)) return
+    fits = size(position, 1) == 3
+    if (present(velocity)) fits = fits .and. all(shape(velocity) == shape(position))
+    if (.not. fits) then
+      call refuse(hooke_bad_value, "positions and velocities of particles have the shape (3, n)", status)
+      return
+    end if
+    number = -1
+    count = size(position, 2, c_int64_t)
+    if (present(velocity)) then
+      code = c_system_add_particles(self%address(), count, position, velocity, size(mass, kind=c_int64_t), mass, number)
+    else
+      code = c_system_add_particles(self%address(), count, position, mass_count=size(mass, kind=c_int64_t), mass=mass, &
+        first=number)
+    end if
+    call accept(code, status)
+    if (present(first)) first = int(number(1)) + 1
+  end subroutine
+
+  subroutine pin_one(self, particle, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particle
+    integer, intent(out), optional :: status
+    call self%pin([particle], status)
+  end subroutine
+
+  ! Holds particles still.
+  subroutine pin_some(self, particles, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_system_pin(self%address(), size(particles, kind=c_int64_t), zero_based(particles)), status)
+  end subroutine
+
+  ! Adds a group of springs between the particles ends(1, k) and ends(2, k).
+  subroutine add_springs(self, ends, options, name, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: ends(:, :)
+    type(hooke_options), intent(in) :: options
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
+    if (size(ends, 1) /= 2) then
+      call refuse(hooke_bad_value, "the ends of springs have the shape (2, n)", status)
+      return
+    end if
+    call to_c_if(name, c_name)
+    call accept(c_system_add_springs(self%address(), c_name, size(ends, 2, c_int64_t), zero_based(ends), &
+      options%address()), status)
+  end subroutine
+
+  subroutine add_bending_alike(self, triples, coefficient, name, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: triples(:, :)
+    real(c_double), intent(in) :: coefficient
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    call self%add_bending(triples, [coefficient], name, status)
+  end subroutine
+
+  ! Adds bending on triples(3, n) of particles, with one coefficient [N/m] or n.
+  subroutine add_bending_each(self, triples, coefficient, name, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: triples(:, :)
+    real(c_double), intent(in), contiguous :: coefficient(:)
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (size(triples, 1) /= 3) then
+      call refuse(hooke_bad_value, "triples of bending have the shape (3, n)", status)
+      return
+    end if
+    call to_c_if(name, c_name)
+    call accept(c_system_add_bending(self%address(), c_name, size(triples, 2, c_int64_t), zero_based(triples), &
+      size(coefficient, kind=c_int64_t), coefficient), status)
+  end subroutine
+
+  ! Adds a generated part; `first` and `count` are its particles.
+  subroutine add_part(self, kind, options, name, first, count, status)
+    class(hooke_builder), intent(inout) :: self
+    character(*), intent(in) :: kind
+    type(hooke_options), intent(in) :: options
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: first, count, status
+    character(:), allocatable :: c_name
+    integer(c_int64_t) :: number(1), particles(1)
+    if (present(first)) first = 0
+    if (present(count)) count = 0
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
+    number = -1
+    particles = 0
+    call to_c_if(name, c_name)
+    call accept(c_system_add_part(self%address(), to_c(kind), c_name, options%address(), number, particles), status)
+    if (present(first)) first = int(number(1)) + 1
+    if (present(count)) count = int(particles(1))
+  end subroutine
+
+  ! Acceleration of every free particle [m/s^2].
+  subroutine set_gravity(self, gravity, status)
+    class(hooke_builder), intent(inout) :: self
+    real(c_double), intent(in) :: gravity(3)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_system_set_gravity(self%address(), gravity), status)
+  end subroutine
+
+  ! Ether drag -c v on every free particle, c in N s/m.
+  subroutine set_drag(self, coefficient, status)
+    class(hooke_builder), intent(inout) :: self
+    real(c_double), intent(in) :: coefficient
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_system_set_drag(self%address(), coefficient), status)
+  end subroutine
+
+  ! A force of the caller's own, which has to stay where it is as long as the system is used.
+  subroutine set_force(self, force, status)
+    class(hooke_builder), intent(inout) :: self
+    class(hooke_force), target, intent(inout) :: force
+    integer, intent(out), optional :: status
+    type(force_holder), pointer :: holder
+    type(c_funptr) :: product
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    allocate (holder)
+    holder%force => force
+    product = c_null_funptr
+    select type (force)
+    class is (hooke_force_with_product)
+      holder%derivative => force
+      product = c_funloc(call_product)
+    end select
+    code = c_system_set_force(self%address(), c_funloc(call_force), product, c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, place_of_force)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! Particles moved about where they were added: by amplitude(3) sin(2 pi frequency t + phase), in m, Hz and rad;
+  subroutine drive_harmonic(self, particles, amplitude, frequency, phase, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    real(c_double), intent(in) :: amplitude(3), frequency
+    real(c_double), intent(in), optional :: phase
+    integer, intent(out), optional :: status
+    real(c_double) :: angle
+    if (self%is_missing(status)) return
+    angle = 0
+    if (present(phase)) angle = phase
+    call accept(c_system_drive_harmonic(self%address(), size(particles, kind=c_int64_t), zero_based(particles), &
+      amplitude, frequency, angle), status)
+  end subroutine
+
+  ! by displacement(3, samples) [m] at ascending time(samples) [s], piecewise cubic in between;
+  subroutine drive_table(self, particles, time, displacement, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    real(c_double), intent(in), contiguous :: time(:), displacement(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (size(displacement, 1) /= 3 .or. size(displacement, 2) /= size(time)) then
+      call refuse(hooke_bad_value, "displacements at n times have the shape (3, n)", status)
+      return
+    end if
+    call accept(c_system_drive_table(self%address(), size(particles, kind=c_int64_t), zero_based(particles), &
+      size(time, kind=c_int64_t), time, displacement), status)
+  end subroutine
+
+  ! or as `drive` says, which has to stay where it is as long as the system is used.
+  subroutine drive_callback(self, particles, drive, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    class(hooke_drive), target, intent(inout) :: drive
+    integer, intent(out), optional :: status
+    type(drive_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    allocate (holder)
+    holder%drive => drive
+    code = c_system_drive_callback(self%address(), size(particles, kind=c_int64_t), zero_based(particles), &
+      c_funloc(call_drive), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, 0)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! Checks the system as a whole and makes it constant.
+  subroutine commit(self, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_system_commit(self%address()), status)
+  end subroutine
+end module

@@ -1,0 +1,112 @@
+! Forces and motions of the caller's own: types to extend, and what stands between them and C.
+!
+! A `stop_value` is 0 when it comes; anything else stops the run and comes out of hooke_integrator's stop_value().
+module hooke_forces
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+  implicit none
+  private
+  public :: hooke_force, hooke_force_with_product, hooke_drive
+  public :: force_holder, drive_holder, call_force, call_product, call_drive
+
+  ! A force on all particles. Called with every q and v that a method tries, never concurrently for one integrator.
+  type, abstract :: hooke_force
+  contains
+    procedure(add_force), deferred :: add
+  end type
+
+  ! One that knows its derivative too, which spares difference quotients.
+  type, abstract, extends(hooke_force) :: hooke_force_with_product
+  contains
+    procedure(add_force_product), deferred :: add_product
+  end type
+
+  ! A motion of `n` particles: a function of t alone.
+  type, abstract :: hooke_drive
+  contains
+    procedure(move), deferred :: move
+  end type
+
+  abstract interface
+    ! Adds newtons to `force`.
+    subroutine add_force(self, n, t, q, v, force, stop_value)
+      import :: c_double, hooke_force
+      class(hooke_force), intent(inout) :: self
+      integer, intent(in) :: n
+      real(c_double), intent(in) :: t, q(3, n), v(3, n)
+      real(c_double), intent(inout) :: force(3, n)
+      integer, intent(inout) :: stop_value
+    end subroutine
+
+    ! Adds (df/dq) dq + (df/dv) dv of that force to `out`.
+    subroutine add_force_product(self, n, t, q, v, dq, dv, out, stop_value)
+      import :: c_double, hooke_force_with_product
+      class(hooke_force_with_product), intent(inout) :: self
+      integer, intent(in) :: n
+      real(c_double), intent(in) :: t, q(3, n), v(3, n), dq(3, n), dv(3, n)
+      real(c_double), intent(inout) :: out(3, n)
+      integer, intent(inout) :: stop_value
+    end subroutine
+
+    ! Sets position [m] and velocity [m/s] of the driven particles.
+    subroutine move(self, n, t, q, v, stop_value)
+      import :: c_double, hooke_drive
+      class(hooke_drive), intent(inout) :: self
+      integer, intent(in) :: n
+      real(c_double), intent(in) :: t
+      real(c_double), intent(out) :: q(3, n), v(3, n)
+      integer, intent(inout) :: stop_value
+    end subroutine
+  end interface
+
+  type :: force_holder
+    class(hooke_force), pointer :: force => null()
+    class(hooke_force_with_product), pointer :: derivative => null()
+  end type
+
+  type :: drive_holder
+    class(hooke_drive), pointer :: drive => null()
+  end type
+
+contains
+
+  integer(c_int32_t) function call_force(n, t, q, v, force, ctx) bind(c, name="")
+    integer(c_int64_t), value :: n
+    real(c_double), value :: t
+    real(c_double), intent(in) :: q(3, n), v(3, n)
+    real(c_double), intent(inout) :: force(3, n)
+    type(c_ptr), value :: ctx
+    type(force_holder), pointer :: holder
+    integer :: stop_value
+    call c_f_pointer(ctx, holder)
+    stop_value = 0
+    call holder%force%add(int(n), t, q, v, force, stop_value)
+    call_force = int(stop_value, c_int32_t)
+  end function
+
+  integer(c_int32_t) function call_product(n, t, q, v, dq, dv, out, ctx) bind(c, name="")
+    integer(c_int64_t), value :: n
+    real(c_double), value :: t
+    real(c_double), intent(in) :: q(3, n), v(3, n), dq(3, n), dv(3, n)
+    real(c_double), intent(inout) :: out(3, n)
+    type(c_ptr), value :: ctx
+    type(force_holder), pointer :: holder
+    integer :: stop_value
+    call c_f_pointer(ctx, holder)
+    stop_value = 0
+    call holder%derivative%add_product(int(n), t, q, v, dq, dv, out, stop_value)
+    call_product = int(stop_value, c_int32_t)
+  end function
+
+  integer(c_int32_t) function call_drive(n, t, q, v, ctx) bind(c, name="")
+    integer(c_int64_t), value :: n
+    real(c_double), value :: t
+    real(c_double), intent(out) :: q(3, n), v(3, n)
+    type(c_ptr), value :: ctx
+    type(drive_holder), pointer :: holder
+    integer :: stop_value
+    call c_f_pointer(ctx, holder)
+    stop_value = 0
+    call holder%drive%move(int(n), t, q, v, stop_value)
+    call_drive = int(stop_value, c_int32_t)
+  end function
+end module

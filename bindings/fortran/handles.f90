@@ -1,0 +1,203 @@
+! What stands for an object of the library: counted, so that it is released once, when the last variable that has it is
+! gone, and after everything that was made from it.
+module hooke_handles
+  use, intrinsic :: iso_c_binding, only: c_associated, c_intptr_t, c_loc, c_null_ptr, c_ptr
+  use hooke_base, only: hooke_bad_call, refuse, stop_with
+  implicit none
+  private
+  public :: hooke_handle
+
+  abstract interface
+    subroutine destroyer(object) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: object
+    end subroutine
+  end interface
+
+  ! What a callback needs, released with the object that calls it.
+  type :: kept_thing
+    class(*), pointer :: thing => null()
+    integer :: place = 0
+    type(kept_thing), pointer :: next => null()
+  end type
+
+  type :: counted_object
+    type(c_ptr) :: address = c_null_ptr
+    integer :: references = 1
+    procedure(destroyer), pointer, nopass :: destroy => null()
+    type(kept_thing), pointer :: kept => null()
+    type(counted_object), pointer :: owner => null()
+  end type
+
+  type :: hooke_handle
+    private
+    type(counted_object), pointer :: object => null()
+    ! Where the variable is that counts. A copy that a compiler made bit by bit is elsewhere, and releases nothing.
+    integer(c_intptr_t) :: home = 0
+  contains
+    procedure :: exists
+    procedure :: address
+    procedure :: is_missing
+    procedure :: destroy => release
+    procedure :: take
+    procedure :: give_up
+    procedure :: lend
+    procedure :: keep
+    procedure :: share
+    procedure :: has_that_of
+    final :: finish
+  end type
+
+contains
+
+  ! Whether there is an object: created, and not destroyed since.
+  elemental logical function exists(self)
+    class(hooke_handle), intent(in) :: self
+    exists = associated(self%object)
+    if (exists) exists = c_associated(self%object%address)
+  end function
+
+  ! The object as C has it, for calls of one's own.
+  type(c_ptr) function address(self)
+    class(hooke_handle), intent(in) :: self
+    if (.not. self%exists()) call stop_with("an object is used that was not created, or was destroyed")
+    address = self%object%address
+  end function
+
+  ! True, with a status, where there is no object to call.
+  logical function is_missing(self, status)
+    class(hooke_handle), intent(in) :: self
+    integer, intent(out), optional :: status
+    is_missing = .not. self%exists()
+    if (is_missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
+  end function
+
+  ! Takes over what was created in C. `owner` is kept until it is gone; what is only lent has no `destroy`.
+  subroutine take(self, address, destroy, owner)
+    class(hooke_handle), intent(inout) :: self
+    type(c_ptr), intent(in) :: address
+    procedure(destroyer), optional :: destroy
+    class(hooke_handle), intent(in), optional :: owner
+    type(counted_object), pointer :: object
+    allocate (object)
+    object%address = address
+    if (present(destroy)) object%destroy => destroy
+    if (present(owner)) then
+      object%owner => owner%object
+      call count_one(object%owner)
+    end if
+    call self%destroy()
+    call settle(self, object)
+  end subroutine
+
+  ! Hands the object to a caller who closes it himself; no other name of it has it any more.
+  type(c_ptr) function give_up(self)
+    class(hooke_handle), intent(inout) :: self
+    give_up = self%address()
+    self%object%address = c_null_ptr
+    call self%destroy()
+  end function
+
+  ! Points at something for the time of a callback, and with NULL takes it back, from copies too.
+  subroutine lend(self, address)
+    class(hooke_handle), intent(inout) :: self
+    type(c_ptr), intent(in) :: address
+    if (.not. associated(self%object)) call self%take(c_null_ptr)
+    self%object%address = address
+  end subroutine
+
+  ! Keeps what a callback needs; what was kept at the same `place` > 0 before is released.
+  subroutine keep(self, thing, place)
+    class(hooke_handle), intent(inout) :: self
+    class(*), target, intent(inout) :: thing
+    integer, intent(in) :: place
+    type(kept_thing), pointer :: entry
+    entry => self%object%kept
+    do while (associated(entry))
+      if (place > 0 .and. entry%place == place) exit
+      entry => entry%next
+    end do
+    if (associated(entry)) then
+      deallocate (entry%thing)
+    else
+      allocate (entry)
+      entry%place = place
+      entry%next => self%object%kept
+      self%object%kept => entry
+    end if
+    entry%thing => thing
+  end subroutine
+
+  ! Makes `self` another name of what `other` has.
+  subroutine share(self, other)
+    class(hooke_handle), intent(inout) :: self
+    class(hooke_handle), intent(in) :: other
+    type(counted_object), pointer :: object
+    if (self%has_that_of(other)) return
+    object => other%object
+    if (associated(object)) call count_one(object)
+    call self%destroy()
+    if (associated(object)) call settle(self, object)
+  end subroutine
+
+  ! Whether both are names of one object.
+  logical function has_that_of(self, other)
+    class(hooke_handle), intent(in) :: self, other
+    has_that_of = associated(self%object, other%object) .and. self%home == place_of(self)
+  end function
+
+  ! Lets go of the object before the variable is gone.
+  recursive subroutine release(self)
+    class(hooke_handle), intent(inout) :: self
+    if (self%home == place_of(self)) call release_object(self%object)
+    self%object => null()
+    self%home = 0
+  end subroutine
+
+  impure recursive elemental subroutine finish(self)
+    type(hooke_handle), intent(inout) :: self
+    call self%destroy()
+  end subroutine
+
+  subroutine settle(self, object)
+    class(hooke_handle), intent(inout) :: self
+    type(counted_object), pointer, intent(in) :: object
+    self%object => object
+    self%home = place_of(self)
+  end subroutine
+
+  integer(c_intptr_t) function place_of(self)
+    class(hooke_handle), target, intent(in) :: self
+    place_of = transfer(c_loc(self%home), place_of)
+  end function
+
+  subroutine count_one(object)
+    type(counted_object), pointer, intent(in) :: object
+    !$omp atomic update
+    object%references = object%references + 1
+  end subroutine
+
+  recursive subroutine release_object(object)
+    type(counted_object), pointer, intent(in) :: object
+    type(counted_object), pointer :: gone
+    type(kept_thing), pointer :: entry, next
+    integer :: left
+    if (.not. associated(object)) return
+    !$omp atomic capture
+    object%references = object%references - 1
+    left = object%references
+    !$omp end atomic
+    if (left > 0) return
+    if (associated(object%destroy) .and. c_associated(object%address)) call object%destroy(object%address)
+    entry => object%kept
+    do while (associated(entry))
+      next => entry%next
+      deallocate (entry%thing)
+      deallocate (entry)
+      entry => next
+    end do
+    if (associated(object%owner)) call release_object(object%owner)
+    gone => object
+    deallocate (gone)
+  end subroutine
+end module

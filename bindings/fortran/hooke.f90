@@ -1,0 +1,37 @@
+! hooke for Fortran: mass-spring systems. `use hooke` gives everything below; docs/fortran.md is the way in.
+!
+! Numbers of particles, springs, triples, groups, rows, places and frames count from 1, in arguments and in results.
+! Texts count from 0, as scene files do: messages, sentences, and values of options such as `pinned` and `watch`.
+! Arrays of positions, velocities and forces are (3, n); units are SI.
+!
+! What can fail has a last argument `status`, optional: 0 is fine, a negative one a failure, a positive one an outcome
+! of a run; hooke_message() then says what. Without it anything but 0 ends the program with the message.
+!
+! Variables of these types are released when they go out of scope, in any order. Assignment makes a second name of the
+! same object; copy_to(), where there is one, copies.
+module hooke
+  use hooke_base, only: hooke_real, hooke_long, &
+    hooke_ok, hooke_stopped, hooke_diverged, hooke_step_limit, hooke_no_memory, hooke_bad_value, hooke_bad_call, &
+    hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, &
+    hooke_message => message, hooke_status_name => status_name, hooke_version => version, hooke_abi => abi, &
+    hooke_build_fact => build_fact
+  use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind
+  use hooke_causes, only: hooke_why
+  use hooke_comparisons, only: hooke_comparison
+  use hooke_costs, only: hooke_cost
+  use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
+  use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &
+    hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &
+    hooke_method_is_built => method_is_built
+  use hooke_limits, only: hooke_limit, hooke_limit_of_mode => limit_of_mode
+  use hooke_needs_of_scenes, only: hooke_needs
+  use hooke_observers, only: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
+  use hooke_option_tables, only: hooke_options
+  use hooke_scenes, only: hooke_scene, hooke_own_process => own_process
+  use hooke_states, only: hooke_state
+  use hooke_studies, only: hooke_study, hooke_study_pick => study_pick
+  use hooke_systems, only: hooke_system
+  use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
+  implicit none
+  public
+end module

@@ -1,0 +1,291 @@
+! Methods, and the loop that runs them.
+module hooke_integrators
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
+    c_null_ptr, c_ptr
+  use hooke_base, only: accept, hooke_long, to_c, to_integer, to_text, zero_based
+  use hooke_c_integrator
+  use hooke_c_why, only: c_integrator_on_warning
+  use hooke_handles, only: hooke_handle
+  use hooke_observers
+  use hooke_option_tables, only: hooke_options
+  use hooke_states, only: hooke_state
+  use hooke_systems, only: hooke_system
+  implicit none
+  private
+  public :: hooke_integrator
+  public :: method_count, method_name, method_summary, method_is_adaptive, method_is_built
+
+  integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4
+
+  type, extends(hooke_handle) :: hooke_integrator
+    ! The options it runs with: its own copy, with defaults filled in.
+    type(hooke_options) :: options
+  contains
+    procedure :: create
+    procedure :: create_first_order
+    procedure :: on_frame
+    procedure :: on_step
+    procedure :: on_warning
+    procedure :: frame_count
+    procedure :: run
+    procedure, private :: step_some, step_many
+    generic :: step => step_some, step_many
+    procedure :: count => count_of
+    procedure :: wall_seconds
+    procedure :: recent_count
+    procedure :: recent
+    procedure :: stop_value
+    procedure :: diverged_at
+    procedure :: destroy
+    procedure, private :: assign
+    generic :: assignment(=) => assign
+  end type
+
+contains
+
+  ! ---- methods ----
+
+  integer function method_count()
+    method_count = int(c_method_count())
+  end function
+
+  function method_name(number) result(text)
+    integer, intent(in) :: number
+    character(:), allocatable :: text
+    text = to_text(c_method_name(zero_based(number)))
+  end function
+
+  ! One line about a method; "" if there is no such name.
+  function method_summary(name) result(text)
+    character(*), intent(in) :: name
+    character(:), allocatable :: text
+    text = to_text(c_method_summary(to_c(name)))
+  end function
+
+  ! Whether it chooses its steps from tolerances.
+  logical function method_is_adaptive(name)
+    character(*), intent(in) :: name
+    method_is_adaptive = c_method_is_adaptive(to_c(name)) == 1
+  end function
+
+  logical function method_is_built(name)
+    character(*), intent(in) :: name
+    method_is_built = c_method_is_built(to_c(name)) == 1
+  end function
+
+  ! ---- making ----
+
+  subroutine create(self, system, options, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_system), intent(in) :: system
+    type(hooke_options), intent(in) :: options
+    integer, intent(out), optional :: status
+    type(c_ptr) :: integrator
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    if (options%is_missing(status)) return
+    code = c_integrator_create(system%address(), options%address(), integrator)
+    if (code == 0) call take_new(self, integrator, system)
+    call accept(code, status)
+  end subroutine
+
+  ! For x' = phi(t, x) of `size` numbers; the rate has to stay where it is as long as the integrator is used.
+  subroutine create_first_order(self, size, rate, options, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer, intent(in) :: size
+    class(hooke_rate), target, intent(inout) :: rate
+    type(hooke_options), intent(in) :: options
+    integer, intent(out), optional :: status
+    type(rate_holder), pointer :: holder
+    type(c_ptr) :: integrator
+    integer(c_int32_t) :: code
+    if (options%is_missing(status)) return
+    allocate (holder)
+    holder%rate => rate
+    code = c_integrator_create_first_order(int(size, c_int64_t), c_funloc(call_rate), c_loc(holder), &
+      options%address(), integrator)
+    if (code == 0) then
+      call take_new(self, integrator)
+      call self%keep(holder, of_rate)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  subroutine take_new(self, integrator, system)
+    class(hooke_integrator), intent(inout) :: self
+    type(c_ptr), intent(in) :: integrator
+    class(hooke_system), intent(in), optional :: system
+    call self%take(integrator, c_integrator_destroy, system)
+    call self%options%take(c_integrator_options(integrator), owner=self)
+  end subroutine
+
+  ! ---- watching: at most one of each kind; without an observer it is taken back. What watches has to stay where it is
+  ! as long as it does. ----
+
+  subroutine on_frame(self, observer, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_observer), target, intent(inout), optional :: observer
+    integer, intent(out), optional :: status
+    type(observer_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(observer)) then
+      call accept(c_integrator_on_frame(self%address(), c_null_funptr, c_null_ptr), status)
+      return
+    end if
+    allocate (holder)
+    holder%observer => observer
+    code = c_integrator_on_frame(self%address(), c_funloc(call_observer), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_frames)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! Called every `stride` steps.
+  subroutine on_step(self, stride, observer, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer, intent(in) :: stride
+    class(hooke_observer), target, intent(inout), optional :: observer
+    integer, intent(out), optional :: status
+    type(observer_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(observer)) then
+      code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_null_funptr, c_null_ptr)
+      call accept(code, status)
+      return
+    end if
+    allocate (holder)
+    holder%observer => observer
+    code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_funloc(call_observer), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_steps)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! Told once a run when the step is near the safe one, and when it is above.
+  subroutine on_warning(self, warning, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_warning), target, intent(inout), optional :: warning
+    integer, intent(out), optional :: status
+    type(warning_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(warning)) then
+      call accept(c_integrator_on_warning(self%address(), c_null_funptr, c_null_ptr), status)
+      return
+    end if
+    allocate (holder)
+    holder%warning => warning
+    code = c_integrator_on_warning(self%address(), c_funloc(call_warning), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_warnings)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! ---- running ----
+
+  ! Frames that run() reports, the initial one included.
+  integer function frame_count(self)
+    class(hooke_integrator), intent(in) :: self
+    frame_count = to_integer(c_integrator_frame_count(self%address()))
+  end function
+
+  ! Runs `duration` from the state's time on; `state` is the final state on return.
+  subroutine run(self, state, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_state), intent(inout) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_integrator_run(self%address(), state%address()), status)
+  end subroutine
+
+  ! Takes some steps, without frames.
+  subroutine step_some(self, state, steps, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_state), intent(inout) :: state
+    integer(c_int32_t), intent(in) :: steps
+    integer, intent(out), optional :: status
+    call self%step(state, int(steps, hooke_long), status)
+  end subroutine
+
+  subroutine step_many(self, state, steps, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_state), intent(inout) :: state
+    integer(hooke_long), intent(in) :: steps
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_integrator_step(self%address(), state%address(), steps), status)
+  end subroutine
+
+  ! ---- what it did, since it was made ----
+
+  ! "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
+  ! "linear_iterations", "error_test_failures", "coincident_springs", "memory_bytes"; -1 for any other word.
+  integer(hooke_long) function count_of(self, what)
+    class(hooke_integrator), intent(in) :: self
+    character(*), intent(in) :: what
+    count_of = c_integrator_count(self%address(), to_c(what))
+  end function
+
+  ! Time spent stepping [s].
+  real(c_double) function wall_seconds(self)
+    class(hooke_integrator), intent(in) :: self
+    wall_seconds = c_integrator_wall_seconds(self%address())
+  end function
+
+  ! The last good states of the run: the first place is the last one.
+  integer function recent_count(self)
+    class(hooke_integrator), intent(in) :: self
+    recent_count = to_integer(c_integrator_recent_count(self%address()))
+  end function
+
+  subroutine recent(self, place, state, status)
+    class(hooke_integrator), intent(in) :: self
+    integer, intent(in) :: place
+    class(hooke_state), intent(inout) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_integrator_recent(self%address(), zero_based(place), state%address()), status)
+  end subroutine
+
+  ! What the callback that stopped the run set; 0 if none did.
+  integer function stop_value(self)
+    class(hooke_integrator), intent(in) :: self
+    stop_value = int(c_integrator_stop_value(self%address()))
+  end function
+
+  ! Time at which divergence was noticed [s], NaN if it was not.
+  real(c_double) function diverged_at(self)
+    class(hooke_integrator), intent(in) :: self
+    diverged_at = c_integrator_diverged_at(self%address())
+  end function
+
+  impure elemental subroutine assign(self, other)
+    class(hooke_integrator), intent(inout) :: self
+    type(hooke_integrator), intent(in) :: other
+    if (self%has_that_of(other)) return
+    call self%share(other)
+    self%options = other%options
+  end subroutine
+
+  subroutine destroy(self)
+    class(hooke_integrator), intent(inout) :: self
+    call self%options%destroy()
+    call self%hooke_handle%destroy()
+  end subroutine
+end module

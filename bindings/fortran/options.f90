@@ -1,0 +1,274 @@
+! Named options, with their types, units, bounds and defaults.
+module hooke_option_tables
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
+  use hooke_c_build, only: c_mesh_set, c_part_options_create
+  use hooke_c_cost, only: c_cost_options_create
+  use hooke_c_integrator, only: c_run_options_create
+  use hooke_c_io, only: c_mesh_read
+  use hooke_c_limit, only: c_limit_options_create
+  use hooke_c_needs, only: c_needs_options_create
+  use hooke_c_options
+  use hooke_c_study, only: c_study_options_create
+  use hooke_c_system, only: c_spring_options_create
+  use hooke_handles, only: hooke_handle
+  implicit none
+  private
+  public :: hooke_options, options_or_null
+
+  type, extends(hooke_handle) :: hooke_options
+  contains
+    procedure :: create_run      ! made for the options of a run,
+    procedure :: create_spring   ! of a group of springs,
+    procedure :: create_part     ! of a part of some kind,
+    procedure :: create_study    ! of a study,
+    procedure :: create_limit    ! of a limit,
+    procedure :: create_cost     ! of a cost,
+    procedure :: create_needs    ! of what a scene needs
+    procedure :: copy_to         ! another object with the same values
+    procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
+    generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
+    procedure :: set_mesh        ! the surface of a part of the kind "mesh", from arrays
+    procedure :: read_mesh       ! or from an OBJ file
+    procedure :: unset
+    procedure :: is_set
+    procedure :: number          ! the first number, NaN if there is none
+    procedure :: numbers         ! all of them
+    procedure :: number_count
+    procedure :: text            ! the word, "" if there is none
+    procedure :: row_count       ! the table itself
+    procedure :: row             ! "name", "type", "unit", "default", "allowed" or "doc" of a row
+    procedure, private :: assign
+    generic :: assignment(=) => assign
+  end type
+
+contains
+
+  impure elemental subroutine assign(self, other)
+    class(hooke_options), intent(inout) :: self
+    type(hooke_options), intent(in) :: other
+    call self%share(other)
+  end subroutine
+
+  ! What C gets for options that may be left out.
+  type(c_ptr) function options_or_null(options)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr
+    type(hooke_options), intent(in), optional :: options
+    options_or_null = c_null_ptr
+    if (present(options)) options_or_null = options%address()
+  end function
+
+  subroutine take_new(self, code, options, status)
+    class(hooke_options), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: code
+    type(c_ptr), intent(in) :: options
+    integer, intent(out), optional :: status
+    if (code == 0) call self%take(options, c_options_destroy)
+    call accept(code, status)
+  end subroutine
+
+  subroutine create_run(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_run_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_spring(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_spring_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_part(self, kind, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: kind
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_part_options_create(to_c(kind), options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_study(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_study_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_limit(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_limit_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_cost(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_cost_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_needs(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_needs_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine copy_to(self, copy, status)
+    class(hooke_options), intent(in) :: self
+    type(hooke_options), intent(inout) :: copy
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    code = c_options_copy(self%address(), options)
+    call take_new(copy, code, options, status)
+  end subroutine
+
+  subroutine set_real(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(in) :: value
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_options_set_number(self%address(), to_c(name), value), status)
+  end subroutine
+
+  subroutine set_reals(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(in), contiguous :: value(:)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_options_set_numbers(self%address(), to_c(name), size(value, kind=c_int64_t), value), status)
+  end subroutine
+
+  subroutine set_whole(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(in) :: value
+    integer, intent(out), optional :: status
+    call self%set(name, real(value, c_double), status)
+  end subroutine
+
+  subroutine set_wholes(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(in) :: value(:)
+    integer, intent(out), optional :: status
+    call self%set(name, real(value, c_double), status)
+  end subroutine
+
+  subroutine set_logical(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    logical, intent(in) :: value
+    integer, intent(out), optional :: status
+    call self%set(name, merge(1, 0, value), status)
+  end subroutine
+
+  subroutine set_text(self, name, value, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name, value
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_options_set_text(self%address(), to_c(name), to_c(value)), status)
+  end subroutine
+
+  ! vertices(3, m) [m] and triangles(3, n) of their numbers, from 1.
+  subroutine set_mesh(self, vertices, triangles, status)
+    class(hooke_options), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: vertices(:, :)
+    integer, intent(in) :: triangles(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (size(vertices, 1) /= 3 .or. size(triangles, 1) /= 3) then
+      call refuse(hooke_bad_value, "vertices and triangles of a mesh have the shapes (3, m) and (3, n)", status)
+      return
+    end if
+    call accept(c_mesh_set(self%address(), size(vertices, 2, c_int64_t), vertices, size(triangles, 2, c_int64_t), &
+      zero_based(triangles)), status)
+  end subroutine
+
+  subroutine read_mesh(self, path, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_mesh_read(to_c(path), self%address()), status)
+  end subroutine
+
+  subroutine unset(self, name, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_options_unset(self%address(), to_c(name)), status)
+  end subroutine
+
+  logical function is_set(self, name)
+    class(hooke_options), intent(in) :: self
+    character(*), intent(in) :: name
+    is_set = c_options_is_set(self%address(), to_c(name)) == 1
+  end function
+
+  real(c_double) function number(self, name)
+    class(hooke_options), intent(in) :: self
+    character(*), intent(in) :: name
+    number = c_options_number(self%address(), to_c(name))
+  end function
+
+  function numbers(self, name) result(values)
+    class(hooke_options), intent(in) :: self
+    character(*), intent(in) :: name
+    real(c_double), allocatable :: values(:)
+    real(c_double), pointer, contiguous :: there(:)
+    there => to_series(c_options_numbers(self%address(), to_c(name)), &
+      c_options_number_count(self%address(), to_c(name)))
+    allocate (values(0))
+    if (associated(there)) values = there
+  end function
+
+  integer function number_count(self, name)
+    class(hooke_options), intent(in) :: self
+    character(*), intent(in) :: name
+    number_count = to_integer(c_options_number_count(self%address(), to_c(name)))
+  end function
+
+  function text(self, name)
+    class(hooke_options), intent(in) :: self
+    character(*), intent(in) :: name
+    character(:), allocatable :: text
+    text = to_text(c_options_text(self%address(), to_c(name)))
+  end function
+
+  integer function row_count(self)
+    class(hooke_options), intent(in) :: self
+    row_count = to_integer(c_options_row_count(self%address()))
+  end function
+
+  function row(self, number, property) result(text)
+    class(hooke_options), intent(in) :: self
+    integer, intent(in) :: number
+    character(*), intent(in) :: property
+    character(:), allocatable :: text
+    text = to_text(c_options_row(self%address(), zero_based(number), to_c(property)))
+  end function
+end module

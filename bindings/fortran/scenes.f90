@@ -1,0 +1,108 @@
+! Scene files (JSON): a system and the options of a run.
+module hooke_scenes
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
+  use hooke_base, only: accept, to_c, to_c_if, to_text
+  use hooke_c_io
+  use hooke_handles, only: hooke_handle
+  use hooke_option_tables, only: hooke_options
+  use hooke_systems, only: hooke_system
+  implicit none
+  private
+  public :: hooke_scene, own_process
+
+  type, extends(hooke_handle) :: hooke_scene
+    type(hooke_system) :: system ! built, not yet committed
+    type(hooke_options) :: run   ! those of `run`, which may be changed
+  contains
+    procedure :: load
+    procedure :: parse
+    procedure :: commit
+    procedure :: title
+    procedure :: text
+    procedure :: destroy
+    procedure, private :: assign
+    generic :: assignment(=) => assign
+  end type
+
+contains
+
+  ! For a program that is its own master: keeps HDF5 from running code at exit. To be called before anything else.
+  subroutine own_process(status)
+    integer, intent(out), optional :: status
+    call accept(c_io_own_process(), status)
+  end subroutine
+
+  ! Reads a scene file, or the scene that a trajectory file was made from.
+  subroutine load(self, path, status)
+    class(hooke_scene), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    type(c_ptr) :: scene
+    integer(c_int32_t) :: code
+    code = c_scene_load(to_c(path), scene)
+    if (code == 0) call take_new(self, scene)
+    call accept(code, status)
+  end subroutine
+
+  ! The same from text; `name` stands for the file in messages, `folder` is where files named in it are looked up
+  ! (without it none are allowed).
+  subroutine parse(self, text, name, folder, status)
+    class(hooke_scene), intent(inout) :: self
+    character(*, kind=c_char), intent(in) :: text
+    character(*), intent(in), optional :: name, folder
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name, c_folder
+    type(c_ptr) :: scene
+    integer(c_int32_t) :: code
+    c_name = to_c("scene")
+    if (present(name)) c_name = to_c(name)
+    call to_c_if(folder, c_folder)
+    code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, scene)
+    if (code == 0) call take_new(self, scene)
+    call accept(code, status)
+  end subroutine
+
+  subroutine take_new(self, scene)
+    class(hooke_scene), intent(inout) :: self
+    type(c_ptr), intent(in) :: scene
+    call self%take(scene, c_scene_destroy)
+    call self%system%take(c_scene_system(scene), owner=self)
+    call self%run%take(c_scene_run_options(scene), owner=self)
+  end subroutine
+
+  ! Commits the system, with messages that give the place in the file.
+  subroutine commit(self, status)
+    class(hooke_scene), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_scene_commit(self%address()), status)
+  end subroutine
+
+  function title(self)
+    class(hooke_scene), intent(in) :: self
+    character(:), allocatable :: title
+    title = to_text(c_scene_title(self%address()))
+  end function
+
+  function text(self)
+    class(hooke_scene), intent(in) :: self
+    character(:), allocatable :: text
+    text = to_text(c_scene_text(self%address()))
+  end function
+
+  impure elemental subroutine assign(self, other)
+    class(hooke_scene), intent(inout) :: self
+    type(hooke_scene), intent(in) :: other
+    if (self%has_that_of(other)) return
+    call self%share(other)
+    self%system = other%system
+    self%run = other%run
+  end subroutine
+
+  subroutine destroy(self)
+    class(hooke_scene), intent(inout) :: self
+    call self%system%destroy()
+    call self%run%destroy()
+    call self%hooke_handle%destroy()
+  end subroutine
+end module

@@ -1,0 +1,456 @@
+! What a scene is: particles, springs and forces. Built (module hooke_builders), committed, then only asked.
+!
+! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
+module hooke_systems
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
+    to_series, to_text, zero_based
+  use hooke_builders, only: hooke_builder
+  use hooke_c_io, only: c_scene_write
+  use hooke_c_measure, only: c_step_bound
+  use hooke_c_system
+  use hooke_option_tables, only: hooke_options, options_or_null
+  implicit none
+  private
+  public :: hooke_system
+
+  type, extends(hooke_builder) :: hooke_system
+  contains
+    procedure :: is_committed
+    procedure :: particle_count
+    procedure :: free_count
+    procedure :: spring_count
+    procedure :: dropped_spring_count
+    procedure :: idle_count
+    procedure :: group_count
+    procedure :: group_name
+    procedure :: group_size
+    procedure :: mass
+    procedure :: inverse_mass
+    procedure :: spring_ends
+    procedure :: spring_material
+    procedure :: bending_count
+    procedure :: bending_group_count
+    procedure :: bending_group_name
+    procedure :: bending_group_size
+    procedure :: bending_ends
+    procedure :: bending_coefficient
+    procedure :: derived_count
+    procedure :: derived_text
+    procedure :: derived_value
+    procedure :: force_count
+    procedure :: force_name
+    procedure :: memory
+    procedure :: spring_memory
+    procedure :: force
+    procedure :: acceleration
+    procedure :: coincident_springs
+    procedure :: derivative_product
+    procedure :: block_count
+    procedure :: derivative_pattern
+    procedure :: derivative_blocks
+    procedure :: kinetic_energy
+    procedure :: spring_energy
+    procedure :: bending_energy
+    procedure :: gravity_energy
+    procedure :: potential_energy
+    procedure :: energy
+    procedure :: dissipated_power
+    procedure :: momentum
+    procedure :: angular_momentum
+    procedure :: step_bound
+    procedure :: write_scene
+    procedure, private :: assign
+    generic :: assignment(=) => assign
+  end type
+
+contains
+
+  impure elemental subroutine assign(self, other)
+    class(hooke_system), intent(inout) :: self
+    type(hooke_system), intent(in) :: other
+    call self%share(other)
+  end subroutine
+
+  logical function is_committed(self)
+    class(hooke_system), intent(in) :: self
+    is_committed = c_system_is_committed(self%address()) == 1
+  end function
+
+  integer function particle_count(self)
+    class(hooke_system), intent(in) :: self
+    particle_count = to_integer(c_system_particle_count(self%address()))
+  end function
+
+  ! Particles that are neither pinned nor driven.
+  integer function free_count(self)
+    class(hooke_system), intent(in) :: self
+    free_count = to_integer(c_system_free_count(self%address()))
+  end function
+
+  integer function spring_count(self)
+    class(hooke_system), intent(in) :: self
+    spring_count = to_integer(c_system_spring_count(self%address()))
+  end function
+
+  ! Springs that commit has dropped, since they have neither stiffness nor damping.
+  integer function dropped_spring_count(self)
+    class(hooke_system), intent(in) :: self
+    dropped_spring_count = to_integer(c_system_dropped_spring_count(self%address()))
+  end function
+
+  ! Pinned particles that nothing touches.
+  integer function idle_count(self)
+    class(hooke_system), intent(in) :: self
+    idle_count = to_integer(c_system_idle_count(self%address()))
+  end function
+
+  integer function group_count(self)
+    class(hooke_system), intent(in) :: self
+    group_count = to_integer(c_system_group_count(self%address()))
+  end function
+
+  function group_name(self, group) result(text)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    character(:), allocatable :: text
+    text = to_text(c_system_group_name(self%address(), zero_based(group)))
+  end function
+
+  integer function group_size(self, group)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    group_size = to_integer(c_system_group_size(self%address(), zero_based(group)))
+  end function
+
+  ! Masses [kg] and inverse masses [1/kg], 0 where held or driven; not associated before commit.
+
+  function mass(self) result(series)
+    class(hooke_system), intent(in) :: self
+    real(c_double), pointer, contiguous :: series(:)
+    series => to_series(c_system_mass(self%address()), c_system_particle_count(self%address()))
+  end function
+
+  function inverse_mass(self) result(series)
+    class(hooke_system), intent(in) :: self
+    real(c_double), pointer, contiguous :: series(:)
+    series => to_series(c_system_inverse_mass(self%address()), c_system_particle_count(self%address()))
+  end function
+
+  ! The particles ends(2, spring_count) of every spring.
+  subroutine spring_ends(self, ends, status)
+    class(hooke_system), intent(in) :: self
+    integer, allocatable, intent(out) :: ends(:, :)
+    integer, intent(out), optional :: status
+    integer(c_int64_t), allocatable :: numbers(:, :)
+    if (self%is_missing(status)) return
+    allocate (numbers(2, self%spring_count()), source=0_c_int64_t)
+    call accept(c_system_spring_ends(self%address(), numbers), status)
+    ends = int(numbers) + 1
+  end subroutine
+
+  ! kappa [N/m], gamma [N s/m] and rest length [m] of every spring.
+  subroutine spring_material(self, kappa, gamma, rest_length, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), allocatable, intent(out) :: kappa(:), gamma(:), rest_length(:)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    allocate (kappa(self%spring_count()), source=0.0_c_double)
+    gamma = kappa
+    rest_length = kappa
+    call accept(c_system_spring_material(self%address(), kappa, gamma, rest_length), status)
+  end subroutine
+
+  ! The same of bending.
+
+  integer function bending_count(self)
+    class(hooke_system), intent(in) :: self
+    bending_count = to_integer(c_system_bending_count(self%address()))
+  end function
+
+  integer function bending_group_count(self)
+    class(hooke_system), intent(in) :: self
+    bending_group_count = to_integer(c_system_bending_group_count(self%address()))
+  end function
+
+  function bending_group_name(self, group) result(text)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    character(:), allocatable :: text
+    text = to_text(c_system_bending_group_name(self%address(), zero_based(group)))
+  end function
+
+  integer function bending_group_size(self, group)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    bending_group_size = to_integer(c_system_bending_group_size(self%address(), zero_based(group)))
+  end function
+
+  subroutine bending_ends(self, ends, status)
+    class(hooke_system), intent(in) :: self
+    integer, allocatable, intent(out) :: ends(:, :)
+    integer, intent(out), optional :: status
+    integer(c_int64_t), allocatable :: numbers(:, :)
+    if (self%is_missing(status)) return
+    allocate (numbers(3, self%bending_count()), source=0_c_int64_t)
+    call accept(c_system_bending_ends(self%address(), numbers), status)
+    ends = int(numbers) + 1
+  end subroutine
+
+  subroutine bending_coefficient(self, coefficient, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), allocatable, intent(out) :: coefficient(:)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    allocate (coefficient(self%bending_count()), source=0.0_c_double)
+    call accept(c_system_bending_coefficient(self%address(), coefficient), status)
+  end subroutine
+
+  ! Numbers that parts derived from their options: texts "part", "family", "name" and "unit", and the value.
+
+  integer function derived_count(self)
+    class(hooke_system), intent(in) :: self
+    derived_count = to_integer(c_system_derived_count(self%address()))
+  end function
+
+  function derived_text(self, number, what) result(text)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: number
+    character(*), intent(in) :: what
+    character(:), allocatable :: text
+    text = to_text(c_system_derived_text(self%address(), zero_based(number), to_c(what)))
+  end function
+
+  real(c_double) function derived_value(self, number)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: number
+    derived_value = c_system_derived_value(self%address(), zero_based(number))
+  end function
+
+  ! The forces that this system computes.
+  integer function force_count(self)
+    class(hooke_system), intent(in) :: self
+    force_count = to_integer(c_system_force_count(self%address()))
+  end function
+
+  function force_name(self, number) result(text)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: number
+    character(:), allocatable :: text
+    text = to_text(c_system_force_name(self%address(), zero_based(number)))
+  end function
+
+  ! Memory of the committed system [bytes], and how much of it goes with its springs.
+  integer(hooke_long) function memory(self)
+    class(hooke_system), intent(in) :: self
+    memory = c_system_memory(self%address())
+  end function
+
+  integer(hooke_long) function spring_memory(self)
+    class(hooke_system), intent(in) :: self
+    spring_memory = c_system_spring_memory(self%address())
+  end function
+
+  ! ---- forces and energies at q(3, n) and v(3, n) ----
+
+  ! Whether arrays of (3, n) suit; where there is nobody to tell, they have to.
+  logical function suits(self, status, first, second)
+    class(hooke_system), intent(in) :: self
+    integer, intent(out), optional :: status
+    real(c_double), intent(in) :: first(:, :)
+    real(c_double), intent(in), optional :: second(:, :)
+    integer(c_int64_t) :: n
+    suits = .not. self%is_missing(status)
+    if (.not. suits) return
+    n = c_system_particle_count(self%address())
+    suits = is_3_by(first, n)
+    if (suits .and. present(second)) suits = is_3_by(second, n)
+    if (.not. suits) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
+  end function
+
+  subroutine must_suit(self, first, second)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in) :: first(:, :)
+    real(c_double), intent(in), optional :: second(:, :)
+    if (.not. suits(self, first=first, second=second)) return ! the program has ended
+  end subroutine
+
+  ! Force on every particle [N].
+  subroutine force(self, t, q, v, forces, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in) :: t
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    real(c_double), intent(inout), contiguous :: forces(:, :)
+    integer, intent(out), optional :: status
+    if (.not. suits(self, status, q, v)) return
+    if (.not. suits(self, status, forces)) return
+    call accept(c_system_force(self%address(), t, q, v, forces), status)
+  end subroutine
+
+  ! Acceleration of every particle [m/s^2].
+  subroutine acceleration(self, t, q, v, accelerations, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in) :: t
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    real(c_double), intent(inout), contiguous :: accelerations(:, :)
+    integer, intent(out), optional :: status
+    if (.not. suits(self, status, q, v)) return
+    if (.not. suits(self, status, accelerations)) return
+    call accept(c_system_acceleration(self%address(), t, q, v, accelerations), status)
+  end subroutine
+
+  ! Springs whose ends coincide although their rest length is not zero.
+  integer function coincident_springs(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    coincident_springs = to_integer(c_system_coincident_springs(self%address(), q))
+  end function
+
+  ! product = (df/dq) dq + (df/dv) dv
+  subroutine derivative_product(self, t, q, v, dq, dv, product, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in) :: t
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :), dq(:, :), dv(:, :)
+    real(c_double), intent(inout), contiguous :: product(:, :)
+    integer, intent(out), optional :: status
+    if (.not. suits(self, status, q, v)) return
+    if (.not. suits(self, status, dq, dv)) return
+    if (.not. suits(self, status, product)) return
+    call accept(c_system_derivative_product(self%address(), t, q, v, dq, dv, product), status)
+  end subroutine
+
+  integer function block_count(self)
+    class(hooke_system), intent(in) :: self
+    block_count = to_integer(c_system_block_count(self%address()))
+  end function
+
+  ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
+  subroutine derivative_pattern(self, row_start, column, status)
+    class(hooke_system), intent(in) :: self
+    integer, allocatable, intent(out) :: row_start(:), column(:)
+    integer, intent(out), optional :: status
+    integer(c_int64_t), allocatable :: starts(:), columns(:)
+    if (self%is_missing(status)) return
+    allocate (starts(self%particle_count() + 1), columns(self%block_count()), source=0_c_int64_t)
+    call accept(c_system_derivative_pattern(self%address(), starts, columns), status)
+    row_start = int(starts) + 1
+    column = int(columns) + 1
+  end subroutine
+
+  ! dfdq(i, j, k) is the derivative of the force's component i by the position's component j, in block k; and dfdv by
+  ! velocity. Callbacks are left out.
+  subroutine derivative_blocks(self, q, v, dfdq, dfdv, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    real(c_double), allocatable, intent(out) :: dfdq(:, :, :), dfdv(:, :, :)
+    integer, intent(out), optional :: status
+    integer :: k
+    if (.not. suits(self, status, q, v)) return
+    allocate (dfdq(3, 3, self%block_count()), source=0.0_c_double)
+    dfdv = dfdq
+    call accept(c_system_derivative_blocks(self%address(), q, v, dfdq, dfdv), status)
+    do k = 1, size(dfdq, 3) ! C has rows of them
+      dfdq(:, :, k) = transpose(dfdq(:, :, k))
+      dfdv(:, :, k) = transpose(dfdv(:, :, k))
+    end do
+  end subroutine
+
+  ! Energies [J] of the springs, of bending and of the free particles.
+
+  real(c_double) function kinetic_energy(self, v)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: v(:, :)
+    call must_suit(self, v)
+    kinetic_energy = c_system_kinetic_energy(self%address(), v)
+  end function
+
+  real(c_double) function spring_energy(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    spring_energy = c_system_spring_energy(self%address(), q)
+  end function
+
+  real(c_double) function bending_energy(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    bending_energy = c_system_bending_energy(self%address(), q)
+  end function
+
+  real(c_double) function gravity_energy(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    gravity_energy = c_system_gravity_energy(self%address(), q)
+  end function
+
+  real(c_double) function potential_energy(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    potential_energy = c_system_potential_energy(self%address(), q)
+  end function
+
+  real(c_double) function energy(self, q, v)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    call must_suit(self, q, v)
+    energy = c_system_energy(self%address(), q, v)
+  end function
+
+  ! Power that damping and drag turn into heat [W].
+  real(c_double) function dissipated_power(self, q, v)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    call must_suit(self, q, v)
+    dissipated_power = c_system_dissipated_power(self%address(), q, v)
+  end function
+
+  ! Momentum [kg m/s] of the free particles,
+  function momentum(self, v) result(total)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: v(:, :)
+    real(c_double) :: total(3)
+    call must_suit(self, v)
+    call c_system_momentum(self%address(), v, total)
+  end function
+
+  ! and their angular momentum about the origin [kg m^2/s].
+  function angular_momentum(self, q, v) result(total)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    real(c_double) :: total(3)
+    call must_suit(self, q, v)
+    call c_system_angular_momentum(self%address(), q, v, total)
+  end function
+
+  ! A step [s] below which `method` is certain to be stable at q.
+  subroutine step_bound(self, method, q, bound, status)
+    class(hooke_system), intent(in) :: self
+    character(*), intent(in) :: method
+    real(c_double), intent(in), contiguous :: q(:, :)
+    real(c_double), intent(out) :: bound
+    integer, intent(out), optional :: status
+    real(c_double) :: found(1)
+    bound = 0
+    if (.not. suits(self, status, q)) return
+    found = 0
+    call accept(c_step_bound(self%address(), to_c(method), q, found), status)
+    bound = found(1)
+  end subroutine
+
+  ! Writes the committed system as a scene file, with the options of a run.
+  subroutine write_scene(self, path, title, run, status)
+    class(hooke_system), intent(in) :: self
+    character(*), intent(in) :: path
+    character(*), intent(in), optional :: title
+    type(hooke_options), intent(in), optional :: run
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_title
+    if (self%is_missing(status)) return
+    call to_c_if(title, c_title)
+    call accept(c_scene_write(to_c(path), self%address(), c_title, options_or_null(run)), status)
+  end subroutine
+end module

@@ -1,0 +1,219 @@
+! Trajectory files (HDF5): written, read back, and one for a whole comparison.
+module hooke_trajectories
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_ptr
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
+    to_integer, to_text
+  use hooke_c_io
+  use hooke_comparisons, only: hooke_comparison
+  use hooke_handles, only: hooke_handle
+  use hooke_integrators, only: hooke_integrator
+  use hooke_option_tables, only: hooke_options
+  use hooke_states, only: hooke_state
+  use hooke_systems, only: hooke_system
+  implicit none
+  private
+  public :: hooke_trajectory, hooke_record, hooke_comparison_file
+
+  ! A file under way. One that goes out of scope is closed as "stopped".
+  type, extends(hooke_handle) :: hooke_trajectory
+  contains
+    procedure :: create => create_trajectory
+    procedure :: write => write_frame
+    procedure :: write_behind
+    procedure :: close => close_trajectory
+    procedure, private :: assign_trajectory
+    generic :: assignment(=) => assign_trajectory
+  end type
+
+  ! A file read back.
+  type, extends(hooke_handle) :: hooke_record
+    type(hooke_options) :: options ! of the run, as it ran
+  contains
+    procedure :: open => open_record
+    procedure :: text
+    procedure :: frame_count
+    procedure :: read => read_frame
+    procedure :: destroy => close_record
+    procedure, private :: assign_record
+    generic :: assignment(=) => assign_record
+  end type
+
+  type, extends(hooke_handle) :: hooke_comparison_file
+  contains
+    procedure :: create => create_comparison_file
+    procedure :: close => close_comparison_file
+    procedure, private :: assign_comparison_file
+    generic :: assignment(=) => assign_comparison_file
+  end type
+
+contains
+
+  ! Creates a file for all frames that `integrator` is going to report.
+  subroutine create_trajectory(self, path, system, integrator, scene_text, status)
+    class(hooke_trajectory), intent(inout) :: self
+    character(*), intent(in) :: path
+    class(hooke_system), intent(in) :: system
+    class(hooke_integrator), intent(in) :: integrator
+    character(*), intent(in), optional :: scene_text
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_text
+    type(c_ptr) :: trajectory
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    if (integrator%is_missing(status)) return
+    call to_c_if(scene_text, c_text)
+    code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
+    if (code == 0) call self%take(trajectory, abandon_trajectory, system)
+    call accept(code, status)
+  end subroutine
+
+  ! Writes the next frame.
+  subroutine write_frame(self, step, state, status)
+    class(hooke_trajectory), intent(inout) :: self
+    integer(hooke_long), intent(in) :: step
+    class(hooke_state), intent(in) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_trajectory_write(self%address(), step, state%address()), status)
+  end subroutine
+
+  ! From here on large frames are written by a thread while steps go on.
+  subroutine write_behind(self, status)
+    class(hooke_trajectory), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_trajectory_write_behind(self%address()), status)
+  end subroutine
+
+  ! Writes the outcome, the status of hooke_integrator's run(), and closes the file.
+  subroutine close_trajectory(self, outcome, status)
+    class(hooke_trajectory), intent(inout) :: self
+    integer, intent(in), optional :: outcome
+    integer, intent(out), optional :: status
+    integer(c_int32_t) :: ended
+    type(c_ptr) :: trajectory
+    if (self%is_missing(status)) return
+    ended = hooke_ok
+    if (present(outcome)) ended = int(outcome, c_int32_t)
+    trajectory = self%give_up()
+    call accept(c_trajectory_close(trajectory, ended), status)
+  end subroutine
+
+  subroutine abandon_trajectory(trajectory) bind(c, name="")
+    type(c_ptr), value :: trajectory
+    integer(c_int32_t) :: code
+    code = c_trajectory_close(trajectory, int(hooke_stopped, c_int32_t))
+    if (code /= 0) return ! nobody is left to be told
+  end subroutine
+
+  impure elemental subroutine assign_trajectory(self, other)
+    class(hooke_trajectory), intent(inout) :: self
+    type(hooke_trajectory), intent(in) :: other
+    call self%share(other)
+  end subroutine
+
+  ! ---- read back ----
+
+  ! Opens a trajectory file, finished or not.
+  subroutine open_record(self, path, status)
+    class(hooke_record), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    type(c_ptr) :: record
+    integer(c_int32_t) :: code
+    code = c_record_open(to_c(path), record)
+    if (code == 0) then
+      call self%take(record, c_record_close)
+      call self%options%take(c_record_options(record), owner=self)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! "scene" or "status"; "" for another word.
+  function text(self, what)
+    class(hooke_record), intent(in) :: self
+    character(*), intent(in) :: what
+    character(:), allocatable :: text
+    text = to_text(c_record_text(self%address(), to_c(what)))
+  end function
+
+  integer function frame_count(self)
+    class(hooke_record), intent(in) :: self
+    frame_count = to_integer(c_record_frame_count(self%address()))
+  end function
+
+  ! Reads a frame into a state of the scene's system: 1 is the first, -1 the last, -2 the one before it.
+  subroutine read_frame(self, frame, state, status)
+    class(hooke_record), intent(in) :: self
+    integer, intent(in) :: frame
+    class(hooke_state), intent(inout) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    if (frame == 0) then
+      call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
+      return
+    end if
+    call accept(c_record_read(self%address(), int(merge(frame - 1, frame, frame > 0), c_int64_t), state%address()), &
+      status)
+  end subroutine
+
+  subroutine close_record(self)
+    class(hooke_record), intent(inout) :: self
+    call self%options%destroy()
+    call self%hooke_handle%destroy()
+  end subroutine
+
+  impure elemental subroutine assign_record(self, other)
+    class(hooke_record), intent(inout) :: self
+    type(hooke_record), intent(in) :: other
+    if (self%has_that_of(other)) return
+    call self%share(other)
+    self%options = other%options
+  end subroutine
+
+  ! ---- comparisons ----
+
+  ! Creates one file for a comparison that has its rows added, before it runs; its observer of frames is taken over.
+  subroutine create_comparison_file(self, path, system, comparison, scene_text, status)
+    class(hooke_comparison_file), intent(inout) :: self
+    character(*), intent(in) :: path
+    class(hooke_system), intent(in) :: system
+    class(hooke_comparison), intent(inout) :: comparison
+    character(*), intent(in), optional :: scene_text
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_text
+    type(c_ptr) :: file
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    if (comparison%is_missing(status)) return
+    call to_c_if(scene_text, c_text)
+    code = c_comparison_file_create(to_c(path), system%address(), comparison%address(), c_text, file)
+    if (code == 0) call self%take(file, abandon_comparison_file, comparison)
+    call accept(code, status)
+  end subroutine
+
+  ! Writes the table and the error over time, and closes the file.
+  subroutine close_comparison_file(self, status)
+    class(hooke_comparison_file), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: file
+    if (self%is_missing(status)) return
+    file = self%give_up()
+    call accept(c_comparison_file_close(file), status)
+  end subroutine
+
+  subroutine abandon_comparison_file(file) bind(c, name="")
+    type(c_ptr), value :: file
+    integer(c_int32_t) :: code
+    code = c_comparison_file_close(file)
+    if (code /= 0) return ! nobody is left to be told
+  end subroutine
+
+  impure elemental subroutine assign_comparison_file(self, other)
+    class(hooke_comparison_file), intent(inout) :: self
+    type(hooke_comparison_file), intent(in) :: other
+    call self%share(other)
+  end subroutine
+end module

@@ -1,0 +1,179 @@
+! Scenes, trajectories and comparisons, written and read.
+module writers
+  use hooke
+  implicit none
+
+  type, extends(hooke_observer) :: writer
+    type(hooke_trajectory) :: trajectory
+  contains
+    procedure :: see => write_frame
+  end type
+
+contains
+
+  subroutine write_frame(self, step, state, stop_value)
+    class(writer), intent(inout) :: self
+    integer(hooke_long), intent(in) :: step
+    type(hooke_state), intent(in) :: state
+    integer, intent(inout) :: stop_value
+    call self%trajectory%write(step, state, stop_value)
+  end subroutine
+end module
+
+program test_files
+  use check
+  use hooke
+  use parts, only: wind
+  use scenes
+  use writers
+  implicit none
+
+  if (hooke_build_fact("jansson") /= "") then
+    call loading()
+    call writing()
+    if (hooke_build_fact("hdf5") /= "") call trajectories()
+    if (hooke_build_fact("hdf5") /= "" .and. hooke_build_fact("sundials") /= "") call comparisons()
+  else
+    call without_libraries()
+  end if
+  call finish()
+
+contains
+
+  subroutine without_libraries()
+    type(hooke_scene) :: scene
+    integer :: status
+    call scene%load("examples/scenes/rope.json", status)
+    call expect(status == hooke_not_built .and. .not. scene%system%exists(), "no scenes without jansson")
+  end subroutine
+
+  subroutine loading()
+    type(hooke_scene) :: scene, other
+    type(hooke_system) :: system
+    integer :: status
+    call scene%load("no-such-scene.json", status)
+    call expect(status == hooke_bad_value, "no such file")
+    call expect_text(hooke_message(), "no-such-scene.json", "by name")
+    call scene%load("examples/scenes/rope.json")
+    call expect(scene%system%particle_count() == 25 .and. .not. scene%system%is_committed(), "a rope, still open")
+    call expect(scene%title() /= "" .and. index(scene%text(), """hooke""") > 0, "its title and text")
+    call expect(scene%run%number("duration") > 0, "and its run")
+    other = scene
+    call other%commit()
+    call expect(scene%system%is_committed(), "two names of one scene")
+    system = scene%system
+    call scene%destroy()
+    call other%destroy()
+    call expect(system%particle_count() == 25, "a system keeps its scene")
+    call scene%parse('{"hooke": 1, "particles": {"position": [[0, 0, 0]], "mass": -1}}', "here", status=status)
+    call expect(status == hooke_bad_value, "no negative mass")
+    call expect_text(hooke_message(), "here:1", "with the place")
+    call scene%parse('{"hooke": 1, "particles": {"position": [[0, 0, 0], [1, 2, 3]], "mass": 1}}')
+    call expect(scene%system%particle_count() == 2, "a scene from text")
+  end subroutine
+
+  subroutine writing()
+    type(hooke_system) :: system, callback
+    type(hooke_options) :: run, spring
+    type(hooke_scene) :: scene
+    type(hooke_state) :: first, second
+    type(wind), target :: force
+    integer :: status
+    call make_cloth(system)
+    call make_run(run, "verlet", 1e-3_hooke_real, 0.25_hooke_real)
+    call system%write_scene(output("cloth.json"), "from Fortran", run)
+    call scene%load(output("cloth.json"))
+    call expect(scene%title() == "from Fortran" .and. scene%run%text("method") == "verlet", "title and run")
+    call scene%commit()
+    call first%create(system)
+    call second%create(scene%system)
+    call expect(same_count(first%x, second%x) == 75, "the same positions")
+    call expect(scene%system%spring_count() == system%spring_count(), "and springs")
+    call callback%create()
+    call callback%add_particles(reshape([0, 0, 0]*1.0_hooke_real, [3, 1]), 1.0_hooke_real)
+    call spring%create_spring()
+    call callback%set_force(force)
+    call callback%commit()
+    call callback%write_scene(output("callback.json"), status=status)
+    call expect(status == hooke_unsuited, "a procedure is no scene")
+  end subroutine
+
+  subroutine trajectories()
+    type(hooke_scene) :: scene
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state, read_back
+    type(writer), target :: frames
+    type(hooke_record) :: record, other
+    integer :: status
+    call scene%load("examples/scenes/rope.json")
+    call scene%commit()
+    call scene%run%set("duration", 0.1_hooke_real)
+    call scene%run%set("every", 0.01_hooke_real)
+    call integrator%create(scene%system, scene%run)
+    call state%create(scene%system)
+    call frames%trajectory%create(output("rope.h5"), scene%system, integrator, scene%text())
+    call frames%trajectory%write_behind()
+    call integrator%on_frame(frames)
+    call integrator%run(state, status)
+    call frames%trajectory%close(status)
+    call expect(.not. frames%trajectory%exists(), "closed")
+    call frames%trajectory%close(hooke_ok, status)
+    call expect(status == hooke_bad_call, "once")
+    call record%open(output("rope.h5"))
+    other = record
+    call expect(other%frame_count() == 11 .and. other%text("status") == "finished", "eleven frames")
+    call expect(other%text("scene") == scene%text() .and. other%text("nothing") == "", "the scene")
+    call expect(other%options%text("method") == scene%run%text("method"), "and the run")
+    call read_back%create(scene%system)
+    call record%read(-1, read_back)
+    call expect(same_count(read_back%x, state%x) == state%size(), "the last frame is the final state")
+    call record%read(11, read_back)
+    call expect(same_count(read_back%x, state%x) == state%size(), "which is frame 11")
+    call record%read(1, read_back)
+    call expect(same(read_back%time(), 0.0_hooke_real), "frame 1 is the first")
+    call record%read(0, read_back, status)
+    call expect(status == hooke_bad_value, "there is no frame 0")
+    call record%read(12, read_back, status)
+    call expect(status == hooke_bad_value, "nor a frame 12")
+    call record%open("no-such-file.h5", status)
+    call expect(status /= hooke_ok .and. record%exists(), "a record that is open stays")
+    call abandoned(scene)
+  end subroutine
+
+  ! A file that nobody closes is closed when its variable goes.
+  subroutine abandoned(scene)
+    type(hooke_scene), intent(in) :: scene
+    type(hooke_record) :: record
+    call leave(scene)
+    call record%open(output("left.h5"))
+    call expect(record%text("status") == "stopped" .and. record%frame_count() == 1, "with the frame that it had")
+  end subroutine
+
+  subroutine leave(scene)
+    type(hooke_scene), intent(in) :: scene
+    type(hooke_trajectory) :: trajectory
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    call integrator%create(scene%system, scene%run)
+    call state%create(scene%system)
+    call trajectory%create(output("left.h5"), scene%system, integrator)
+    call trajectory%write(0_hooke_long, state)
+  end subroutine
+
+  subroutine comparisons()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_comparison) :: comparison
+    type(hooke_comparison_file) :: file
+    logical :: there
+    call make_oscillator(system)
+    call make_run(run, "rk4", 1e-2_hooke_real, 0.1_hooke_real)
+    call comparison%create(system, run)
+    call comparison%add("rk4")
+    call file%create(output("comparison.h5"), system, comparison)
+    call comparison%run()
+    call file%close()
+    inquire (file=output("comparison.h5"), exist=there)
+    call expect(there .and. .not. file%exists(), "one file for a comparison")
+  end subroutine
+end program

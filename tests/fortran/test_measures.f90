@@ -1,0 +1,279 @@
+! Bounds, comparisons, studies, limits, costs, needs and causes, on scenes that are known.
+program test_measures
+  use check
+  use hooke
+  use parts
+  use scenes
+  implicit none
+  real(hooke_real), parameter :: omega = sqrt(40.0_hooke_real) ! of the oscillator
+
+  if (hooke_build_fact("gsl") == "" .or. hooke_build_fact("sundials") == "") then
+    call without_libraries()
+  else
+    call limits()
+    call comparisons()
+    call studies()
+    call causes()
+    call needs()
+  end if
+  call costs()
+  call finish()
+
+contains
+
+  subroutine without_libraries()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_study) :: study
+    type(hooke_limit) :: limit
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
+    call study%create(system, run, status=status)
+    call expect(status == hooke_not_built .and. .not. study%exists(), "no studies without SUNDIALS and GSL")
+    call limit%create(system, status=status)
+    call expect(status == hooke_not_built .and. .not. limit%exists(), "no limits without a library for eigenvalues")
+  end subroutine
+
+  subroutine limits()
+    type(hooke_system) :: system
+    type(hooke_options) :: options
+    type(hooke_state) :: state
+    type(hooke_limit) :: limit, again
+    type(teller), target :: progress
+    real(hooke_real) :: bound
+    real(hooke_real), pointer :: shape(:, :)
+    integer :: status
+    call make_oscillator(system)
+    call state%create(system)
+    call system%step_bound("symplectic-euler", state%q, bound)
+    call expect(bound > 0 .and. bound <= 2/omega*1.000001_hooke_real, "the bound is safe")
+    call system%step_bound("no such method", state%q, bound, status)
+    call expect(status == hooke_bad_value, "of methods that there are")
+    call expect_near(hooke_limit_of_mode("verlet", omega, 0.0_hooke_real), 2/omega, 1e-12_hooke_real, "2/omega")
+    call options%create_limit()
+    call options%set("methods", "forward-euler,symplectic-euler")
+    call limit%create(system, options=options)
+    call expect(.not. associated(limit%shape()), "no mode before it was found")
+    call limit%on_progress(progress)
+    call limit%find(state)
+    again = limit
+    call expect(again%row_count() == 2 .and. again%text(2, "method") == "symplectic-euler", "a row for each")
+    call expect_near(again%number(2, "predicted"), 2/omega, 1e-9_hooke_real, "predicted")
+    call expect(abs(again%number(2, "ratio") - 1) < 0.01_hooke_real, "measured")
+    call expect(progress%told > 0 .and. progress%done >= 0, "progress was told")
+    call expect_near(again%figure("frequency_max"), omega, 1e-9_hooke_real, "the largest frequency")
+    call expect(again%blame_count() == 1 .and. again%blame_text(1, "group") == "spring", "one spring to blame")
+    call expect(nint(again%blame_number(1, "spring")) == 1 .and. nint(again%blame_number(1, "first")) == 1 &
+      .and. nint(again%blame_number(1, "second")) == 2, "numbers count from 1")
+    call expect_near(again%blame_number(1, "share"), 1.0_hooke_real, 1e-12_hooke_real, "and shares do not")
+    call expect(again%mover_count() == 1 .and. nint(again%mover_number(1, "particle")) == 2, "particle 2 moves")
+    call expect_near(again%mover_number(1, "mass"), 0.5_hooke_real, 1e-12_hooke_real, "of half a kilogram")
+    call expect(again%mode_count() >= 1 .and. abs(again%mode_number(1, "frequency") - omega) < 1e-9_hooke_real, "modes")
+    shape => again%shape()
+    call expect(all([size(shape, 1), size(shape, 2)] == [3, 2]), "the mode has the shape of positions")
+    call expect_near(abs(shape(1, 2)), 1.0_hooke_real, 1e-12_hooke_real, "along the spring")
+    call expect(again%remedy_text("kind") == "" .or. again%remedy_number("factor") > 0, "a remedy, or none")
+    call limit%write_report(state, output("limit.html"), "oscillator", status)
+    call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
+    call along(system)
+  end subroutine
+
+  subroutine along(system)
+    type(hooke_system), intent(in) :: system
+    type(hooke_options) :: run
+    type(hooke_limit) :: limit
+    type(hooke_state) :: state
+    call make_run(run, "symplectic-euler", 1e-2_hooke_real, 0.5_hooke_real)
+    call limit%create(system, run)
+    call state%create(system)
+    call limit%along(state)
+    call expect_near(state%time(), 0.5_hooke_real, 1e-12_hooke_real, "the run was made")
+    call expect(limit%number(2, "smallest") <= 2/omega*1.0001_hooke_real, "the smallest limit along it")
+  end subroutine
+
+  subroutine comparisons()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_comparison) :: comparison
+    type(spectator), target :: watch
+    type(teller), target :: progress
+    real(hooke_real), pointer :: time(:)
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "rk4", 1e-2_hooke_real, 0.5_hooke_real)
+    call comparison%create(system, run)
+    call comparison%add("rk4")
+    call comparison%add("forward-euler")
+    call comparison%add("no such method", status)
+    call expect(status == hooke_bad_value, "a method that is none")
+    call comparison%on_frame(watch)
+    call comparison%on_progress(progress)
+    call comparison%run()
+    call expect(comparison%row_count() == 2 .and. comparison%text(1, "method") == "rk4", "rows")
+    call expect(comparison%number(1, "error") < 1e-4_hooke_real*comparison%number(2, "error"), "rk4 is better")
+    call expect_text(comparison%reference(), "cvode", "the reference")
+    time => comparison%series(2, "time")
+    call expect(size(time) == comparison%frame_count() .and. abs(time(size(time)) - 0.5_hooke_real) < 1e-12, "series")
+    call expect(.not. associated(comparison%series(2, "nothing")), "of words that there are")
+    call expect(watch%first_frame == 1 .and. watch%frames == 3*comparison%frame_count(), "all frames were seen")
+    call expect_text(watch%runs, "reference rk4 forward-euler", "of all runs")
+    call expect(progress%told > 0, "progress was told")
+    progress%stop_after = progress%told + 1
+    call comparison%create(system, run)
+    call comparison%on_progress(progress)
+    call comparison%run(status)
+    call expect(status == hooke_stopped, "and can stop it")
+    call comparison%on_progress()
+    call comparison%on_frame()
+  end subroutine
+
+  subroutine studies()
+    type(hooke_system) :: system
+    type(hooke_options) :: run, options
+    type(hooke_study) :: study
+    type(teller), target :: progress
+    real(hooke_real) :: order
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "verlet", 1e-2_hooke_real, 0.5_hooke_real)
+    call options%create_study()
+    call options%set("methods", "symplectic-euler,verlet")
+    call options%set("points", 6)
+    call study%create(system, run, options)
+    call study%on_progress(progress)
+    call study%run()
+    call expect(study%row_count() == 12 .and. study%text(1, "method") == "symplectic-euler", "six rows a method")
+    order = study%order("verlet", "order")
+    call expect(order > 1.95_hooke_real .and. order < 2.05_hooke_real, "the order of verlet")
+    call expect_near(study%order("symplectic-euler", "theory"), 1.0_hooke_real, 0.0_hooke_real, &
+      "and that of the other in theory")
+    call expect(study%order_note("verlet") == "", "nothing in its way")
+    call expect(study%figure("agreement") > 0 .and. study%figure("agreement") < 1e-8_hooke_real, "the reference agrees")
+    call expect(study%reference("method") /= study%reference("check"), "by two methods")
+    call study%recommend(1e-3_hooke_real)
+    call expect(study%recommendation_text("method") /= "" .and. study%recommendation_text("note") == "", "recommended")
+    call expect(study%recommendation_number("error") <= 1e-3_hooke_real, "what meets the want")
+    call expect(size(study%series(1, "error")) == study%frame_count(), "series")
+    call expect(study%number(1, "error") > study%number(6, "error"), "smaller steps are better")
+    call expect(progress%told > 0, "progress was told")
+    progress%told = 0
+    call hooke_study_pick(system, run, 1e-3_hooke_real, progress, status)
+    call expect(status == hooke_ok .and. progress%told > 0, "picked")
+    call expect(run%text("method") /= "" .and. run%is_set("method"), "and set in the run")
+    call write_study(study)
+  end subroutine
+
+  subroutine write_study(study)
+    type(hooke_study), intent(in) :: study
+    integer :: status, unit
+    character(200) :: line
+    call study%write_csv(output("study.csv"))
+    open (newunit=unit, file=output("study.csv"), action="read")
+    read (unit, "(a)") line
+    close (unit)
+    call expect_text(line, "method,", "the table as CSV")
+    call study%write_h5(output("study.h5"), outcome=hooke_ok, status=status)
+    call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("hdf5") == ""), "as HDF5")
+    call study%write_report(output("study.html"), "an oscillator", status=status)
+    call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
+    call study%write_csv("no/such/folder/study.csv", status)
+    call expect(status == hooke_io_failed, "where there is a place for it")
+  end subroutine
+
+  subroutine causes()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state, first
+    type(hooke_why) :: why, kept
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "symplectic-euler", 0.4_hooke_real, 40.0_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call first%create(system)
+    call why%create(integrator, status)
+    call expect(status == hooke_bad_call, "nothing to explain yet")
+    call integrator%run(state, status)
+    call expect(status == hooke_diverged, "it blew up")
+    call why%create(integrator)
+    call expect(why%text("cause") == "step-above-limit" .and. len(why%text("sentence")) > 20, why%text("sentence"))
+    call expect_near(why%number("step"), 0.4_hooke_real, 1e-12_hooke_real, "of the step")
+    call expect(nint(why%number("particle")) == 2, "particle 2")
+    call expect(why%blame_count() >= 1 .and. nint(why%blame_number(1, "second")) == 2, "its spring")
+    call expect(why%blame_text(1, "group") == "spring", "by name")
+    call expect(why%advice_count() >= 1 .and. why%advice_text(1, "change") /= "", "and what to do")
+    call why%advice_apply(1, run)
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%run(state, status)
+    call expect(status == hooke_ok, "which helps")
+    call make_run(run, "symplectic-euler", 0.4_hooke_real, 40.0_hooke_real)
+    call kept%create_kept(system, run, first, first)
+    call expect(kept%text("cause") == why%text("cause"), "the same from states that were kept")
+  end subroutine
+
+  subroutine costs()
+    type(hooke_system) :: system
+    type(hooke_options) :: options
+    type(hooke_state) :: state
+    type(hooke_cost) :: cost
+    integer :: row, found
+    call make_cloth(system)
+    call state%create(system)
+    call options%create_cost()
+    call options%set("budget", 0.02_hooke_real)
+    call cost%create(system, options=options)
+    call cost%find(state)
+    call expect(cost%method() == "symplectic-euler" .and. cost%figure("memory_bytes") > 0, "the whole scene")
+    found = 0
+    do row = 1, cost%row_count()
+      if (cost%text(row, "name") == "cloth.shear") found = row
+    end do
+    call expect(found > 0, "a row for shear")
+    if (found > 0) call expect(nint(cost%number(found, "springs")) == 32 .and. nint(cost%number(found, "group")) == 2, &
+      "its springs, and its number from 1")
+  end subroutine
+
+  subroutine needs()
+    type(hooke_system) :: system
+    type(hooke_options) :: run, options
+    type(hooke_needs) :: needed
+    type(hooke_state) :: state
+    type(teller), target :: progress
+    real(hooke_real) :: position(3, 25)
+    integer :: row, status
+    call make_cloth(system)
+    call make_run(run, "rk4", 2e-3_hooke_real, 0.1_hooke_real)
+    call options%create_needs()
+    call options%set("want", 0.02_hooke_real)
+    call needed%create(system, run, options)
+    call needed%on_progress(progress)
+    call expect(.not. needed%lean%exists(), "no lean system before it was found")
+    call needed%lean_position(position, position, status)
+    call expect(status == hooke_bad_call, "nor positions")
+    call needed%find()
+    call expect(needed%row_count() > 3 .and. progress%told > 0, "a row for each ingredient")
+    do row = 1, needed%row_count()
+      if (needed%text(row, "kind") == "gravity") exit
+    end do
+    call expect(nint(needed%number(row, "needed")) == 1, "gravity is needed")
+    call expect(needed%word("method") /= "" .and. needed%figure("runs") > 3, "figures")
+    call expect(needed%lean%exists() .and. needed%lean_run%number("duration") > 0.09_hooke_real, "and a lean system")
+    call state%create(needed%lean)
+    position = 0
+    call needed%lean_position(state%q, position, status)
+    call expect(status == hooke_ok .and. maxval(abs(position(:, 25) - [1, 0, 1])) < 0.3_hooke_real, &
+      "with its positions")
+    call expect(needed%lean_particle(1) >= 0 .and. needed%lean_particle(1) <= 25, "and numbers")
+    call needed%write_report(output("needs.html"), "cloth", status=status)
+    call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
+    call needed%refine()
+    call expect(needed%part_count() == 1 .and. needed%part_text(1, "part") == "cloth", "one part")
+    call expect(nint(needed%part_number(1, "cells")) == 4, "of four cells")
+    call needed%on_progress()
+    call needed%destroy()
+    call expect(.not. needed%lean%exists(), "gone with what it is of")
+  end subroutine
+end program

@@ -1,0 +1,101 @@
+! Observers of frames and steps, stops, warnings, and states that are only lent.
+program test_observers
+  use check
+  use hooke
+  use parts
+  use scenes
+  implicit none
+
+  call frames()
+  call steps()
+  call warnings()
+  call finish()
+
+contains
+
+  subroutine frames()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(watcher), target :: watch
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
+    call run%set("every", 0.01_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%on_frame(watch)
+    call integrator%run(state, status)
+    call expect(status == hooke_ok .and. watch%seen == integrator%frame_count() .and. watch%seen == 11, "eleven frames")
+    call expect(watch%last == 100, "the last one after 100 steps")
+    call expect(same_count(watch%q, state%q(:, 2)) == 3, "saw the final state")
+    call expect(.not. watch%kept%exists(), "a state that was lent cannot be kept")
+    call integrator%on_frame()
+    call integrator%run(state)
+    call expect(watch%seen == 11, "taken back")
+    watch%stop_at = 30
+    call integrator%on_frame(watch)
+    call integrator%run(state, status)
+    call expect(status == hooke_stopped .and. integrator%stop_value() == 42, "stopped, and by whom")
+    call expect_near(state%time(), 0.23_hooke_real, 1e-12_hooke_real, "at the frame after 30 steps")
+    call expect_text(hooke_message(), "returned 42", "and in words")
+  end subroutine
+
+  subroutine steps()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(watcher), target :: first, second
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%on_step(25, first)
+    call integrator%on_step(50, second)
+    call integrator%run(state)
+    call expect(first%seen == 0 .and. second%seen == 2, "the second observer took the place of the first")
+    call integrator%on_step(0, first, status)
+    call expect(status == hooke_bad_value, "a stride of 0 is refused")
+    call integrator%run(state)
+    call expect(second%seen == 4, "and the observer before it stays")
+    call integrator%on_step(1)
+    call integrator%step(state, 100_hooke_long)
+    call expect(second%seen == 4 .and. integrator%count("steps") == 300, "taken back")
+  end subroutine
+
+  subroutine warnings()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(warner), target :: warned
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "symplectic-euler", 0.4_hooke_real, 20.0_hooke_real)
+    call integrator%create(system, run)
+    call integrator%on_warning(warned, status)
+    if (status == hooke_not_built) then
+      call expect(hooke_build_fact("gsl") == "", "warnings in a build with GSL")
+      return
+    end if
+    call expect(status == hooke_ok, "it will be warned")
+    call state%create(system)
+    call integrator%run(state, status)
+    call expect(status == hooke_diverged .and. integrator%diverged_at() > 0, "it blew up: " // hooke_message())
+    call expect(integrator%recent_count() >= 1, "and a good state is kept")
+    call integrator%recent(1, state)
+    call expect(maxval(abs(state%q)) < 1e6_hooke_real, "which is finite")
+    call integrator%recent(100, state, status)
+    call expect(status == hooke_bad_value, "there are not so many")
+    call expect(warned%warnings == 1 .and. warned%kind == "above-limit", "it was warned before")
+    call expect(warned%limit < 2/sqrt(40.0_hooke_real)*1.0001_hooke_real, "of the step that is safe")
+    call expect(warned%spring == 1 .and. warned%particle == 2, "numbers count from 1")
+    call integrator%on_warning()
+    call state%create(system)
+    call integrator%run(state, status)
+    call expect(warned%warnings == 1, "taken back")
+  end subroutine
+end program
