@@ -3,13 +3,14 @@ module hooke_builders
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, to_text, zero_based
   use hooke_c_build
+  use hooke_c_io, only: c_scene_options_apply
   use hooke_c_system
   use hooke_forces
   use hooke_handles, only: hooke_handle
   use hooke_option_tables, only: hooke_options
   implicit none
   private
-  public :: hooke_builder, part_kind_count, part_kind
+  public :: hooke_builder, part_kind_count, part_kind, part_kind_summary
 
   integer, parameter :: place_of_force = 1
 
@@ -24,6 +25,7 @@ module hooke_builders
     procedure :: add_springs
     procedure, private :: add_bending_alike, add_bending_each
     generic :: add_bending => add_bending_alike, add_bending_each
+    procedure :: add_altitude
     procedure :: add_part
     procedure :: set_gravity
     procedure :: set_drag
@@ -31,6 +33,7 @@ module hooke_builders
     procedure :: drive_harmonic
     procedure :: drive_table
     procedure :: drive_callback
+    procedure :: apply
     procedure :: commit
   end type
 
@@ -46,6 +49,13 @@ contains
     integer, intent(in) :: number
     character(:), allocatable :: text
     text = to_text(c_part_kind(zero_based(number)))
+  end function
+
+  ! What a kind is, in one line.
+  function part_kind_summary(number) result(text)
+    integer, intent(in) :: number
+    character(:), allocatable :: text
+    text = to_text(c_part_kind_summary(zero_based(number)))
   end function
 
   subroutine create(self, status)
@@ -164,6 +174,25 @@ contains
       size(coefficient, kind=c_int64_t), coefficient), status)
   end subroutine
 
+  ! Adds a group of altitude springs on tetrahedra(4, n) of particles.
+  subroutine add_altitude(self, tetrahedra, options, name, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: tetrahedra(:, :)
+    type(hooke_options), intent(in) :: options
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
+    if (size(tetrahedra, 1) /= 4) then
+      call refuse(hooke_bad_value, "tetrahedra have the shape (4, n)", status)
+      return
+    end if
+    call to_c_if(name, c_name)
+    call accept(c_system_add_altitude(self%address(), c_name, size(tetrahedra, 2, c_int64_t), zero_based(tetrahedra), &
+      options%address()), status)
+  end subroutine
+
   ! Adds a generated part; `first` and `count` are its particles.
   subroutine add_part(self, kind, options, name, first, count, status)
     class(hooke_builder), intent(inout) :: self
@@ -278,6 +307,16 @@ contains
       deallocate (holder)
     end if
     call accept(code, status)
+  end subroutine
+
+  ! Takes what options of a "scene" say of it: all but the title.
+  subroutine apply(self, options, status)
+    class(hooke_builder), intent(inout) :: self
+    type(hooke_options), intent(in) :: options
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
+    call accept(c_scene_options_apply(options%address(), self%address()), status)
   end subroutine
 
   ! Checks the system as a whole and makes it constant.

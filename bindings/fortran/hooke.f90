@@ -15,7 +15,8 @@ module hooke
     hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, &
     hooke_message => message, hooke_status_name => status_name, hooke_version => version, hooke_abi => abi, &
     hooke_build_fact => build_fact
-  use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind
+  use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind, &
+    hooke_part_kind_summary => part_kind_summary
   use hooke_causes, only: hooke_why
   use hooke_comparisons, only: hooke_comparison
   use hooke_costs, only: hooke_cost
@@ -32,6 +33,7 @@ module hooke
   use hooke_studies, only: hooke_study, hooke_study_pick => study_pick
   use hooke_systems, only: hooke_system
   use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
+  use hooke_views, only: hooke_view
   implicit none
   public
 end module

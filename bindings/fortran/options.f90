@@ -5,12 +5,12 @@ module hooke_option_tables
   use hooke_c_build, only: c_mesh_set, c_part_options_create
   use hooke_c_cost, only: c_cost_options_create
   use hooke_c_integrator, only: c_run_options_create
-  use hooke_c_io, only: c_mesh_read
+  use hooke_c_io, only: c_mesh_read, c_view_options_create, c_scene_options_create
   use hooke_c_limit, only: c_limit_options_create
   use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
   use hooke_c_study, only: c_study_options_create
-  use hooke_c_system, only: c_spring_options_create
+  use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
   use hooke_handles, only: hooke_handle
   implicit none
   private
@@ -21,9 +21,12 @@ module hooke_option_tables
     procedure :: create_run      ! made for the options of a run,
     procedure :: create_spring   ! of a group of springs,
     procedure :: create_part     ! of a part of some kind,
+    procedure :: create_scene    ! of "scene", "particles" or "driven",
     procedure :: create_study    ! of a study,
     procedure :: create_limit    ! of a limit,
     procedure :: create_cost     ! of a cost,
+    procedure :: create_view ! of a view,
+    procedure :: create_altitude ! of altitude springs,
     procedure :: create_needs    ! of what a scene needs
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
@@ -38,6 +41,7 @@ module hooke_option_tables
     procedure :: text            ! the word, "" if there is none
     procedure :: row_count       ! the table itself
     procedure :: row             ! "name", "type", "unit", "default", "allowed" or "doc" of a row
+    procedure :: row_number      ! "low", "high", "required" and more of a row, NaN where it has none
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -95,6 +99,16 @@ contains
     call take_new(self, code, options, status)
   end subroutine
 
+  subroutine create_scene(self, what, status)
+    class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: what
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_scene_options_create(to_c(what), options)
+    call take_new(self, code, options, status)
+  end subroutine
+
   subroutine create_study(self, status)
     class(hooke_options), intent(inout) :: self
     integer, intent(out), optional :: status
@@ -128,6 +142,24 @@ contains
     type(c_ptr) :: options
     integer(c_int32_t) :: code
     code = c_needs_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_view(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_view_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_altitude(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_altitude_options_create(options)
     call take_new(self, code, options, status)
   end subroutine
 
@@ -270,5 +302,12 @@ contains
     character(*), intent(in) :: property
     character(:), allocatable :: text
     text = to_text(c_options_row(self%address(), zero_based(number), to_c(property)))
+  end function
+
+  real(c_double) function row_number(self, row, property)
+    class(hooke_options), intent(in) :: self
+    integer, intent(in) :: row
+    character(*), intent(in) :: property
+    row_number = c_options_row_number(self%address(), zero_based(row), to_c(property))
   end function
 end module

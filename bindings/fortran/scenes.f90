@@ -4,7 +4,7 @@ module hooke_scenes
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_io
   use hooke_handles, only: hooke_handle
-  use hooke_option_tables, only: hooke_options
+  use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_systems, only: hooke_system
   implicit none
   private
@@ -16,6 +16,7 @@ module hooke_scenes
   contains
     procedure :: load
     procedure :: parse
+    procedure :: of_system
     procedure :: commit
     procedure :: title
     procedure :: text
@@ -58,6 +59,26 @@ contains
     if (present(name)) c_name = to_c(name)
     call to_c_if(folder, c_folder)
     code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, scene)
+    if (code == 0) call take_new(self, scene)
+    call accept(code, status)
+  end subroutine
+
+  ! The scene that write_scene() of a committed system would write.
+  subroutine of_system(self, system, title, run, name, folder, status)
+    class(hooke_scene), intent(inout) :: self
+    class(hooke_system), intent(in) :: system
+    character(*), intent(in), optional :: title, name, folder
+    type(hooke_options), intent(in), optional :: run
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_title, c_name, c_folder
+    type(c_ptr) :: scene
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    c_name = to_c("scene")
+    if (present(name)) c_name = to_c(name)
+    call to_c_if(title, c_title)
+    call to_c_if(folder, c_folder)
+    code = c_scene_of_system(system%address(), c_title, options_or_null(run), c_name, c_folder, scene)
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine

@@ -35,6 +35,13 @@ module hooke_systems
     procedure :: bending_group_size
     procedure :: bending_ends
     procedure :: bending_coefficient
+    procedure :: altitude_count
+    procedure :: altitude_group_count
+    procedure :: altitude_group_name
+    procedure :: altitude_group_size
+    procedure :: altitude_ends
+    procedure :: altitude_material
+    procedure :: altitude_lengths
     procedure :: derived_count
     procedure :: derived_text
     procedure :: derived_value
@@ -52,6 +59,7 @@ module hooke_systems
     procedure :: kinetic_energy
     procedure :: spring_energy
     procedure :: bending_energy
+    procedure :: altitude_energy
     procedure :: gravity_energy
     procedure :: potential_energy
     procedure :: energy
@@ -204,6 +212,65 @@ contains
     if (self%is_missing(status)) return
     allocate (coefficient(self%bending_count()), source=0.0_c_double)
     call accept(c_system_bending_coefficient(self%address(), coefficient), status)
+  end subroutine
+
+  ! The same of altitude springs on tetrahedra, ends(4, altitude_count).
+
+  integer function altitude_count(self)
+    class(hooke_system), intent(in) :: self
+    altitude_count = to_integer(c_system_altitude_count(self%address()))
+  end function
+
+  integer function altitude_group_count(self)
+    class(hooke_system), intent(in) :: self
+    altitude_group_count = to_integer(c_system_altitude_group_count(self%address()))
+  end function
+
+  function altitude_group_name(self, group) result(text)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    character(:), allocatable :: text
+    text = to_text(c_system_altitude_group_name(self%address(), zero_based(group)))
+  end function
+
+  integer function altitude_group_size(self, group)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: group
+    altitude_group_size = to_integer(c_system_altitude_group_size(self%address(), zero_based(group)))
+  end function
+
+  subroutine altitude_ends(self, ends, status)
+    class(hooke_system), intent(in) :: self
+    integer, allocatable, intent(out) :: ends(:, :)
+    integer, intent(out), optional :: status
+    integer(c_int64_t), allocatable :: numbers(:, :)
+    if (self%is_missing(status)) return
+    allocate (numbers(4, self%altitude_count()), source=0_c_int64_t)
+    call accept(c_system_altitude_ends(self%address(), numbers), status)
+    ends = int(numbers) + 1
+  end subroutine
+
+  ! Stiffness [N], damping [N s] and the seven rest lengths [m] of each, rest_length(7, altitude_count).
+  subroutine altitude_material(self, stiffness, damping, rest_length, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), allocatable, intent(out) :: stiffness(:), damping(:), rest_length(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    allocate (stiffness(self%altitude_count()), source=0.0_c_double)
+    damping = stiffness
+    allocate (rest_length(7, size(stiffness)), source=0.0_c_double)
+    call accept(c_system_altitude_material(self%address(), stiffness, damping, rest_length), status)
+  end subroutine
+
+  ! The altitude of each that acts at q [m], 0 where none does.
+  subroutine altitude_lengths(self, q, length, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    real(c_double), allocatable, intent(out) :: length(:)
+    integer, intent(out), optional :: status
+    if (.not. suits(self, status, q)) return
+    allocate (length(self%altitude_count()), source=0.0_c_double)
+    call accept(c_system_altitude_lengths(self%address(), q, length), status)
   end subroutine
 
   ! Numbers that parts derived from their options: texts "part", "family", "name" and "unit", and the value.
@@ -377,6 +444,13 @@ contains
     real(c_double), intent(in), contiguous :: q(:, :)
     call must_suit(self, q)
     bending_energy = c_system_bending_energy(self%address(), q)
+  end function
+
+  real(c_double) function altitude_energy(self, q)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    call must_suit(self, q)
+    altitude_energy = c_system_altitude_energy(self%address(), q)
   end function
 
   real(c_double) function gravity_energy(self, q)

@@ -1,6 +1,6 @@
 ! Trajectory files (HDF5): written, read back, and one for a whole comparison.
 module hooke_trajectories
-  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
     to_integer, to_text
   use hooke_c_io
@@ -33,6 +33,9 @@ module hooke_trajectories
     procedure :: text
     procedure :: frame_count
     procedure :: read => read_frame
+    procedure :: numbers
+    procedure :: place
+    procedure :: write_xdmf
     procedure :: destroy => close_record
     procedure, private :: assign_record
     generic :: assignment(=) => assign_record
@@ -158,6 +161,43 @@ contains
     call accept(c_record_read(self%address(), int(merge(frame - 1, frame, frame > 0), c_int64_t), state%address()), &
       status)
   end subroutine
+
+  ! Writes the companion by which ParaView reads it: beside the trajectory, or at `path`.
+  subroutine write_xdmf(self, path, status)
+    class(hooke_record), intent(in) :: self
+    character(*), intent(in), optional :: path
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_path
+    if (self%is_missing(status)) return
+    call to_c_if(path, c_path)
+    call accept(c_record_write_xdmf(self%address(), c_path), status)
+  end subroutine
+
+  ! A whole array of the file: "time", "step", "kinetic_energy" and so on, a column a frame; "springs", a column a spring,
+  ! whose ends count from 1; "mass" and "species", a column a particle.
+  subroutine numbers(self, what, values, status)
+    class(hooke_record), intent(in) :: self
+    character(*), intent(in) :: what
+    real(c_double), allocatable, intent(out) :: values(:, :)
+    integer, intent(out), optional :: status
+    integer(c_int64_t) :: rows(1), columns(1)
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    rows = 0
+    columns = 0
+    code = c_record_size(self%address(), to_c(what), rows, columns)
+    allocate (values(columns(1), rows(1)))
+    if (code == 0) code = c_record_numbers(self%address(), to_c(what), values)
+    if (code == 0 .and. what == "springs") values = values + 1
+    call accept(code, status)
+  end subroutine
+
+  ! Where in the file "position" or "velocity" begins [bytes]; -1 where they are not stored as they are in memory.
+  integer(hooke_long) function place(self, what)
+    class(hooke_record), intent(in) :: self
+    character(*), intent(in) :: what
+    place = c_record_place(self%address(), to_c(what))
+  end function
 
   subroutine close_record(self)
     class(hooke_record), intent(inout) :: self

@@ -11,6 +11,10 @@ module hooke_c_build
       import
       integer(c_int64_t), value :: kind
     end function
+    type(c_ptr) function c_part_kind_summary(kind) bind(c, name="hooke_part_kind_summary")
+      import
+      integer(c_int64_t), value :: kind
+    end function
     integer(c_int32_t) function c_part_options_create(kind, options) bind(c, name="hooke_part_options_create")
       import
       character(kind=c_char), intent(in), optional :: kind(*)

@@ -1,6 +1,6 @@
 ! Made from include/hooke/io.h by make_interfaces.py.
 module hooke_c_io
-  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
   implicit none
 
   interface
@@ -22,10 +22,26 @@ module hooke_c_io
       import
       type(c_ptr), value :: scene
     end function
+    integer(c_int32_t) function c_scene_options_create(what, options) bind(c, name="hooke_scene_options_create")
+      import
+      character(kind=c_char), intent(in), optional :: what(*)
+      type(c_ptr), intent(out) :: options
+    end function
+    integer(c_int32_t) function c_scene_options_apply(options, system) bind(c, name="hooke_scene_options_apply")
+      import
+      type(c_ptr), value :: options, system
+    end function
     integer(c_int32_t) function c_scene_write(path, system, title, run) bind(c, name="hooke_scene_write")
       import
       character(kind=c_char), intent(in), optional :: path(*), title(*)
       type(c_ptr), value :: system, run
+    end function
+    integer(c_int32_t) function c_scene_of_system(system, title, run, name, folder, scene) &
+      bind(c, name="hooke_scene_of_system")
+      import
+      type(c_ptr), value :: system, run
+      character(kind=c_char), intent(in), optional :: title(*), name(*), folder(*)
+      type(c_ptr), intent(out) :: scene
     end function
     subroutine c_scene_destroy(scene) bind(c, name="hooke_scene_destroy")
       import
@@ -100,6 +116,23 @@ module hooke_c_io
       type(c_ptr), value :: record, state
       integer(c_int64_t), value :: frame
     end function
+    integer(c_int32_t) function c_record_size(record, what, rows, columns) bind(c, name="hooke_record_size")
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in), optional :: what(*)
+      integer(c_int64_t), intent(inout), optional :: rows(*), columns(*)
+    end function
+    integer(c_int32_t) function c_record_numbers(record, what, values) bind(c, name="hooke_record_numbers")
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in), optional :: what(*)
+      real(c_double), intent(inout), optional :: values(*)
+    end function
+    integer(c_int64_t) function c_record_place(record, what) bind(c, name="hooke_record_place")
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in), optional :: what(*)
+    end function
     integer(c_int32_t) function c_comparison_file_create(path, system, comparison, scene_text, file) &
       bind(c, name="hooke_comparison_file_create")
       import
@@ -110,6 +143,34 @@ module hooke_c_io
     integer(c_int32_t) function c_comparison_file_close(file) bind(c, name="hooke_comparison_file_close")
       import
       type(c_ptr), value :: file
+    end function
+    integer(c_int32_t) function c_view_options_create(options) bind(c, name="hooke_view_options_create")
+      import
+      type(c_ptr), intent(out) :: options
+    end function
+    integer(c_int32_t) function c_view_create(record, options, view) bind(c, name="hooke_view_create")
+      import
+      type(c_ptr), value :: record, options
+      type(c_ptr), intent(out) :: view
+    end function
+    integer(c_int32_t) function c_view_write(view, path, title) bind(c, name="hooke_view_write")
+      import
+      type(c_ptr), value :: view
+      character(kind=c_char), intent(in), optional :: path(*), title(*)
+    end function
+    real(c_double) function c_view_number(view, what) bind(c, name="hooke_view_number")
+      import
+      type(c_ptr), value :: view
+      character(kind=c_char), intent(in), optional :: what(*)
+    end function
+    subroutine c_view_destroy(view) bind(c, name="hooke_view_destroy")
+      import
+      type(c_ptr), value :: view
+    end subroutine
+    integer(c_int32_t) function c_record_write_xdmf(record, path) bind(c, name="hooke_record_write_xdmf")
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in), optional :: path(*)
     end function
     integer(c_int32_t) function c_study_write_h5(study, path, scene_text, outcome) bind(c, name="hooke_study_write_h5")
       import

@@ -72,5 +72,11 @@ module hooke_c_options
       integer(c_int64_t), value :: row
       character(kind=c_char), intent(in), optional :: property(*)
     end function
+    real(c_double) function c_options_row_number(options, row, property) bind(c, name="hooke_options_row_number")
+      import
+      type(c_ptr), value :: options
+      integer(c_int64_t), value :: row
+      character(kind=c_char), intent(in), optional :: property(*)
+    end function
   end interface
 end module

@@ -47,6 +47,18 @@ module hooke_c_system
       integer(c_int64_t), intent(in), optional :: triples(*)
       real(c_double), intent(in), optional :: coefficient(*)
     end function
+    integer(c_int32_t) function c_altitude_options_create(options) bind(c, name="hooke_altitude_options_create")
+      import
+      type(c_ptr), intent(out) :: options
+    end function
+    integer(c_int32_t) function c_system_add_altitude(system, name, count, tetrahedra, options) &
+      bind(c, name="hooke_system_add_altitude")
+      import
+      type(c_ptr), value :: system, options
+      character(kind=c_char), intent(in), optional :: name(*)
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in), optional :: tetrahedra(*)
+    end function
     integer(c_int32_t) function c_system_set_gravity(system, gravity) bind(c, name="hooke_system_set_gravity")
       import
       type(c_ptr), value :: system
@@ -178,6 +190,43 @@ module hooke_c_system
       type(c_ptr), value :: system
       real(c_double), intent(inout), optional :: coefficient(*)
     end function
+    integer(c_int64_t) function c_system_altitude_count(system) bind(c, name="hooke_system_altitude_count")
+      import
+      type(c_ptr), value :: system
+    end function
+    integer(c_int64_t) function c_system_altitude_group_count(system) bind(c, name="hooke_system_altitude_group_count")
+      import
+      type(c_ptr), value :: system
+    end function
+    type(c_ptr) function c_system_altitude_group_name(system, group) bind(c, name="hooke_system_altitude_group_name")
+      import
+      type(c_ptr), value :: system
+      integer(c_int64_t), value :: group
+    end function
+    integer(c_int64_t) function c_system_altitude_group_size(system, group) &
+      bind(c, name="hooke_system_altitude_group_size")
+      import
+      type(c_ptr), value :: system
+      integer(c_int64_t), value :: group
+    end function
+    integer(c_int32_t) function c_system_altitude_ends(system, tetrahedra) bind(c, name="hooke_system_altitude_ends")
+      import
+      type(c_ptr), value :: system
+      integer(c_int64_t), intent(inout), optional :: tetrahedra(*)
+    end function
+    integer(c_int32_t) function c_system_altitude_material(system, stiffness, damping, rest_length) &
+      bind(c, name="hooke_system_altitude_material")
+      import
+      type(c_ptr), value :: system
+      real(c_double), intent(inout), optional :: stiffness(*), damping(*), rest_length(*)
+    end function
+    integer(c_int32_t) function c_system_altitude_lengths(system, q, length) &
+      bind(c, name="hooke_system_altitude_lengths")
+      import
+      type(c_ptr), value :: system
+      real(c_double), intent(in), optional :: q(*)
+      real(c_double), intent(inout), optional :: length(*)
+    end function
     integer(c_int64_t) function c_system_derived_count(system) bind(c, name="hooke_system_derived_count")
       import
       type(c_ptr), value :: system
@@ -266,6 +315,11 @@ module hooke_c_system
       real(c_double), intent(in), optional :: q(*)
     end function
     real(c_double) function c_system_bending_energy(system, q) bind(c, name="hooke_system_bending_energy")
+      import
+      type(c_ptr), value :: system
+      real(c_double), intent(in), optional :: q(*)
+    end function
+    real(c_double) function c_system_altitude_energy(system, q) bind(c, name="hooke_system_altitude_energy")
       import
       type(c_ptr), value :: system
       real(c_double), intent(in), optional :: q(*)

@@ -1,0 +1,54 @@
+! Trajectories shown: as a page, and for ParaView.
+program test_shown
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use check
+  use hooke
+  use scenes
+  implicit none
+  if (hooke_build_fact("hdf5") == "") then
+    call expect(.true., "nothing to show")
+  else
+    call show()
+  end if
+  call finish()
+
+contains
+
+  subroutine show()
+    type(hooke_record) :: record
+    type(hooke_options) :: options
+    type(hooke_view) :: view
+    logical :: there
+    integer :: status
+    call write_one()
+    call record%open(output("shown.h5"))
+    call record%write_xdmf(output("shown.xdmf"))
+    inquire (file=output("shown.xdmf"), exist=there)
+    call expect(there, "for ParaView")
+    call record%write_xdmf("no/such/folder/shown.xdmf", status)
+    call expect(status == hooke_io_failed, "where there is a place for it")
+    call options%create_view()
+    call view%create(record, options, status)
+    if (status == hooke_not_built) return
+    call expect(status == hooke_ok .and. nint(view%number("particles")) == 2, "two particles are shown")
+    call expect(ieee_is_nan(view%number("no such number")), "and numbers that there are")
+    call record%destroy()
+    call view%write(output("shown.html"), "an oscillator")
+    call expect(view%number("bytes") > 1000, "as a page")
+  end subroutine
+
+  subroutine write_one()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(hooke_trajectory) :: trajectory
+    call make_oscillator(system)
+    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call trajectory%create(output("shown.h5"), system, integrator)
+    call trajectory%write(0_hooke_long, state)
+    call trajectory%close()
+  end subroutine
+end program
