@@ -1,6 +1,7 @@
 # All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make test   sets up, builds, and runs every test
+#   make docs   makes the documentation as a site, build/docs/index.html
 
 PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev libgsl-dev libarpack2-dev libhdf5-dev libjansson-dev libjs-chart.js \
@@ -26,15 +27,19 @@ test: $(PRESETS:%=build-%)
 	done; \
 	exit $$failed
 
+docs: build/venv/done
+	$(VENV) -m sphinx -q -W --keep-going -d build/doctrees docs build/docs
+	@echo build/docs/index.html
+
 $(PRESETS:%=build-%): build-%: build/%/build.ninja
 	cmake --build --preset $*
 
 build/%/build.ninja: CMakePresets.json | build/venv/done
 	cmake --preset $*
 
-build/venv/done: tests/requirements.txt | build/packages
+build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 	$(PYTHON) -m venv build/venv
-	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt
+	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
 
 # What is missing is installed as root or through sudo; without either, the line to type is printed.
@@ -50,6 +55,6 @@ build/packages: Makefile
 	fi
 	@touch $@
 
-.PHONY: all demo test $(PRESETS:%=build-%)
+.PHONY: all demo docs test $(PRESETS:%=build-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -46,7 +46,7 @@ def link_to_repository(app, doctree) -> None:
 
     for kind in (pending_xref, download_reference):
         for node in list(doctree.findall(kind)):
-            if node.get("reftarget", "").startswith("../"):
+            if node.get("reftarget", "").startswith(("../", "/")):
                 node.replace_self(nodes.inline("", "", *node.children))
 
 
