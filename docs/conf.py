@@ -40,14 +40,13 @@ def add_navigation(app, name, source) -> None:
 
 
 def link_to_repository(app, doctree) -> None:
-    """Links to files beside docs/ (headers, scenes) lead to nothing on a site: their words stay."""
+    """Links to pages that are not below docs/ lead to nothing on a site: their words stay."""
     from docutils import nodes
-    from sphinx.addnodes import download_reference, pending_xref
+    from sphinx.addnodes import pending_xref
 
-    for kind in (pending_xref, download_reference):
-        for node in list(doctree.findall(kind)):
-            if node.get("reftarget", "").startswith(("../", "/")):
-                node.replace_self(nodes.inline("", "", *node.children))
+    for node in list(doctree.findall(pending_xref)):
+        if node.get("reftarget", "").startswith("/"):
+            node.replace_self(nodes.inline("", "", *node.children))
 
 
 def setup(app) -> None:
