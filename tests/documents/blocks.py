@@ -14,10 +14,11 @@ KINDS = {"c", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
-    """`exact` is whether the fence says "```console exact": what is printed has to be what is shown."""
+    """`word` is what follows the kind in the fence: of a console "exact", what is printed has to be what is shown; of C and
+    Python "prototypes", declarations that are not run."""
 
-    def __init__(self, document, line, kind, text, exact=False):
-        self.document, self.line, self.kind, self.text, self.exact = document, line, kind, text, exact
+    def __init__(self, document, line, kind, text, word=""):
+        self.document, self.line, self.kind, self.text, self.word = document, line, kind, text, word
 
     def __str__(self):
         return f"{self.document}:{self.line} ({self.kind})"
@@ -31,7 +32,7 @@ def blocks(document, text):
         if fence and start is None:
             start, (kind, word), lines = number, fence.groups(), []
         elif fence:
-            found.append(Block(document, start, kind, "\n".join(lines) + "\n", word == "exact"))
+            found.append(Block(document, start, kind, "\n".join(lines) + "\n", word))
             start = None
         elif start is not None:
             lines.append(line)
@@ -144,6 +145,8 @@ def run_exact(block, folder):
 
 def runs(block):
     """Whether anything in the block is run."""
+    if block.word == "prototypes":
+        return False
     if block.kind in ("console", "sh"):
         return any(True for _ in commands(block.text))
     return block.kind in RUN
@@ -156,6 +159,8 @@ def complaint(block, folder):
     """What is wrong with a block when it runs in `folder`; None if nothing is."""
     if block.kind not in KINDS:
         return f"{block}: mark it as one of {', '.join(sorted(KINDS))}"
-    if block.exact:
+    if block.word not in ("", "exact", "prototypes"):
+        return f"{block}: there is no word {block.word!r} for a fence"
+    if block.word == "exact":
         return run_exact(block, folder)
-    return RUN[block.kind](block, folder) if block.kind in RUN else None
+    return RUN[block.kind](block, folder) if runs(block) else None
