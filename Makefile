@@ -28,7 +28,7 @@ test: $(PRESETS:%=build-%)
 	exit $$failed
 
 docs: build/venv/done
-	$(VENV) -m sphinx -q -W --keep-going -d build/doctrees docs build/docs
+	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
 	@echo build/docs/index.html
 
 $(PRESETS:%=build-%): build-%: build/%/build.ninja

@@ -17,18 +17,23 @@ def logical_lines(text: str) -> list[str]:
     return re.sub(r"&\s*\n\s*&?", "", text).splitlines()
 
 
-def public_names(lines: list[str]) -> set[str]:
-    """Names that the module gives away, and those that its types are bound to."""
+def exported(lines: list[str]) -> dict[str, str]:
+    """What `use hooke` brings: names in the modules, and what they are called outside."""
+    found = {}
+    for names in re.findall(r"^\s*use \w+, only:(.*)$", "\n".join(lines), re.MULTILINE):
+        for name in names.split(","):
+            outside, _, inside = (word.strip() for word in name.partition("=>"))
+            found[inside or outside] = outside
+    return found
+
+
+def bound_names(lines: list[str]) -> set[str]:
+    """Names that types are bound to, and the interfaces of those that are deferred."""
     found: set[str] = set()
     for line in lines:
-        code = line.split("!")[0]
-        listed = re.match(r"\s*public\s*::\s*(.*)", code) or re.match(
-            r"\s*(?:procedure(?:\(\w+\))?|generic)\s*(?:,\s*(?!private)\w+\s*)*::\s*(.*)", code)
-        if listed:
-            found |= set(re.findall(r"\w+", listed[1]))
-        bound = re.match(r"\s*(?:integer|real|type).*\bpublic\b.*::\s*(\w+)", code)
-        if bound:
-            found.add(bound[1])
+        words = line.split("!")[0]
+        if match := re.match(r"\s*(?:procedure(?:\((\w+)\))?|generic)\s*(?:,\s*\w+\s*)*::\s*(.*)", words):
+            found |= set(re.findall(r"\w+", match[2])) | ({match[1]} if match[1] else set())
     return found
 
 
@@ -45,9 +50,9 @@ def dummies(lines: list[str], start: int) -> list[str]:
     return found
 
 
-def entries(lines: list[str]) -> list[tuple[str, str, str]]:
+def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str]]:
     """(name, comment, code) of every type and procedure that may be used."""
-    public, comment, found = public_names(lines), [], []
+    bound_to, comment, found = bound_names(lines), [], []
     for number, line in enumerate(lines):
         words = line.strip()
         if "---- for the other modules" in words:
@@ -56,9 +61,12 @@ def entries(lines: list[str]) -> list[tuple[str, str, str]]:
             comment.append(re.sub(r"^![>!]? ?", "", words))
             continue
         match = PROCEDURE.match(words) or TYPE.match(words)
-        if match and match["name"] in public and "bind(c" not in words.lower():
+        is_type = match is not None and "head" not in match.groupdict() and match["name"].startswith("hooke_")
+        known = match is not None and (match["name"] in outside or match["name"] in bound_to or is_type)
+        known = known and not match["name"].startswith("assign")  # what "=" does
+        if match and known and "bind(c" not in words.lower():
             code = [words, *dummies(lines, number)] if "head" in match.groupdict() else bound(lines, number)
-            found.append((match["name"], "\n".join(comment), "\n".join(code)))
+            found.append((outside.get(match["name"], match["name"]), "\n".join(comment), "\n".join(code)))
         comment = []
     return found
 
@@ -75,28 +83,36 @@ def bound(lines: list[str], start: int) -> list[str]:
     return found
 
 
-def module(path: Path) -> str:
-    text = path.read_text("utf-8")
-    lines = logical_lines(text)
+def intro(lines: list[str]) -> str:
+    """The comment above a module."""
     start = next(k for k, line in enumerate(lines) if re.match(r"\s*module \w+", line))
-    intro = "\n".join(re.sub(r"^![>!]? ?", "", line) for line in lines[:start] if line.startswith("!"))
-    pieces = [f"## {lines[start].split()[1]}", markdown(intro)]
-    for name, comment, code in entries(lines[start + 1 :]):
+    return markdown("\n".join(re.sub(r"^![>!]? ?", "", line) for line in lines[:start] if line.startswith("!")))
+
+
+def module(lines: list[str], outside: dict[str, str]) -> str:
+    found = entries(lines, outside)
+    if not found:
+        return ""
+    pieces = [f"## {re.search(r'^module (.+)$', chr(10).join(lines), re.MULTILINE)[1]}", intro(lines)]
+    for name, comment, code in found:
         pieces += [f"### {name}", markdown(comment), f"```text\n{code}\n```"]
     return "\n\n".join(filter(None, pieces))
 
 
 def page(root: Path) -> str:
-    """"" while there is no module."""
-    paths = sorted((root / "bindings/fortran").glob("*.f90"))
-    paths.sort(key=lambda path: path.name != "hooke.f90")
-    if not paths:
+    """"" while there is no module, or no page that leads to it."""
+    folder = root / "bindings/fortran"
+    if not (folder / "hooke.f90").exists() or not (root / "docs/fortran.md").exists():
         return ""
-    pieces = ["# Fortran reference", "The public types and procedures of the modules, with their comments. [The Fortran "
-              "interface](../fortran.md) is the way in; `use hooke` brings all of them.", EXAMPLE]
-    return "\n\n".join(pieces + [module(path) for path in paths]) + "\n"
+    front = logical_lines((folder / "hooke.f90").read_text("utf-8"))
+    others = [logical_lines(path.read_text("utf-8")) for path in sorted(folder.glob("*.f90")) if path.stem != "hooke"]
+    pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
+              "interface](../fortran.md) is the way in.", EXAMPLE, intro(front)]
+    return "\n\n".join(filter(None, pieces + [module(lines, exported(front)) for lines in others])) + "\n"
 
 
-EXAMPLE = """```console
+EXAMPLE = """Their library is the one that the program uses:
+
+```console
 $ hooke --version
 ```"""

@@ -10,7 +10,7 @@ import traceback
 from pathlib import Path
 
 NOT_RUN = {"text", "json"}
-KINDS = {"c", "python", "console", "sh"} | NOT_RUN
+KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
@@ -70,6 +70,23 @@ def run_c(block, folder):
                "-I" + os.environ["HOOKE_SOURCE_DIR"] + "/include", f"-L{library}", f"-Wl,-rpath,{library}",
                "-lhooke", "-lm", "-o", program]
     result = execute(command, folder)
+    if result.returncode == 0:
+        result = execute([program], folder)
+    return report(block, result) if result.returncode else None
+
+
+def run_fortran(block, folder):
+    """With the module that the tests have compiled; nothing where there is no compiler."""
+    compiler, modules = os.environ.get("HOOKE_FORTRAN"), None
+    if compiler:
+        modules = next(Path(os.environ["HOOKE_BUILD_DIR"]).rglob("hooke_fortran_modules"), None)
+    if modules is None:
+        return None
+    library = Path(os.environ["HOOKE_LIBRARY"]).parent
+    source, program = folder / "block.f90", folder / "block"
+    source.write_text(block.text)
+    result = execute([compiler, "-std=f2018", "-Wall", "-I", modules, source, modules.parent / "libhooke_fortran.a",
+                      f"-L{library}", f"-Wl,-rpath,{library}", "-lhooke", "-o", program], folder)
     if result.returncode == 0:
         result = execute([program], folder)
     return report(block, result) if result.returncode else None
@@ -152,7 +169,7 @@ def runs(block):
     return block.kind in RUN
 
 
-RUN = {"c": run_c, "python": run_python, "console": run_console, "sh": run_console}
+RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_console, "sh": run_console}
 
 
 def complaint(block, folder):
