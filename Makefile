@@ -1,7 +1,7 @@
 # All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
 #   make demo   sets up, builds, and compares all methods on a cloth
-#   make test   sets up, builds, and runs every test
 #   make docs   makes the documentation as a site, build/docs/index.html
+#   make test   sets up, builds, and runs every test
 
 PACKAGES = build-essential cmake ninja-build pkg-config python3-venv libcmocka-dev \
            libsundials-dev libsuitesparse-dev libgsl-dev libarpack2-dev libhdf5-dev libjansson-dev libjs-chart.js \
@@ -17,6 +17,11 @@ demo: build-release
 	PYTHONPATH=bindings/python/src HOOKE_LIBRARY=build/release/libhooke.so \
 	  $(VENV) examples/demo.py build/release/hooke build/demo
 
+.PHONY: docs
+docs: build/venv/done
+	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
+	@echo build/docs/index.html
+
 test: $(PRESETS:%=build-%)
 	@failed=0; \
 	for preset in $(PRESETS); do \
@@ -26,10 +31,6 @@ test: $(PRESETS:%=build-%)
 	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
 	exit $$failed
-
-docs: build/venv/done
-	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
-	@echo build/docs/index.html
 
 $(PRESETS:%=build-%): build-%: build/%/build.ninja
 	cmake --build --preset $*
@@ -55,6 +56,6 @@ build/packages: Makefile
 	fi
 	@touch $@
 
-.PHONY: all demo docs test $(PRESETS:%=build-%)
+.PHONY: all demo test $(PRESETS:%=build-%)
 .DELETE_ON_ERROR:
 .SECONDARY:
