@@ -31,13 +31,11 @@ def table(rows: list[list[str]]) -> str:
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows])
 
 
-def option_rows(rows: Any, required: list[str], without: tuple[str, ...] = ()) -> list[list[str]]:
+def option_rows(rows: Any, required: list[str], families: set[str] = frozenset()) -> list[list[str]]:
     found = []
     for row in rows:
-        if row.name in without:
-            continue
         default = "required" if row.name in required else f"`{row.default}`" if row.default else ""
-        allowed = "[a family of springs](#families-of-springs)" if row.allowed.startswith("an object") else row.allowed
+        allowed = "[a family of springs](#families-of-springs)" if row.name in families else row.allowed
         found.append([f"`{row.name}`", cell(row.doc), cell(allowed or row.type), cell(row.unit), default])
     return found
 
@@ -92,19 +90,21 @@ def taken(words: str, pattern: str) -> tuple[str, str]:
 def parts(schema: dict[str, Any]) -> list[str]:
     import hooke
 
-    pieces, family = [], None
+    pieces, members = [], {}  # of families of springs, which every part has under names of its own
     for kind in hooke.part_kinds():
         rows = hooke.Options.for_part(kind).rows
-        own = [row for row in rows if "." not in row.name]
-        family = family or [row._replace(name=row.name.split(".")[1]) for row in rows if "." in row.name]
+        families = {row.name.split(".")[0] for row in rows if row.name.endswith(".stiffness")}
+        own = [row for row in rows if row.name.split(".")[0] not in families or row.name in families]
+        for row in rows:
+            family, _, member = row.name.partition(".")
+            if family in families and member:
+                members.setdefault(member, row._replace(name=member))
         first = ["`kind`", f'`"{kind}"`', f'"{kind}"', "", "required"]
         name = ["`name`", "of the part, and the first word of the names of its groups", "a text", "", "its kind and number"]
         required = schema["$defs"].get(kind, {}).get("required", [])
-        pieces += [f"### {kind}", table([first, name, *option_rows(own, required)])]
-    kept = dict.fromkeys(row.name for row in family or [])
-    rows = [next(row for row in family or [] if row.name == name) for name in kept]
+        pieces += [f"### {kind}", table([first, name, *option_rows(own, required, families)])]
     return [*pieces, "### Families of springs", "Of every part, each under its own name. A family that is absent has no "
-            "springs.", table(option_rows(rows, schema["$defs"]["family"]["required"]))]
+            "springs.", table(option_rows(members.values(), schema["$defs"]["family"]["required"]))]
 
 
 def page(root: Path) -> str:
