@@ -118,8 +118,11 @@ def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, 
     ax.set_box_aspect(np.maximum(high - low, 0.3 * (high - low).max()))
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_major_locator(MaxNLocator(3))
-    if high[0] - low[0] < 0.4 * (high - low).max():
-        ax.set(xlabel="", xticks=[])  # there is no room for them
+    narrow = high - low < 0.4 * (high - low).max()  # no room for numbers
+    if narrow[0]:
+        ax.set(xlabel="", xticks=[])
+    if narrow[1]:
+        ax.set(ylabel="", yticks=[])
     ax.view_init(elev=15, azim=30)
     figure.colorbar(lines, ax=ax, label="strain [%]", shrink=0.6, pad=0.08)
 

@@ -26,6 +26,13 @@ def test_every_page_is_in_the_index():
     assert pages <= listed, f"not in docs/index.md: {sorted(pages - listed)}"
 
 
+def test_pictures_are_small_and_seen():
+    seen = {Path(target).name for page in DOCUMENTS for target in links.targets(page.read_text(encoding="utf-8"))}
+    for picture in (ROOT / "docs/images").iterdir():
+        assert picture.stat().st_size < 150e3, picture.name
+        assert picture.name in seen, f"no page shows {picture.name}"
+
+
 PAGE = "# A page\n\n## Safe `h*w` steps, (first)\n\n## Twice\n\n## Twice\n"
 
 
