@@ -10,7 +10,7 @@ import traceback
 from pathlib import Path
 
 NOT_RUN = {"text", "json"}
-KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
+KINDS = {"c", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
@@ -75,38 +75,6 @@ def run_c(block, folder):
     return report(block, result) if result.returncode else None
 
 
-def run_fortran(block, folder):
-    """With the module that the tests have compiled; nothing where there is no compiler."""
-    compiler, modules = os.environ.get("HOOKE_FORTRAN"), None
-    if compiler:
-        modules = next(Path(os.environ["HOOKE_BUILD_DIR"]).rglob("hooke_fortran_modules"), None)
-    if modules is None:
-        return None
-    library = Path(os.environ["HOOKE_LIBRARY"]).parent
-    source, program = folder / "block.f90", folder / "block"
-    source.write_text(block.text)
-    result = execute([compiler, "-std=f2018", "-Wall", "-I", modules, source, modules.parent / "libhooke_fortran.a",
-                      f"-L{library}", f"-Wl,-rpath,{library}", "-lhooke", "-o", program], folder)
-    if result.returncode == 0:
-        result = execute([program], folder)
-    return report(block, result) if result.returncode else None
-
-
-def in_python(text, name, folder, output):
-    os.chdir(folder)
-    with open(output, "w") as file:
-        os.dup2(file.fileno(), 1)
-        os.dup2(file.fileno(), 2)
-    try:
-        exec(compile(text, name, "exec"), {"__name__": "__main__"})
-    except BaseException:
-        traceback.print_exc()
-        raise SystemExit(1) from None
-    finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
-
-
 def run_python(block, folder):
     """In a copy of this process, in which the packages are imported already: most blocks take less than that."""
     import h5py  # noqa: F401
@@ -123,6 +91,21 @@ def run_python(block, folder):
         child.kill()
         return f"{block} is not at its end after 240 s"
     return f"{block} ended with {child.exitcode}\n{output.read_text()}" if child.exitcode else None
+
+
+def in_python(text, name, folder, output):
+    os.chdir(folder)
+    with open(output, "w") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+    try:
+        exec(compile(text, name, "exec"), {"__name__": "__main__"})
+    except BaseException:
+        traceback.print_exc()
+        raise SystemExit(1) from None
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
 
 
 def run_command(command, folder):
@@ -169,7 +152,7 @@ def runs(block):
     return block.kind in RUN
 
 
-RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_console, "sh": run_console}
+RUN = {"c": run_c, "python": run_python, "console": run_console, "sh": run_console}
 
 
 def complaint(block, folder):

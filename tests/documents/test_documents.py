@@ -47,8 +47,6 @@ PROGRAM = "#include <hooke.h>\nint main(void) { return %s; }\n"
         ("c", PROGRAM % "hooke_no_such_function()"),
         ("c", "int32_t status = hooke_scene_load(path, &scene);\n"),
         ("python", "import hooke\nhooke.no_such_name\n"),
-        pytest.param("fortran", "error stop\nend\n",
-                     marks=pytest.mark.skipif(not os.environ.get("HOOKE_FORTRAN"), reason="there is no Fortran compiler")),
         ("console", "$ hooke run no-such-scene.json\n"),
         ("sh", "hooke no-such-verb\n"),
         ("sh", "hooke --version # exit 2\n"),
