@@ -131,6 +131,9 @@ def run_console(block, folder):
     return None
 
 
+RUN = {"c": run_c, "python": run_python, "console": run_console, "sh": run_console}
+
+
 def run_exact(block, folder):
     """A console whose output is compared, that on standard error included."""
     text = re.sub(r"\\\n\s*", " ", block.text)
@@ -150,9 +153,6 @@ def runs(block):
     if block.kind in ("console", "sh"):
         return any(True for _ in commands(block.text))
     return block.kind in RUN
-
-
-RUN = {"c": run_c, "python": run_python, "console": run_console, "sh": run_console}
 
 
 def complaint(block, folder):
