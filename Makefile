@@ -1,5 +1,6 @@
 # All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
 #   make demo   sets up, builds, and compares all methods on a cloth
+#   make docs   makes the documentation as a site, build/docs/index.html
 #   make test   sets up, builds, and runs every test
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -17,6 +18,11 @@ all: build-release
 demo: build-release
 	PYTHONPATH=bindings/python/src HOOKE_LIBRARY=build/release/libhooke.so \
 	  $(VENV) examples/demo.py build/release/hooke build/demo
+
+.PHONY: docs
+docs: build/venv/done
+	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
+	@echo build/docs/index.html
 
 test: $(PRESETS:%=build-%)
 	@failed=0; \
@@ -64,9 +70,9 @@ $(PRESETS:%=build-%): build-%: build/%/build.ninja
 build/%/build.ninja: CMakePresets.json | build/venv/done
 	cmake --preset $*
 
-build/venv/done: tests/requirements.txt | build/packages
+build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 	$(PYTHON) -m venv build/venv
-	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt
+	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
 
 # What is missing is installed as root or through sudo; without either, the line to type is printed.

@@ -1,10 +1,12 @@
 """The code in a Markdown document: finds the fenced blocks and runs them."""
 
+import multiprocessing
 import os
 import re
 import shlex
 import subprocess
 import sys
+import traceback
 from pathlib import Path
 
 NOT_RUN = {"text", "json"}
@@ -12,8 +14,11 @@ KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
-    def __init__(self, document, line, kind, text):
-        self.document, self.line, self.kind, self.text = document, line, kind, text
+    """`word` is what follows the kind in the fence: of a console "exact", what is printed has to be what is shown; of C and
+    Python "prototypes", declarations that are not run."""
+
+    def __init__(self, document, line, kind, text, word=""):
+        self.document, self.line, self.kind, self.text, self.word = document, line, kind, text, word
 
     def __str__(self):
         return f"{self.document}:{self.line} ({self.kind})"
@@ -23,11 +28,11 @@ def blocks(document, text):
     """All fenced blocks; one that is never closed is an error."""
     found, start, kind, lines = [], None, None, []
     for number, line in enumerate(text.splitlines(), 1):
-        fence = re.match(r"\s*```+\s*(\S*)", line)
+        fence = re.match(r"\s*```+\s*(\S*)\s*(.*)", line)
         if fence and start is None:
-            start, kind, lines = number, fence.group(1), []
+            start, (kind, word), lines = number, fence.groups(), []
         elif fence:
-            found.append(Block(document, start, kind, "\n".join(lines) + "\n"))
+            found.append(Block(document, start, kind, "\n".join(lines) + "\n", word))
             start = None
         elif start is not None:
             lines.append(line)
@@ -85,19 +90,56 @@ def run_fortran(block, folder):
 
 
 def run_python(block, folder):
-    result = execute([sys.executable, "-"], folder, input=block.text)
-    return report(block, result) if result.returncode else None
+    """In a copy of this process, in which the packages are imported already: most blocks take less than that."""
+    import h5py  # noqa: F401
+    import matplotlib.pyplot  # noqa: F401
+    import numpy  # noqa: F401
+
+    import hooke.plot  # noqa: F401
+
+    output = folder / "output.txt"
+    child = multiprocessing.get_context("fork").Process(target=in_python, args=(block.text, str(block), folder, output))
+    child.start()
+    child.join(240)
+    if child.is_alive():
+        child.kill()
+        return f"{block} is not at its end after 240 s"
+    return f"{block} ended with {child.exitcode}\n{output.read_text()}" if child.exitcode else None
+
+
+def in_python(text, name, folder, output):
+    os.chdir(folder)
+    with open(output, "w") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+    try:
+        exec(compile(text, name, "exec"), {"__name__": "__main__"})
+    except BaseException:
+        traceback.print_exc()
+        raise SystemExit(1) from None
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+
+
+def run_command(command, folder):
+    words = shlex.split(command)
+    if any(w in ("|", ">", ">>", "<", "&&", ";") for w in words):
+        path = f"{Path(os.environ['HOOKE_CLI']).parent}:{os.environ['PATH']}"
+        return execute(["bash", "-o", "pipefail", "-c", command], folder, env=os.environ | {"PATH": path})
+    return execute([os.environ["HOOKE_CLI"], *words[1:]], folder)
+
+
+def same(shown, printed):
+    """Whether two texts agree; "..." on a line of its own stands for any lines, in a line for anything in it."""
+    pattern = "\n".join(r"[\s\S]*?" if line.strip() == "..." else re.escape(line).replace(r"\.\.\.", ".*?")
+                        for line in shown.strip().splitlines())
+    return re.fullmatch(pattern, printed.strip()) is not None
 
 
 def run_console(block, folder):
     for command, code in commands(block.text):
-        words = shlex.split(command)
-        shell = any(w in ("|", ">", ">>", "&&", ";") for w in words)
-        if shell:
-            path = f"{Path(os.environ['HOOKE_CLI']).parent}:{os.environ['PATH']}"
-            result = execute(["bash", "-o", "pipefail", "-c", command], folder, env=os.environ | {"PATH": path})
-        else:
-            result = execute([os.environ["HOOKE_CLI"], *words[1:]], folder)
+        result = run_command(command, folder)
         if result.returncode != code:
             return report(f"{block}: {command}", result)
     return None
@@ -106,8 +148,33 @@ def run_console(block, folder):
 RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_console, "sh": run_console}
 
 
+def run_exact(block, folder):
+    """A console whose output is compared, that on standard error included."""
+    text = re.sub(r"\\\n\s*", " ", block.text)
+    for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
+        line, _, shown = piece.partition("\n")
+        for command, code in commands(line):
+            result = run_command(command, folder)
+            if result.returncode != code or not same(shown, result.stdout + result.stderr):
+                return report(f"{block}: {command}\nshown:\n{shown}", result)
+    return None
+
+
+def runs(block):
+    """Whether anything in the block is run."""
+    if block.word == "prototypes":
+        return False
+    if block.kind in ("console", "sh"):
+        return any(True for _ in commands(block.text))
+    return block.kind in RUN
+
+
 def complaint(block, folder):
     """What is wrong with a block when it runs in `folder`; None if nothing is."""
     if block.kind not in KINDS:
         return f"{block}: mark it as one of {', '.join(sorted(KINDS))}"
-    return RUN[block.kind](block, folder) if block.kind in RUN else None
+    if block.word not in ("", "exact", "prototypes"):
+        return f"{block}: there is no word {block.word!r} for a fence"
+    if block.word == "exact":
+        return run_exact(block, folder)
+    return RUN[block.kind](block, folder) if runs(block) else None

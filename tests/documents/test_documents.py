@@ -9,7 +9,8 @@ import pytest
 import blocks
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
+DOCUMENTS = [ROOT / "README.md", ROOT / "bindings/python/README.md", *PAGES]
 
 
 @pytest.fixture
@@ -18,11 +19,17 @@ def folder(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: p.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
 def test_document(document, folder):
     found = blocks.blocks(document.relative_to(ROOT), document.read_text(encoding="utf-8"))
     complaints = [c for b in found if (c := blocks.complaint(b, folder))]
     assert not complaints, "\n\n".join(complaints)
+
+
+@pytest.mark.parametrize("document", PAGES, ids=lambda p: p.name)
+def test_every_page_has_a_snippet_that_runs(document):
+    found = blocks.blocks(document.relative_to(ROOT), document.read_text(encoding="utf-8"))
+    assert any(blocks.runs(block) for block in found)
 
 
 def test_readme_shows_every_language():
@@ -48,6 +55,9 @@ PROGRAM = "#include <hooke.h>\nint main(void) { return %s; }\n"
         ("sh", "hooke --version # exit 2\n"),
         ("", "anything\n"),
         ("cpp", PROGRAM % "0"),
+        ("c other", PROGRAM % "0"),
+        ("console exact", "$ hooke --version\nhooke 0.0.0\n...\n"),
+        ("console exact", "$ hooke no-such-verb # exit 2\nhooke: there is a verb 'no-such-verb'...\n"),
     ],
 )
 def test_planted(kind, text, folder):
@@ -64,6 +74,9 @@ def test_planted(kind, text, folder):
         ("console", "$ hooke --version\nhooke 0.1.0\n$ git clone something\n"),
         ("sh", "hooke no-such-verb # exit 2\nhooke \\\n  --version | cat\n"),
         ("text", "anything\n"),
+        ("c prototypes", "int32_t hooke_abi(void);\n"),
+        ("console exact", "$ hooke no-such-verb # exit 2\nhooke: there is no verb 'no-such-verb'...\n"),
+        ("console exact", "$ hooke --version\nhooke 0...\n...\n$ hooke no-such-verb # exit 2\n...\n"),
     ],
 )
 def test_fine(kind, text, folder):

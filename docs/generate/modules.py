@@ -1,0 +1,118 @@
+"""The Fortran reference, from the comments of the modules: those right above a type or a procedure."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from words import markdown
+
+PROCEDURE = re.compile(r"^(?!end\b)(?P<head>[^!\"'=]*?\b(?:subroutine|function)\s+(?P<name>\w+)\b.*)$", re.IGNORECASE)
+TYPE = re.compile(r"^type\b(?!\s*\()[^:]*?(?:::)?\s*(?P<name>\w+)\s*(?:!.*)?$", re.IGNORECASE)
+END = re.compile(r"^end\s*(?:subroutine|function|type|interface)?\b", re.IGNORECASE)
+
+
+def logical_lines(text: str) -> list[str]:
+    """Lines with what is continued joined."""
+    return re.sub(r"&\s*\n\s*&?", "", text).splitlines()
+
+
+def exported(lines: list[str]) -> dict[str, str]:
+    """What `use hooke` brings: names in the modules, and what they are called outside."""
+    found = {}
+    for names in re.findall(r"^\s*use \w+, only:(.*)$", "\n".join(lines), re.MULTILINE):
+        for name in names.split(","):
+            outside, _, inside = (word.strip() for word in name.partition("=>"))
+            found[inside or outside] = outside
+    return found
+
+
+def bound_names(lines: list[str]) -> set[str]:
+    """Names that types are bound to, and the interfaces of those that are deferred."""
+    found: set[str] = set()
+    for line in lines:
+        words = line.split("!")[0]
+        if match := re.match(r"\s*(?:procedure(?:\((\w+)\))?|generic)\s*(?:,\s*\w+\s*)*::\s*(.*)", words):
+            found |= set(re.findall(r"\w+", match[2])) | ({match[1]} if match[1] else set())
+    return found
+
+
+def dummies(lines: list[str], start: int) -> list[str]:
+    """The declarations of arguments and result below the head of a procedure."""
+    found = []
+    for line in lines[start + 1 :]:
+        words = line.split("!")[0].strip()
+        if END.match(words):
+            break
+        if "intent(" in words or re.match(r"(class|procedure)\(", words):
+            if not words.startswith("class(") or " self" not in words:
+                found.append("  " + words)
+    return found
+
+
+def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str]]:
+    """(name, comment, code) of every type and procedure that may be used."""
+    bound_to, comment, found = bound_names(lines), [], []
+    for number, line in enumerate(lines):
+        words = line.strip()
+        if "---- for the other modules" in words:
+            break
+        if words.startswith("!"):
+            comment.append(re.sub(r"^![>!]? ?", "", words))
+            continue
+        match = PROCEDURE.match(words) or TYPE.match(words)
+        is_type = match is not None and "head" not in match.groupdict() and match["name"].startswith("hooke_")
+        known = match is not None and (match["name"] in outside or match["name"] in bound_to or is_type)
+        known = known and not match["name"].startswith("assign")  # what "=" does
+        if match and known and "bind(c" not in words.lower():
+            code = [words, *dummies(lines, number)] if "head" in match.groupdict() else bound(lines, number)
+            found.append((outside.get(match["name"], match["name"]), "\n".join(comment), "\n".join(code)))
+        comment = []
+    return found
+
+
+def bound(lines: list[str], start: int) -> list[str]:
+    """A type with the names of what it can do."""
+    found = [lines[start].strip()]
+    for line in lines[start + 1 :]:
+        words = line.strip()
+        if re.match(r"end\s*type", words):
+            break
+        if words and "private" not in words.split("::")[0]:
+            found.append("  " + words)
+    return found
+
+
+def intro(lines: list[str]) -> str:
+    """The comment above a module."""
+    start = next(k for k, line in enumerate(lines) if re.match(r"\s*module \w+", line))
+    return markdown("\n".join(re.sub(r"^![>!]? ?", "", line) for line in lines[:start] if line.startswith("!")))
+
+
+def module(lines: list[str], outside: dict[str, str]) -> str:
+    found = entries(lines, outside)
+    if not found:
+        return ""
+    pieces = [f"## {re.search(r'^module (.+)$', chr(10).join(lines), re.MULTILINE)[1]}", intro(lines)]
+    for name, comment, code in found:
+        pieces += [f"### {name}", markdown(comment), f"```text\n{code}\n```"]
+    return "\n\n".join(filter(None, pieces))
+
+
+def page(root: Path) -> str:
+    """"" while there is no module, or no page that leads to it."""
+    folder = root / "bindings/fortran"
+    if not (folder / "hooke.f90").exists() or not (root / "docs/fortran.md").exists():
+        return ""
+    front = logical_lines((folder / "hooke.f90").read_text("utf-8"))
+    others = [logical_lines(path.read_text("utf-8")) for path in sorted(folder.glob("*.f90")) if path.stem != "hooke"]
+    pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
+              "interface](../fortran.md) is the way in.", EXAMPLE, intro(front)]
+    return "\n\n".join(filter(None, pieces + [module(lines, exported(front)) for lines in others])) + "\n"
+
+
+EXAMPLE = """Their library is the one that the program uses:
+
+```console
+$ hooke --version
+```"""

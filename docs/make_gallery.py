@@ -1,0 +1,174 @@
+"""Makes the pictures of docs/gallery.md and the list of them there: python docs/make_gallery.py [NAME ...]
+
+Takes about a minute. Scenes of the table that are not in examples/scenes are left out.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Any, Callable, NamedTuple
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.collections import LineCollection  # noqa: E402
+from matplotlib.ticker import MaxNLocator  # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Line3DCollection  # noqa: E402
+
+import hooke  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs/gallery.md"
+MARK = re.compile(r"(<!-- pictures -->\n).*?(<!-- end -->)", re.DOTALL)
+COLOURS = plt.get_cmap("viridis")
+
+
+class Picture(NamedTuple):
+    scene: str  # in examples/scenes
+    draw: Callable[[hooke.Result, Any], Any]
+    words: str  # what is seen, for those who do not see it
+
+
+def at(result: hooke.Result, count: int) -> np.ndarray:
+    """Frames at equal distances, the first and the last among them."""
+    return np.linspace(0, len(result.frames.t) - 1, count).round().astype(int)
+
+
+def strain(result: hooke.Result, q: np.ndarray) -> np.ndarray:
+    """Of every spring, 0 where its rest length is 0."""
+    ends, rest = result.system.spring_ends, result.system.spring_material.rest_length
+    length = np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1)
+    return np.divide(length - rest, rest, out=np.zeros_like(rest), where=rest > 0)
+
+
+def side(result: hooke.Result, figure: Any, across: int = 0) -> None:
+    """From the side at several times, laid over each other."""
+    ax = figure.add_subplot()
+    for share, frame in zip(np.linspace(0, 0.9, 6), at(result, 6)):
+        segments = result.frames.q[frame][:, (across, 1)][result.system.spring_ends]
+        ax.add_collection(LineCollection(segments, colors=[COLOURS(share)], linewidths=1.2,
+                                         label=f"{result.frames.t[frame]:.3g} s"))
+    ax.autoscale_view()
+    ax.set(xlabel=f"{'xyz'[across]} [m]", ylabel="y [m]", aspect="equal")
+    ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
+
+
+def apart(result: hooke.Result, figure: Any) -> None:
+    """x and y at the end, on axes of their own scale."""
+    ax = figure.add_subplot()
+    q = result.frames.q[-1]
+    ax.add_collection(LineCollection(q[:, :2][result.system.spring_ends], colors="tab:blue", linewidths=1))
+    ax.plot(q[:, 0], q[:, 1], ".", color="tab:red", markersize=3)
+    ax.set(xlabel="x [m]", ylabel="y [m]", title=f"t = {result.frames.t[-1]:.3g} s")
+
+
+def from_the_edge(result: hooke.Result, figure: Any) -> None:
+    side(result, figure, across=2)
+
+
+def beam(result: hooke.Result, figure: Any) -> None:
+    side(result, figure)
+    figure.axes[0].set(aspect="auto")
+
+
+def lengths(result: hooke.Result, ax: Any) -> None:
+    for (a, b), (name, _) in zip(result.system.spring_ends, result.system.groups):
+        ax.plot(result.frames.t, np.linalg.norm(result.frames.q[:, a] - result.frames.q[:, b], axis=1), label=name)
+    ax.set(ylabel="length [m]")
+    ax.legend(fontsize="small")
+
+
+def oscillation(result: hooke.Result, figure: Any) -> None:
+    """The length of a spring, and the energy."""
+    length, energy = figure.subplots(2, sharex=True)
+    lengths(result, length)
+    energy.plot(result.frames.t, [result.system.energy(*pair) for pair in zip(result.frames.q, result.frames.v)], color="0.3")
+    energy.set(xlabel="t [s]", ylabel="energy [J]")
+
+
+def fall(result: hooke.Result, figure: Any) -> None:
+    """The lengths of springs, and how high each is."""
+    length, height = figure.subplots(2, sharex=True)
+    lengths(result, length)
+    for a, _ in result.system.spring_ends:
+        height.plot(result.frames.t, result.frames.q[:, a, 1])
+    height.set(xlabel="t [s]", ylabel="y [m]")
+
+
+def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, int, int] = (2, 0, 1)) -> None:
+    """In space at a share of the duration, springs coloured by strain, y upwards; held particles in black."""
+    frame = round(share * (len(result.frames.t) - 1))
+    q = result.frames.q[frame][:, up]
+    stretched = 100 * strain(result, result.frames.q[frame])
+    reach = max(np.percentile(np.abs(stretched), 98), 1e-6)
+    lines = Line3DCollection(q[result.system.spring_ends], cmap="coolwarm", linewidths=0.7,
+                             norm=plt.Normalize(-reach, reach))
+    lines.set_array(np.clip(stretched, -reach, reach))
+    ax = figure.add_subplot(projection="3d")
+    ax.add_collection3d(lines)
+    held = q[result.system.inverse_masses == 0]
+    ax.scatter(*held.T, color="black", s=8)
+    low, high = q.min(axis=0), q.max(axis=0)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2] + 1e-9), xlabel="z [m]", ylabel="x [m]",
+           zlabel="y [m]", title=f"t = {result.frames.t[frame]:.3g} s")
+    ax.set_box_aspect(np.maximum(high - low, 0.3 * (high - low).max()))
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_major_locator(MaxNLocator(3))
+    narrow = high - low < 0.4 * (high - low).max()  # no room for numbers
+    if narrow[0]:
+        ax.set(xlabel="", xticks=[])
+    if narrow[1]:
+        ax.set(ylabel="", yticks=[])
+    ax.view_init(elev=15, azim=30)
+    figure.colorbar(lines, ax=ax, label="strain [%]", shrink=0.6, pad=0.08)
+
+
+def half_way(result: hooke.Result, figure: Any) -> None:
+    space(result, figure, 0.5)
+
+
+PICTURES = [
+    Picture("rope", side, "A rope at six times, from horizontal to swinging past the vertical."),
+    Picture("cloth-16", half_way, "A sagging cloth, held at two corners, its springs coloured by strain."),
+    Picture("cloth-damped", from_the_edge, "A heavily damped cloth, held at its upper edge, from its side at six times."),
+    Picture("cloth-gentle", half_way, "A soft cloth, held at its upper edge, in the middle of its swing."),
+    Picture("oscillator", oscillation, "The length of a spring, a dying oscillation, and the energy, which falls."),
+    Picture("rope-resolution", apart, "Eight hanging bands: four of equal length, four of growing length."),
+    Picture("drag-or-damping", fall, "The lengths of two springs that fall, and how high they are."),
+    Picture("cantilever", beam, "A beam that bends under its own weight, at six times."),
+    Picture("curl", space, "A hanging curl, its springs coloured by strain."),
+    Picture("lattice", space, "A block of springs, coloured by strain."),
+    Picture("mesh", space, "A surface of triangles, its edges coloured by strain."),
+]
+
+
+def make(picture: Picture) -> None:
+    result = hooke.run(ROOT / f"examples/scenes/{picture.scene}.json", frames=True)
+    figure = plt.figure(figsize=(6, 4), layout="constrained")
+    picture.draw(result, figure)
+    figure.savefig(ROOT / f"docs/images/gallery-{picture.scene}.png", dpi=90)
+    plt.close(figure)
+
+
+def entry(picture: Picture) -> str:
+    scene = hooke.Scene.load(ROOT / f"examples/scenes/{picture.scene}.json")
+    title = scene.title[0].upper() + scene.title[1:]
+    return (f"## {picture.scene}\n\n{title}: [`{picture.scene}.json`](../examples/scenes/{picture.scene}.json).\n\n"
+            f"![{picture.words}](images/gallery-{picture.scene}.png)\n\n")
+
+
+def main(names: list[str]) -> None:
+    there = [picture for picture in PICTURES if (ROOT / f"examples/scenes/{picture.scene}.json").exists()]
+    for picture in there:
+        if not names or picture.scene in names:
+            make(picture)
+    text = "\n" + "".join(map(entry, there))
+    PAGE.write_text(MARK.sub(lambda match: match[1] + text + match[2], PAGE.read_text("utf-8")), "utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

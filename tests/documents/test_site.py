@@ -1,0 +1,78 @@
+"""`make docs`: the site is made without a warning, has every page, and loads nothing from elsewhere."""
+
+import html.parser
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+LOADS = {"img": "src", "script": "src", "iframe": "src", "source": "src", "video": "src", "object": "data", "embed": "src"}
+LOADED_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch", "manifest"}
+
+
+class Loads(html.parser.HTMLParser):
+    """What a browser fetches to show a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found = re.findall(r"@import\s+['\"]([^'\"]+)|url\(['\"]?([^'\")]+)", text)
+        self.found = [a or b for a, b in self.found]
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag in LOADS and attributes.get(LOADS[tag]):
+            self.found.append(attributes[LOADS[tag]])
+        if tag == "link" and LOADED_LINKS & set((attributes.get("rel") or "").split()):
+            self.found.append(attributes.get("href") or "")
+
+
+def elsewhere(text):
+    return [address for address in Loads(text).found if re.match(r"(?!data:)[a-z]+:|//", address, re.IGNORECASE)]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site")
+    done = subprocess.run(
+        [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-d", folder / "doctrees", ROOT / "docs", folder / "html"],
+        capture_output=True, text=True)
+    assert done.returncode == 0 and not done.stderr.strip(), done.stdout + done.stderr
+    return folder / "html"
+
+
+def test_every_page_is_there_and_found(site):
+    index = (site / "searchindex.js").read_text(encoding="utf-8")
+    for page in (ROOT / "docs").rglob("*.md"):
+        name = page.relative_to(ROOT / "docs").with_suffix("")
+        assert (site / f"{name}.html").exists(), name
+        assert f'"{name}"' in index, f"{name} is not in the search"
+
+
+def test_nothing_is_loaded_from_elsewhere(site):
+    for path in [*site.rglob("*.html"), *site.rglob("*.css")]:
+        text = path.read_text(encoding="utf-8")
+        assert not elsewhere(text), f"{path.name}: {elsewhere(text)}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<script src="https://example.org/a.js"></script>',
+        '<link rel="stylesheet" href="//example.org/a.css">',
+        '<img src="http://example.org/a.png">',
+        "<style>@import 'https://example.org/a.css';</style>",
+        "@font-face { src: url(https://example.org/a.woff2) }",
+    ],
+)
+def test_planted(text):
+    assert elsewhere(text)
+
+
+@pytest.mark.parametrize("text", ['<a href="https://example.org">out</a>', '<img src="data:image/png;base64,AA==">', '<img src="a.png">'])
+def test_fine(text):
+    assert not elsewhere(text)

@@ -1,0 +1,28 @@
+"""The tables of docs/validation.md are what the library gives."""
+
+import importlib.util
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+
+spec = importlib.util.spec_from_file_location("make_validation", ROOT / "docs/make_validation.py")
+validation = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(validation)
+
+
+def test_page_and_library_agree():
+    found = validation.differences(validation.PAGE.read_text(encoding="utf-8"), validation.made())
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("a, b", [("| 1.5e-06 |", "| 1.6e-06 |"), ("| verlet | 1 |", "| rk4 | 1 |"), ("| 1e-9 |", "| 0 |")])
+def test_planted(a, b):
+    assert validation.differences(a, b) and validation.differences(a, a + "\n" + a)
+
+
+@pytest.mark.parametrize("a, b", [("| 1.500e-06 |", "| 1.501e-06 |"), ("| 1e-16 |", "| 3e-15 |")])
+def test_fine(a, b):
+    assert not validation.differences(a, b)
