@@ -22,6 +22,7 @@ from typing import Any
 
 from ._queries import Blocks, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
+from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
 from .first_order import FirstOrder
@@ -63,12 +64,14 @@ __all__ = [
     "Result",
     "Scene",
     "SolverFailed",
+    "Springs",
     "State",
     "StepWarning",
     "Stopped",
     "Study",
     "System",
     "Trajectory",
+    "Transform",
     "Unsuited",
     "Why",
     "animation",
