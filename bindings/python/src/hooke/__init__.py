@@ -23,6 +23,7 @@ from typing import Any
 
 from ._queries import Blocks, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
+from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
 from .first_order import FirstOrder
@@ -66,12 +67,14 @@ __all__ = [
     "Row",
     "Scene",
     "SolverFailed",
+    "Springs",
     "State",
     "StepWarning",
     "Stopped",
     "Study",
     "System",
     "Trajectory",
+    "Transform",
     "Unsuited",
     "Why",
     "animation",

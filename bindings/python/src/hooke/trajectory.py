@@ -59,7 +59,7 @@ class Trajectory(Closing):
         self.path: str = os.fsdecode(path)  #: the file
         lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
         self._handle = Handle(pointer, lib.hooke_record_close)
-        self._kept: dict[str, Any] = {}
+        self._kept: dict[Any, Any] = {}
         self._count: int = lib.hooke_record_frame_count(self._handle)
 
     # frames
@@ -72,7 +72,7 @@ class Trajectory(Closing):
     @property
     def steps(self) -> IntArray:
         """Numbers of the steps at the frames (frames,)."""
-        return self._numbers("step")[: self._count].astype(np.int64)
+        return self._integers("step")[: self._count]
 
     @property
     def q(self) -> FloatArray:
@@ -138,7 +138,7 @@ class Trajectory(Closing):
     @property
     def springs(self) -> IntArray:
         """The particles at both ends of every spring (m, 2), in spring order."""
-        return self._numbers("springs").astype(np.int64).reshape(-1, 2)
+        return self._integers("springs").reshape(-1, 2)
 
     @property
     def pinned(self) -> IntArray:
@@ -225,6 +225,13 @@ class Trajectory(Closing):
             numbers.flags.writeable = False
             self._kept[what] = numbers[:, 0] if size[1].value == 1 else numbers
         kept: FloatArray = self._kept[what]
+        return kept
+
+    def _integers(self, what: str) -> IntArray:
+        if (what, int) not in self._kept:
+            self._kept[what, int] = self._numbers(what).astype(np.int64)
+            self._kept[what, int].flags.writeable = False
+        kept: IntArray = self._kept[what, int]
         return kept
 
     def _rows(self, what: str) -> FloatArray:
