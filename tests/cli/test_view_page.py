@@ -13,7 +13,6 @@ from pages import BROWSER
 from test_view import CLOTH, DRAWS
 
 np = pytest.importorskip("numpy")
-image = pytest.importorskip("matplotlib.image")
 
 pytestmark = [pytest.mark.skipif(not DRAWS or os.environ.get("HOOKE_PRESET") == "asan", reason="drawn in other builds"),
               pytest.mark.skipif(BROWSER is None, reason="there is no Chromium to open the page with")]
@@ -58,6 +57,7 @@ def page(browser, cloth):
 
 def seen(browser, name="picture"):
     """The pixels of an element; of the picture without what lies over it."""
+    image = pytest.importorskip("matplotlib.image")
     browser.run('for (const id of ["legend", "axes", "thinned"]) at(id).style.visibility = "hidden"')
     return (image.imread(io.BytesIO(browser.picture(name)))[5:-5, 5:-5, :3] * 255).round().astype(int)
 
