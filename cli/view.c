@@ -89,6 +89,7 @@ const struct hooke_verb hooke_verb_view = {
         "What "
         "is left out, to keep the page small and quick, is said on it and here. A run that was killed shows "
         "the frames it has.",
+    .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),
     .options = hooke_view_options_create,
     .function = do_view,

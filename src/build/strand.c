@@ -20,13 +20,21 @@
 
 static const struct hooke_option_row rows[] = {
     HOOKE_PART_POINT("from", "where its axis begins"),
-    HOOKE_PART_POINT("to", "where its axis ends"),
+    {.name = "to",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .max_count = 3,
+     .required = 1,
+     .example = "0,-1,0",
+     .doc = "where its axis ends"},
     {.name = "segments",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,
      .high = INT32_MAX / 2 - 1,
      .whole = 1,
      .required = 1,
+     .example = "24",
      .doc = "pieces of the axis; it has one particle more, and if it is straight one in each piece besides"},
     {.name = "offset",
      .type = HOOKE_OPTION_NUMBER,
@@ -310,5 +318,11 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
 
 static const struct hooke_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_strand = {
-    .table = &table, .build = build, .named = named, .grid = &grid};
+const struct hooke_part_kind hooke_part_strand = {.table = &table,
+                                                  .build = build,
+                                                  .named = named,
+                                                  .grid = &grid,
+                                                  .summary =
+                                                      "a hair, straight or curled, that keeps its curl: "
+                                                      "springs between neighbours, two and three apart, and "
+                                                      "across tetrahedra"};
