@@ -311,12 +311,12 @@ static void methods_agree(void **unused) {
   check_ok(hooke_system_set_gravity(system, gravity));
   commit(system);
   double expected[3 * CURL];
-  run_to_end(system, (struct run){.method = "rk4", .step = 5e-6, .duration = 0.01, .every = 0.01}, expected,
+  run_to_end(system, (struct run){.method = "rk4", .step = 5e-6, .duration = 0.005, .every = 0.005}, expected,
              NULL);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!hooke_method_is_built(method)) continue;
-    struct run run = {.method = method, .duration = 0.01, .every = 0.01};
+    struct run run = {.method = method, .duration = 0.005, .every = 0.005};
     const int first_order = strstr(method, "euler") != NULL;
     if (hooke_method_is_adaptive(method))
       run.rtol = 1e-9, run.atol = 1e-12;
