@@ -305,6 +305,14 @@ static int32_t judge_solver(struct hooke_inquiry *inquiry) {
 
 /* ---- */
 
+/* What no step or tolerance cures. */
+static const char *altitude_words(const struct hooke_inquiry *inquiry) {
+  return inquiry->system->altitudes.count == 0 ? ""
+                                               : ", or altitude springs gave it energy, which they do far "
+                                                 "from rest wherever another altitude comes "
+                                                 "to be the shortest";
+}
+
 /* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in proportion, as a
  * callback's may, end in a leap, too. */
 static int grew_before(const struct hooke_inquiry *inquiry) {
@@ -329,14 +337,14 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
     say(inquiry, "solver-failed",
         "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
         "they were "
-        "larger than the motion; %s",
-        hooke_options_number(inquiry->run->options, "rtol"), show(inquiry, end));
+        "larger than the motion%s; %s",
+        hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry), show(inquiry, end));
   } else {
     say(inquiry, "step-above-limit",
         "no step was seen above the limit of the motion frozen at one moment, no spring collapsed and no "
         "callback "
-        "failed; so the step %.6g s is too large for how quickly this motion changes; %s",
-        inquiry->why->step, show(inquiry, end));
+        "failed; so the step %.6g s is too large for how quickly this motion changes%s; %s",
+        inquiry->why->step, altitude_words(inquiry), show(inquiry, end));
   }
   return HOOKE_OK;
 }
