@@ -111,7 +111,7 @@ class Queries:
     @property
     def altitude_count(self) -> int:
         """Tetrahedra with altitude springs; commit drops those without stiffness and damping."""
-        return lib.hooke_system_altitude_count(self._handle)
+        return int(lib.hooke_system_altitude_count(self._handle))
 
     @property
     def altitude_groups(self) -> list[tuple[str, int]]:

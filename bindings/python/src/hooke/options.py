@@ -38,14 +38,14 @@ class Row(NamedTuple):
     words: list[str]
     family: str
     example: str
-    low: None | float
-    high: None | float
+    low: float | None
+    high: float | None
     above_low: bool
     whole: bool
     required: bool
-    min_count: None | int
-    max_count: None | int
-    columns: None | int
+    min_count: int | None
+    max_count: int | None
+    columns: int | None
     word_lists: bool
 
 

@@ -59,8 +59,8 @@ class Result:
 
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
     `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
-    `stop_value` is what the callback that stopped the run returned, `output` the file that was written. `integrator` is kept of a run that blew up,
-    to be asked why.
+    `stop_value` is what the callback that stopped the run returned, `output` the file that was written.
+    `integrator` is kept of a run that blew up, to be asked why.
     """
 
     status: str
@@ -112,10 +112,10 @@ def run(
 
     The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
     every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
-    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it
-    comes the ``.xdmf`` by which ParaView reads it), ``frames=True`` keeps all frames in memory, `force` adds a force callback (see `System.set_force`), ``progress(fraction,
-    state)`` is told at each frame, ``progress=True`` shows a bar (with tqdm);
-    for `on_frame` and `on_step` see `Integrator.run`.
+    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it comes the
+    ``.xdmf`` by which ParaView reads it), ``frames=True`` keeps all frames in memory, `force` adds a force
+    callback (see `System.set_force`), ``progress(fraction, state)`` is told at each frame, ``progress=True``
+    shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
     """
     scene, problem, given = resolve(problem, force)
     integrator = Integrator(problem, given, **options)
