@@ -9,7 +9,7 @@ HERE = Path(__file__).parent
 
 project = "hooke"
 release = re.search(r'HOOKE_VERSION "(.+)"', (HERE.parent / "include/hooke/base.h").read_text("utf-8"))[1]
-copyright = "the authors of hooke, MIT licence"  # noqa: A001, the name that Sphinx reads
+copyright = "the authors of hooke, MIT licence"
 extensions = ["myst_parser"]
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4

@@ -13,7 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import hooke  # noqa: E402
+import hooke
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ("cloth-stiff", "cloth-damped", "cloth-gentle")

@@ -12,11 +12,11 @@ from typing import Any
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
 
-import hooke  # noqa: E402
-import hooke.plot  # noqa: E402
+import hooke
+import hooke.plot
 
 ROOT = Path(__file__).resolve().parents[1]
 NAME = "cloth-64"

@@ -11,9 +11,9 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
-import hooke  # noqa: E402
+import hooke
 
 IMAGES = Path(__file__).resolve().parent / "images"
 

@@ -52,7 +52,7 @@ def make(size: int, stiffness: float = 50.0, damping: float = 0.0) -> Cloth:
     system.set_gravity([0, -GRAVITY, 0])
     family = {"stiffness": stiffness, "damping": damping}
     system.add_part("cloth", "cloth", origin=[0, 0, 0], edges=[1, 0, 0, 0, 0, 1], size=[size, size], mass=1,
-                    pinned="top-corners", **{name: family for name in FAMILIES})
+                    pinned="top-corners", **dict.fromkeys(FAMILIES, family))
     counts = dict(system.groups)
     material = system.spring_material
     return Cloth(

@@ -69,5 +69,6 @@ def race(size: int, damped: bool, steppers: list[Stepper], threads: int, seconds
     for stepper, times, (apart, allowed) in zip(steppers, taken, differences):
         yield Row(
             f"cloth-{size}" + ("" if damped else "-undamped"), stepper.name, stepper.version(),
-            threads if stepper.has_threads else 1, len(times), min(times), median(times), springs=len(cloth.ends), step=step, distance=apart, allowed=allowed,
+            threads if stepper.has_threads else 1, len(times), min(times), median(times),
+            springs=len(cloth.ends), step=step, distance=apart, allowed=allowed,
         )

@@ -7,10 +7,9 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import pytest
-
 import freeze
 import headers
+import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 LIBRARY = Path(os.environ["HOOKE_LIBRARY"])

@@ -4,9 +4,8 @@ import os
 import subprocess
 from pathlib import Path
 
-import pytest
-
 import headers
+import pytest
 
 INCLUDE = Path(os.environ["HOOKE_SOURCE_DIR"]) / "include"
 FILES = sorted(p.relative_to(INCLUDE).as_posix() for p in INCLUDE.rglob("*.h"))

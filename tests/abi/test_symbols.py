@@ -6,9 +6,8 @@ import re
 import subprocess
 from pathlib import Path
 
-import pytest
-
 import headers
+import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 LIST = Path(__file__).with_name("symbols.txt")

@@ -6,7 +6,6 @@ import pathlib
 import subprocess
 
 import pytest
-
 from conftest import CLI
 
 pytestmark = pytest.mark.everything

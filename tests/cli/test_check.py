@@ -5,7 +5,6 @@ import math
 import re
 
 import pytest
-
 from conftest import METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
@@ -128,7 +127,7 @@ def test_warns_of_springs_without_direction_and_of_loose_particles(hooke, write)
     scene["springs"][0]["rest_length"] = 1
     answer = hooke("check", write(scene, step=1e-4), "--json")
     assert answer.code == 0
-    coincident, loose = [text for text in answer.json["warnings"]]
+    coincident, loose = answer.json["warnings"]
     assert "1 spring starts with both ends at the same place" in coincident
     assert "2 particles have no spring" in loose and "particle 6" in loose
 

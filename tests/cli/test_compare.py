@@ -6,7 +6,6 @@ import time
 
 import h5py
 import pytest
-
 from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything

@@ -4,7 +4,6 @@ import copy
 import math
 
 import pytest
-
 from conftest import SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything

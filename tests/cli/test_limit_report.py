@@ -7,10 +7,20 @@ import subprocess
 from pathlib import Path
 
 import pytest
-
 from conftest import CLI, MINIMAL, SIX_PARTICLES
-from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, check_planted_faults, count_pixels
-from pages import fetches, needs_browser, needs_page
+from pages import (
+    DRAWS,
+    TITLE,
+    VERSION,
+    browse,
+    check_not_built,
+    check_places,
+    check_planted_faults,
+    count_pixels,
+    fetches,
+    needs_browser,
+    needs_page,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 METHODS = ["forward-euler", "symplectic-euler", "verlet", "rk4", "backward-euler"]
@@ -175,7 +185,7 @@ def test_words(chain, tmp_path):
 @needs_browser
 def test_a_large_scene(tmp_path):
     scene = json.loads((ROOT / "examples/scenes/cloth-64.json").read_text())
-    page, value = make(tmp_path, scene, "--predict")
+    page, _ = make(tmp_path, scene, "--predict")
     assert len(page) < 800_000
     picture = data_of(page)["picture"]
     assert len(picture["spring"]) == len(picture["ends"]) / 2 == 3000
@@ -194,7 +204,7 @@ def test_a_large_scene(tmp_path):
 @needs_browser
 def test_along_and_nothing_that_limits(tmp_path):
     scene = copy.deepcopy(SIX_PARTICLES)
-    page, value = make(tmp_path, scene, "--along")
+    page, _ = make(tmp_path, scene, "--along")
     seen = browse(tmp_path, page)
     assert seen.console == [] and "smallest met" in seen.text["rows"]
     assert data_of(page)["time"] == scene["run"]["duration"]

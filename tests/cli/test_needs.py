@@ -9,7 +9,6 @@ import time
 from pathlib import Path
 
 import pytest
-
 from conftest import CLI, MINIMAL, SIX_PARTICLES
 from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, fetches, needs_browser, needs_page
 
@@ -201,7 +200,7 @@ def test_what_is_drawn(found, tmp_path):
     ends = json.loads(changes["ends"])
     sizes = [row_of(answer, name)["error"] for name, _ in ends]
     assert sizes == sorted(sizes, reverse=True)
-    for (name, end), size in zip(ends, sizes):
+    for (_, end), size in zip(ends, sizes):
         assert end == pytest.approx(size, rel=1e-6) or size < min(end for _, end in ends)
     for drawn in (changes, costs, picture):
         assert min(json.loads(drawn["pixels"])) > 50, drawn

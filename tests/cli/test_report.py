@@ -5,10 +5,20 @@ import json
 import subprocess
 
 import pytest
-
 from conftest import CLI, STIFF_PAIR
-from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, check_planted_faults, count_pixels
-from pages import fetches, needs_browser, needs_page
+from pages import (
+    DRAWS,
+    TITLE,
+    VERSION,
+    browse,
+    check_not_built,
+    check_places,
+    check_planted_faults,
+    count_pixels,
+    fetches,
+    needs_browser,
+    needs_page,
+)
 
 METHODS = ["forward-euler", "symplectic-euler", "rk4", "cvode-adams"]
 # Symplectic Euler diverges at 0.1, and rk4 reaches the floor of the reference.

@@ -13,7 +13,6 @@ import time
 
 import h5py
 import pytest
-
 from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything

@@ -6,7 +6,6 @@ import json
 import h5py
 import numpy
 import pytest
-
 from conftest import SIX_PARTICLES
 
 pytestmark = pytest.mark.everything

@@ -7,7 +7,6 @@ import pathlib
 
 import jsonschema
 import pytest
-
 from conftest import CLI  # noqa: F401  (fails early without the program)
 
 pytestmark = pytest.mark.everything

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import h5py
 import pytest
-
 from conftest import ENDLESS, MINIMAL, SIX_PARTICLES, STIFF_PAIR
 from references import Reference
 

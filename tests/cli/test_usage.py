@@ -4,7 +4,6 @@ import re
 import subprocess
 
 import pytest
-
 from conftest import CLI, MINIMAL, SIX_PARTICLES
 
 VERBS = ["run", "compare", "check"]

@@ -8,7 +8,6 @@ import shutil
 from pathlib import Path
 
 import pytest
-
 from conftest import SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything

@@ -55,7 +55,7 @@ def complaints(path, xdmf, frames=None):
             else:
                 assert seen.GetCellType(0) == VTK_POLY_VERTEX
             found += [f"{name} of frame {k}" for name, a, b in pairs
-                      if a.shape != b.shape or not np.array_equal(a, b) or a.dtype.itemsize < b.dtype.itemsize and name != "springs"]
+                      if a.shape != b.shape or not np.array_equal(a, b) or (a.dtype.itemsize < b.dtype.itemsize and name != "springs")]
     return found
 
 

@@ -4,9 +4,8 @@ import os
 import shutil
 from pathlib import Path
 
-import pytest
-
 import blocks
+import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 PAGES = sorted((ROOT / "docs").rglob("*.md"))

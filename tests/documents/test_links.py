@@ -3,9 +3,8 @@
 import os
 from pathlib import Path
 
-import pytest
-
 import links
+import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md",

@@ -5,15 +5,14 @@ import os
 import re
 from pathlib import Path
 
-import pytest
-
 import interfaces
+import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 FOLDER = ROOT / "bindings/fortran"
 HEADERS = sorted((ROOT / "include/hooke").glob("*.h"))
 HINT = "\nrun: python bindings/fortran/make_interfaces.py"
-MODULES = [p for p in sorted(FOLDER.glob("*.f90"))]
+MODULES = sorted(FOLDER.glob("*.f90"))
 
 
 def read(files):

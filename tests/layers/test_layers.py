@@ -4,7 +4,6 @@ import os
 from pathlib import Path
 
 import pytest
-
 import rules
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])

@@ -12,7 +12,7 @@ from hooke._library import lib
 from hooke._prototypes import PROTOTYPES
 
 sys.path.insert(0, str(ROOT / "tests/abi"))
-from headers import statements  # noqa: E402
+from headers import statements
 
 STATEMENTS = [
     words

@@ -78,8 +78,15 @@ def test_the_package_is_marked_as_typed():
 
 
 def test_style():
-    checked = run("ruff", "check", "--no-cache", "--config", CONFIGURATION, "src")
+    """All Python of the project, not only the package."""
+    checked = run("ruff", "check", "--no-cache", ROOT)
     assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_style_sees_a_planted_fault(tmp_path):
+    (tmp_path / "unused.py").write_text("import os\n")
+    checked = run("ruff", "check", "--no-cache", "--config", CONFIGURATION, tmp_path)
+    assert checked.returncode == 1 and "F401" in checked.stdout, checked.stdout + checked.stderr
 
 
 # docstrings

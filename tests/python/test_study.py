@@ -300,7 +300,7 @@ def test_runs_that_diverged_are_at_the_edge():
     import matplotlib.pyplot as plt
 
     study = hooke.study(build_oscillator(), ["symplectic-euler"], steps=[0.4, 0.01], duration=4, every=0.4)
-    costs, steps = study.plot()
+    _, steps = study.plot()
     crosses = [line for line in steps.lines if line.get_marker() == "x"]
     assert [line.get_xdata().tolist() for line in crosses] == [[0.4]]
     plt.close("all")

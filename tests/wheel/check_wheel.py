@@ -26,7 +26,7 @@ SCENE = {
 
 
 def loaded():
-    maps = (line.split(None, 5) for line in open("/proc/self/maps", encoding="utf-8"))
+    maps = (line.split(None, 5) for line in Path("/proc/self/maps").read_text("utf-8").splitlines())
     return {row[5].strip() for row in maps if len(row) > 5 and ".so" in row[5]}
 
 
