@@ -2,6 +2,7 @@
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make test   sets up, builds, and runs every test
+#   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
 
@@ -33,6 +34,12 @@ test: $(PRESETS:%=build-%)
 	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
 	exit $$failed
+
+# Nothing is compiled; bench needs the header that says what commit it is of.
+tidy: build/tidy/packages
+	cmake --preset release -B build/tidy -DHOOKE_BENCH=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >build/tidy/configure.log
+	cmake --build build/tidy --target hooke_bench_commit >>build/tidy/configure.log
+	$(PYTHON) cmake/tidy.py build/tidy
 
 # The wheel is built from the sources that are handed on; the libraries inside it are built once.
 WHEEL_TOOLS = $(CURDIR)/build/wheel/tools/bin
@@ -76,8 +83,10 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 	touch $@
 
 # What is missing is installed as root or through sudo; without either, the line to type is printed.
-build/packages: Makefile
-	@mkdir -p build
+build/tidy/packages: private PACKAGES = clang-tidy-14
+build/tidy/packages: | build/packages
+build/packages build/tidy/packages: Makefile
+	@mkdir -p $(@D)
 	@missing=$$(for package in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
 	if [ -n "$$missing" ]; then \
@@ -88,6 +97,6 @@ build/packages: Makefile
 	fi
 	@touch $@
 
-.PHONY: all demo test wheel wheel-test $(PRESETS:%=build-%)
+.PHONY: all demo test tidy wheel wheel-test $(PRESETS:%=build-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -144,15 +144,15 @@ static int read_arguments(int argc, char **argv, struct request *request) {
     }
     k++;
     if (strcmp(argv[k - 1], "--size") == 0)
-      request->size = atoll(value);
+      request->size = strtoll(value, NULL, 10);
     else if (strcmp(argv[k - 1], "--stiffness") == 0)
-      request->stiffness = atof(value);
+      request->stiffness = strtod(value, NULL);
     else if (strcmp(argv[k - 1], "--damping") == 0)
-      request->damping = atof(value);
+      request->damping = strtod(value, NULL);
     else if (strcmp(argv[k - 1], "--duration") == 0)
-      request->duration = atof(value);
+      request->duration = strtod(value, NULL);
     else if (strcmp(argv[k - 1], "--repeats") == 0)
-      request->repeats = atoi(value);
+      request->repeats = (int)strtol(value, NULL, 10);
     else
       return 0;
   }

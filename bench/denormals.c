@@ -77,7 +77,8 @@ static double nanoseconds(const hooke_system *system, const hooke_options *run, 
 }
 
 int main(int argc, char **argv) {
-  const int64_t side = argc > 1 ? atoi(argv[1]) : 64, turns = argc > 2 ? atoi(argv[2]) : 15, steps = 200;
+  const int64_t side = argc > 1 ? strtoll(argv[1], NULL, 10) : 64,
+                turns = argc > 2 ? strtoll(argv[2], NULL, 10) : 15, steps = 200;
   const double speeds[] = {1e-3, 1e-300, 1e-310, 1e-318};
   const char *words[] = {"ordinary, 1e-3 m/s", "normal, but products are not, 1e-300 m/s",
                          "subnormal, 1e-310 m/s", "subnormal, 1e-318 m/s"};

@@ -31,7 +31,7 @@ static void join(struct net *net, int64_t i, int64_t j) {
 
 /* A permutation of `count` numbers; NULL without memory. */
 static int64_t *shuffled(int64_t count, uint64_t seed) {
-  int64_t *order = malloc((size_t)count * sizeof *order);
+  int64_t *order = calloc((size_t)count, sizeof *order);
   for (int64_t k = 0; order && k < count; k++)
     order[k] = k;
   for (int64_t k = count - 1; order && k > 0; k--) {
@@ -45,8 +45,8 @@ static int64_t *shuffled(int64_t count, uint64_t seed) {
 /* Numbers particles and springs at random. */
 static int32_t net_shuffle(struct net *net, uint64_t seed) {
   int64_t *particle = shuffled(net->particles, seed), *spring = shuffled(net->springs, seed + 1);
-  double *position = malloc((size_t)(3 * net->particles) * sizeof *position);
-  int64_t *ends = malloc((size_t)(2 * net->springs) * sizeof *ends);
+  double *position = calloc((size_t)(3 * net->particles), sizeof *position);
+  int64_t *ends = calloc((size_t)(2 * net->springs), sizeof *ends);
   const int done = particle && spring && position && ends;
   for (int64_t p = 0; done && p < net->particles; p++) {
     for (int a = 0; a < 3; a++)
@@ -123,9 +123,10 @@ static int32_t build_lattice(hooke_system *system, int64_t size, double damping)
   int32_t status = net_create(size * size * size, 13 * size * size * size, &net);
   const double side = 1.0 / (double)(size - 1);
   for (int64_t p = 0; status == HOOKE_OK && p < net.particles; p++) {
-    net.position[3 * p] = side * (double)(p % size);
-    net.position[3 * p + 1] = side * (double)(p / size % size);
-    net.position[3 * p + 2] = side * (double)(p / size / size);
+    const int64_t x = p % size, y = p / size % size, z = p / size / size;
+    net.position[3 * p] = side * (double)x;
+    net.position[3 * p + 1] = side * (double)y;
+    net.position[3 * p + 2] = side * (double)z;
   }
   for (int direction = 14; status == HOOKE_OK && direction < 27; direction++) {
     const int64_t dx = direction % 3 - 1, dy = direction / 3 % 3 - 1, dz = direction / 9 - 1;
@@ -141,11 +142,12 @@ static int32_t build_lattice(hooke_system *system, int64_t size, double damping)
 static void lay_triangles(struct net *net, int64_t size) {
   uint64_t seed = 7;
   for (int64_t p = 0; p < net->particles; p++) {
-    net->position[3 * p] = ((double)(p % size) + 0.3 * bench_draw_unit(&seed)) / (double)size;
-    net->position[3 * p + 2] = ((double)(p / size) + 0.3 * bench_draw_unit(&seed)) / (double)size;
-    if (p % size + 1 < size) join(net, p, p + 1);
-    if (p / size + 1 < size) join(net, p, p + size);
-    if (p % size + 1 < size && p / size + 1 < size) join(net, p, p + size + 1);
+    const int64_t x = p % size, z = p / size;
+    net->position[3 * p] = ((double)x + 0.3 * bench_draw_unit(&seed)) / (double)size;
+    net->position[3 * p + 2] = ((double)z + 0.3 * bench_draw_unit(&seed)) / (double)size;
+    if (x + 1 < size) join(net, p, p + 1);
+    if (z + 1 < size) join(net, p, p + size);
+    if (x + 1 < size && z + 1 < size) join(net, p, p + size + 1);
   }
 }
 

@@ -45,9 +45,9 @@ static const char *time_format(double nanoseconds) {
 
 /* A time below what can be told apart says so. */
 static void print_time(double nanoseconds, double resolution) {
-  char format[8] = "<";
   if (nanoseconds < resolution) {
-    strcat(format, time_format(resolution));
+    char format[8];
+    snprintf(format, sizeof format, "<%s", time_format(resolution));
     print_cell(12, resolution, format);
   } else {
     print_cell(12, nanoseconds, time_format(nanoseconds));

@@ -28,8 +28,7 @@ static void escape(char text[TEXT_SIZE], const char *words) {
                      : *at == '.' && first ? "\\&."
                                            : NULL;
     const char as_is[2] = {*at, '\0'};
-    strcpy(text + used, as ? as : as_is);
-    used += strlen(text + used);
+    used += (size_t)snprintf(text + used, TEXT_SIZE - used, "%s", as ? as : as_is);
   }
 }
 
@@ -63,7 +62,8 @@ static void print_command(const char *command) {
 static void print_typed(const char *bold, const char *italic) {
   char text[TEXT_SIZE] = "\\fB";
   escape(text, bold);
-  strcat(text, italic[0] ? "\\fR \\fI" : "");
+  const size_t used = strlen(text);
+  snprintf(text + used, sizeof text - used, "%s", italic[0] ? "\\fR \\fI" : "");
   escape(text, italic);
   printf("%s\\fR\n", text);
 }

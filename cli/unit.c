@@ -82,7 +82,7 @@ static struct number scan_number(const char *text) {
 static void write_in_base(const char *text, const struct number *number, const struct unit *unit, char *to) {
   if (unit->factor > 0) {
     char digits[HOOKE_NUMBER_SIZE];
-    strcpy(to, hooke_format_number(strtod(text, NULL) * unit->factor, digits));
+    sprintf(to, "%s", hooke_format_number(strtod(text, NULL) * unit->factor, digits));
   } else {
     sprintf(to, "%.*se%ld", (int)number->mantissa, text, number->exponent + unit->exponent);
   }

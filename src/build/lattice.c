@@ -191,7 +191,7 @@ static void fill_strips(const struct lattice *lattice, const int32_t *step, int3
   int64_t low = 0, stride[3] = {1, nx, nx * ny}, jump = 0;
   for (int a = 0; a < 3; a++) {
     if (step[a] < 0) low += stride[a]; /* begins at the other side of the cell */
-    jump += step[a] * apart * stride[a];
+    jump += (int64_t)step[a] * apart * stride[a];
   }
   for (int64_t z = 0; z < lattice->size[2] - (step[2] ? apart : 0); z++) {
     const int64_t first = low + z * stride[2];

@@ -50,7 +50,8 @@ static int32_t find(const struct cubes *cubes, const double cube[3], const doubl
   if (cubes->distance == 0.0) return look_in(cubes, cube, position, point, -1);
   int32_t best = -1;
   for (int n = 0; n < 27; n++) {
-    const double other[3] = {cube[0] + n % 3 - 1, cube[1] + n / 3 % 3 - 1, cube[2] + n / 9 - 1};
+    const int way[3] = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    const double other[3] = {cube[0] + way[0], cube[1] + way[1], cube[2] + way[2]};
     best = look_in(cubes, other, position, point, best);
   }
   return best;

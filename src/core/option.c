@@ -78,7 +78,7 @@ int32_t hooke_options_create(const struct hooke_option_table *table, hooke_optio
 
 void hooke_options_destroy(hooke_options *options) {
   if (options == NULL) return;
-  for (int64_t k = 0; k < options->slot_count; k++) {
+  for (int64_t k = 0; options->slot && k < options->slot_count; k++) {
     struct slot *slot = &options->slot[k];
     hooke_option_value_clear(&slot->value);
     hooke_option_value_clear(&slot->fallback);

@@ -1,5 +1,9 @@
 #include "core/status.h"
 
+#undef hooke_fail
+#undef hooke_fail_within
+#undef hooke_fail_before
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -17,6 +17,12 @@ int32_t hooke_fail_within(int32_t status, const char *format, ...) __attribute__
 /* Puts text before the whole message ("scene.json:3:5: "). */
 int32_t hooke_fail_before(int32_t status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+#ifdef __clang_analyzer__ /* which sees one file, and not that what comes back is the status that was given */
+#define hooke_fail(status, ...)        (hooke_fail(status, __VA_ARGS__), (status))
+#define hooke_fail_within(status, ...) (hooke_fail_within(status, __VA_ARGS__), (status))
+#define hooke_fail_before(status, ...) (hooke_fail_before(status, __VA_ARGS__), (status))
+#endif
+
 /* Place of the last failure, "" if it had none, and its message without the place. */
 const char *hooke_fail_place(void);
 const char *hooke_fail_message(void);

@@ -65,7 +65,7 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   hooke_integrator *it = NULL;
   int32_t status = hooke_system_require_committed(system);
   if (status == HOOKE_OK) status = create(options, &it);
-  if (status != HOOKE_OK) return status;
+  if (it == NULL) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
   const int32_t by_tiles = it->method->by_tiles && hooke_goes_by_tiles(system);
@@ -82,7 +82,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
                                             const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
   int32_t status = create(options, &it);
-  if (status != HOOKE_OK) return status;
+  if (it == NULL) return status;
   it->rate = rate;
   it->rate_ctx = ctx;
   it->size = size;

@@ -167,7 +167,7 @@ static int32_t sweep(struct general *g, double goal, int64_t limit, double *x,
 int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
                             double *scratch, double *x, struct hooke_solution *solution) {
   const int64_t size = a->size;
-  struct general g = {.a = a, .shadow = scratch + 2 * (L + 1) * size};
+  struct general g = {.a = a, .shadow = scratch + (int64_t)2 * (L + 1) * size};
   for (int k = 0; k <= L; k++) {
     g.r[k] = scratch + k * size;
     g.u[k] = scratch + (L + 1 + k) * size;

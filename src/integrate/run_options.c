@@ -168,6 +168,7 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
     return hooke_fail(HOOKE_BAD_VALUE, "every", "%.17g s gives %g frames; allowed: up to 9e15", s->every,
                       frames);
   }
+  /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1 on */
   s->frames = 1 + (method->adaptive ? (int64_t)frames : s->steps / s->frame_steps);
   return HOOKE_OK;
 }

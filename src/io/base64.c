@@ -22,7 +22,7 @@ void hooke_base64_add(struct hooke_text *text, const uint8_t *bytes, int64_t cou
   char piece[4 * TRIPLES];
   for (int64_t at = 0; at < count;) {
     int64_t length = 0;
-    for (; at < count && length < 4 * TRIPLES; at += 3, length += 4)
+    for (; at < count && length < (int64_t)sizeof piece; at += 3, length += 4)
       put(bytes + at, count - at, piece + length);
     hooke_text_add(text, piece, length);
   }

@@ -137,7 +137,7 @@ static void add_data(struct hooke_text *data, const void *ctx) {
   add_rows(data, limit);
   add_modes(data, limit);
   add_blame(data, limit);
-  hooke_limit_picture_add(data, limit, hooke_state_position((hooke_state *)(uintptr_t)request->state));
+  hooke_limit_picture_add(data, limit, hooke_state_position((hooke_state *)request->state));
 }
 
 int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state, const char *path,

@@ -75,7 +75,7 @@ static void add_rows(struct hooke_text *data, const hooke_needs *needs) {
 static void add_cells(struct hooke_text *data, const char *key, const hooke_needs *needs, int64_t part,
                       const char *const names[3]) {
   hooke_text_open(data, key, '[');
-  for (int32_t axis = 0; axis < needs->part[part].axes; axis++)
+  for (int32_t axis = 0; axis < 3 && axis < needs->part[part].axes; axis++)
     hooke_text_number(data, NULL, hooke_needs_part_number(needs, part, names[axis]));
   hooke_text_close(data, ']');
 }

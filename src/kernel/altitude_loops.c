@@ -73,6 +73,7 @@ int32_t hooke_altitude_find(const struct hooke_tetrahedron *tetrahedron, const d
 void hooke_altitude_weigh(const struct hooke_altitude *altitude, const double v[4][3], double w[3]) {
   const double *g = altitude->weight;
   for (int k = 0; k < 3; k++)
+    /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the four roles are all of 0 to 3 */
     w[k] = ((g[0] * v[0][k] + g[1] * v[1][k]) + g[2] * v[2][k]) + g[3] * v[3][k];
 }
 

@@ -30,7 +30,7 @@ struct hooke_lane_view {
 
 /* Between x, y and z of a ring: the first unit once more, and a distance that keeps them apart in the cache. */
 static inline ptrdiff_t hooke_ring_stride(ptrdiff_t mask) {
-  return mask + 1 + 3 * HOOKE_LANE_UNIT;
+  return mask + 1 + 3 * (ptrdiff_t)HOOKE_LANE_UNIT;
 }
 
 /* What is done with the sums: nothing, f = sum, or one step of Euler's methods, v += h (w f + g) and q += h v(new), or q += h

@@ -315,8 +315,8 @@ HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, c
              zw02 = PICK(four_z, four_w, 0, 4, 2, 6), zw13 = PICK(four_z, four_w, 1, 5, 3, 7);
   *(quad *)row = PICK(xy02, zw02, 0, 1, 4, 5);
   *(quad *)(row + HOOKE_NET_ROW) = PICK(xy13, zw13, 0, 1, 4, 5);
-  *(quad *)(row + 2 * HOOKE_NET_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
-  *(quad *)(row + 3 * HOOKE_NET_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
+  *(quad *)(row + (ptrdiff_t)2 * HOOKE_NET_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
+  *(quad *)(row + (ptrdiff_t)3 * HOOKE_NET_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
 }
 
 static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],

@@ -176,13 +176,13 @@ LOOPS(1, 1, 0)
 LOOPS(1, 1, 1)
 
 #define BY_SHAPE(what, rest)                                                                                 \
-  [rest] = NAME(what, 0, 0, 0), [rest | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 0, 1),                          \
-  [rest | HOOKE_RUN_MIXED] = NAME(what, 0, 1, 0),                                                            \
-  [rest | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 1, 1),                                      \
-  [rest | HOOKE_RUN_DAMPED] = NAME(what, 1, 0, 0),                                                           \
-  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 0, 1),                                     \
-  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED] = NAME(what, 1, 1, 0),                                         \
-  [rest | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 1, 1)
+  [(rest)] = NAME(what, 0, 0, 0), [(rest) | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 0, 1),                      \
+  [(rest) | HOOKE_RUN_MIXED] = NAME(what, 0, 1, 0),                                                          \
+  [(rest) | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 0, 1, 1),                                    \
+  [(rest) | HOOKE_RUN_DAMPED] = NAME(what, 1, 0, 0),                                                         \
+  [(rest) | HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 0, 1),                                   \
+  [(rest) | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED] = NAME(what, 1, 1, 0),                                       \
+  [(rest) | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED | HOOKE_RUN_PULL_ONLY] = NAME(what, 1, 1, 1)
 
 #define TEXT_OF(word) #word
 #define TEXT(word)    TEXT_OF(word)

@@ -32,7 +32,7 @@ struct sums {
 INLINE void add_block(const struct hooke_triangle *l, int64_t e, const double *x, struct sums *sums) {
   const double *block = l->block + 9 * e;
   const four y = *(const four *)(x + l->row[e]);
-  for (int c = 0; c < 3; c++)
+  for (ptrdiff_t c = 0; c < 3; c++)
     sums->of[c] += *(const four *)(block + 3 * c) * y;
 }
 

@@ -117,7 +117,7 @@ static int32_t tell(const hooke_cost *cost, double done, const char *what) {
 /* NaN where this build, the method or these numbers have none. */
 static int32_t find_limit(const hooke_cost *cost, const hooke_system *system, const hooke_state *state,
                           double *limit) {
-  const double *q = hooke_state_position((hooke_state *)(uintptr_t)state);
+  const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
   const int32_t status = hooke_limit_predict(system, q, cost->method, NULL, NULL, ACCURACY, limit);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;

@@ -225,7 +225,7 @@ static int32_t build(const struct thaw *thaw, const struct hooke_frozen *frozen,
     status = hooke_system_add_tetrahedra(system, NULL, 0, frozen->altitude_count, thaw->tetrahedron);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && balance)
-    status = hooke_system_set_force(system, hold, hold_product, (void *)(uintptr_t)balance);
+    status = hooke_system_set_force(system, hold, hold_product, (void *)balance);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
   if (status == HOOKE_OK)
     *out = system;

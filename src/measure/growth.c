@@ -205,7 +205,8 @@ static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int
   if (!isfinite(course.first)) return HOOKE_OK; /* nothing can move */
   int64_t taken = 0, longest = 1;
   while (taken < most_steps) {
-    int64_t count = 1 + (int64_t)(0.5 * (draw(growth) + 1.0) * (double)(2 * course.length / SAMPLES));
+    const int64_t twice_the_mean = 2 * course.length / SAMPLES;
+    int64_t count = 1 + (int64_t)(0.5 * (draw(growth) + 1.0) * (double)twice_the_mean);
     count = count < longest ? count : longest;
     count = count < course.length - course.steps ? count : course.length - course.steps;
     int ended;

@@ -199,7 +199,7 @@ static void add_note(struct hooke_limit_row *row, const char *note) {
 static int32_t measure_row(hooke_limit *limit, struct hooke_limit_row *row, const hooke_state *state,
                            double budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
-  const double *q = hooke_state_position((hooke_state *)(uintptr_t)state);
+  const double *q = hooke_state_position((hooke_state *)state);
   struct hooke_measurement m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   const int32_t status =
@@ -237,7 +237,7 @@ int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state) {
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);
-  const double *q = hooke_state_position((hooke_state *)(uintptr_t)state);
+  const double *q = hooke_state_position((hooke_state *)state);
   status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
   if (status == HOOKE_OK) status = hooke_limit_predict_rows(limit, q);
   if (status == HOOKE_OK) status = find_blame(limit, q);
@@ -262,7 +262,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   walk->status =
       begin_part(limit, (double)walk->frame++ / (double)walk->frame_count, 0.0, "limits along the run");
   if (walk->status == HOOKE_OK)
-    walk->status = hooke_limit_predict_rows(limit, hooke_state_position((hooke_state *)(uintptr_t)state));
+    walk->status = hooke_limit_predict_rows(limit, hooke_state_position((hooke_state *)state));
   for (int32_t k = 0; k < limit->row_count && walk->status == HOOKE_OK; k++) {
     struct hooke_limit_row *row = &limit->row[k];
     if (row->predicted >= row->smallest || isnan(row->predicted)) continue;

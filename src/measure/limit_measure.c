@@ -264,8 +264,8 @@ static int32_t prepare(struct whole *whole, const hooke_options *run, const char
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
                              struct hooke_measurement *out) {
   struct hooke_frozen frozen;
-  int32_t status = hooke_frozen_create(whole->system,
-                                       hooke_state_position((hooke_state *)(uintptr_t)whole->start), &frozen);
+  int32_t status =
+      hooke_frozen_create(whole->system, hooke_state_position((hooke_state *)whole->start), &frozen);
   if (status != HOOKE_OK) return status;
   const double guess =
       fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : frozen.slow_step);

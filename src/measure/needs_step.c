@@ -276,12 +276,13 @@ int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *tria
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit), finished = 0;
   if (from) search.value = search.adaptive ? -log10(from->rtol) : round(needs->unit / from->step);
-  for (*error = NAN; status == HOOKE_OK && !(*error <= needs->want);
-       search.value = finer(&search, search.value)) {
+  *error = NAN;
+  while (status == HOOKE_OK && !(*error <= needs->want)) {
     status = run_at(&search, search.value, 0);
     finished = search.finished[0];
     *error = finished ? hooke_needs_distance(needs, &needs->path, &search.path[0]) : (double)NAN;
     if (!is_coarser_than_full(&search)) break;
+    search.value = finer(&search, search.value);
   }
   fill_cost(&search, limit, cost);
   if (!(*error <= needs->want)) finished = 0;

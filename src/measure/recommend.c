@@ -110,21 +110,22 @@ static int32_t run_again(hooke_study *study, struct hooke_study_candidate *c, do
 static int32_t race(hooke_study *study, struct hooke_study_candidate *c,
                     struct hooke_study_candidate **best) {
   double seconds[HOOKE_STUDY_METHODS], most;
+  const int32_t methods = study->method_count;
   int32_t status = HOOKE_OK, contenders = 0;
-  *best = cheapest_of(c, study->method_count);
+  *best = cheapest_of(c, methods);
   if (*best == NULL) return HOOKE_OK;
   most = CONTENDS * hooke_study_candidate_cost(*best);
-  for (int32_t k = 0; k < study->method_count; k++) {
+  for (int32_t k = 0; k < methods; k++) {
     seconds[k] = !isnan(c[k].meets) && hooke_study_candidate_cost(&c[k]) <= most ? INFINITY : NAN;
     contenders += isinf(seconds[k]) != 0;
   }
   const double begun = hooke_clock_seconds();
   for (int32_t round = 0; contenders > 1 && round < MOST_ROUNDS && status == HOOKE_OK; round++) {
     if (hooke_clock_seconds() > fmin(begun + RACE_SECONDS, study->deadline)) break;
-    for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++)
+    for (int32_t k = 0; k < methods && status == HOOKE_OK; k++)
       if (!isnan(seconds[k])) status = run_again(study, &c[k], &seconds[k]);
   }
-  for (int32_t k = 0; k < study->method_count; k++) {
+  for (int32_t k = 0; k < methods; k++) {
     double *least = &c[k].best.trial.wall_seconds;
     *least = fmin(*least, seconds[k]); /* fmin leaves a NaN out */
     if (seconds[k] < seconds[*best - c]) *best = &c[k];

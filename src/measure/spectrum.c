@@ -260,7 +260,7 @@ static int32_t solve_part(struct hooke_spectrum *s, const double *decaying) {
   struct hooke_linearised *lin = s->linearised;
   int64_t r = 0;
   double *basis = hooke_new((MOST_OF_BASIS + 1) * lin->size, sizeof(double));
-  double *matrix = hooke_new(2 * MOST_OF_BASIS * MOST_OF_BASIS, sizeof(double));
+  double *matrix = hooke_new((int64_t)2 * MOST_OF_BASIS * MOST_OF_BASIS, sizeof(double));
   struct hooke_damped_modes found = {.count = 0};
   int32_t status = basis && matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {

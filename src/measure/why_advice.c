@@ -13,7 +13,7 @@
 static const double TOO_LONG = 1e5; /* times the work of a trial: a run nobody waits for */
 static const double MARGIN = 0.9;   /* of the limit */
 static const double ACCURACY = 1e-3;
-enum { HANDY_TRIES = 9, SHORT_RUN = 1000 };
+enum { HANDY_TRIES = 9, SHORT_RUN = 1000, SHORT_FRAME = 10 };
 
 /* ---- steps that fit ---- */
 
@@ -75,7 +75,7 @@ static int32_t offer_step(struct hooke_plan *plan, const char *method, double li
   if (status == HOOKE_OK && too_long) {
     status = hooke_options_set_number(change.run, "duration", SHORT_RUN * step);
     if (status == HOOKE_OK && !isnan(plan->every))
-      status = hooke_options_set_number(change.run, "every", SHORT_RUN / 100 * step);
+      status = hooke_options_set_number(change.run, "every", SHORT_FRAME * step);
   }
   if (status != HOOKE_OK) {
     hooke_change_drop(&change);
@@ -236,8 +236,9 @@ static int32_t offer_for_solver(struct hooke_plan *plan) {
     status = offer_smaller(plan, 0.5 * plan->step, ", which is easier to solve");
     if (status == HOOKE_OK) status = offer_one_iteration(plan);
   } else {
-    for (double looser = 10.0; looser <= 1e4 && status == HOOKE_OK; looser *= 10.0)
-      status = offer_adaptive(plan, plan->inquiry->run->method->name, looser);
+    static const double looser[] = {10.0, 100.0, 1e3, 1e4};
+    for (int k = 0; k < 4 && status == HOOKE_OK; k++)
+      status = offer_adaptive(plan, plan->inquiry->run->method->name, looser[k]);
   }
   return status == HOOKE_OK ? offer_others(plan) : status;
 }

@@ -113,7 +113,7 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   for (int64_t k = 0; k < system->altitudes.count; k++) {
     const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
     double x[12], u[12];
-    for (int j = 0; j < 4; j++) {
+    for (int64_t j = 0; j < 4; j++) {
       memcpy(x + 3 * j, q + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
       memcpy(u + 3 * j, v + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
     }

@@ -48,7 +48,7 @@ static void add_blocks(const hooke_system *system, const double *q, const double
     for (int e = 0; e < 3; e++) {
       for (int g = 0; g < 3; g++) {
         double *block = dfdq + 9 * hooke_pattern_block(pattern, triple.particle[e], triple.particle[g]);
-        for (int a = 0; a < 3; a++)
+        for (int64_t a = 0; a < 3; a++)
           block[4 * a] -= triple.coefficient * (hooke_triple_factor(e) * hooke_triple_factor(g));
       }
     }

@@ -53,7 +53,7 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   for (int64_t p = 0; dfdv && p < system->particle_count; p++) {
     if (system->held[p]) continue;
     double *block = dfdv + 9 * hooke_pattern_block(pattern, p, p);
-    for (int a = 0; a < 3; a++)
+    for (int64_t a = 0; a < 3; a++)
       block[4 * a] -= system->drag;
   }
 }

@@ -7,7 +7,7 @@
 enum { WORK_OF_PARTICLE = 2 };
 
 static int64_t work_before(const struct hooke_net *net, int64_t tile) {
-  return tile == 0 ? 0 : net->tile[tile - 1].end + WORK_OF_PARTICLE * HOOKE_TILE * tile;
+  return tile == 0 ? 0 : net->tile[tile - 1].end + (int64_t)WORK_OF_PARTICLE * HOOKE_TILE * tile;
 }
 
 /* The first tile with at least this much work before it. */
@@ -60,14 +60,15 @@ static int64_t saved_rows(const struct hooke_net_share *share) {
 
 /* A block of its own for each member, so that no two write to one page. */
 static int32_t new_block(const struct hooke_net *net, struct hooke_net_share *share, int64_t *memory) {
-  const int64_t numbers = hooke_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + 3 * HOOKE_TILE;
+  const int64_t numbers =
+      hooke_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + (int64_t)3 * HOOKE_TILE;
   double *block = hooke_new(numbers, sizeof(double));
   if (block == NULL) return 0;
   *memory += numbers * (int64_t)sizeof(double);
   share->rows = block;
   share->saved = share->rows + HOOKE_NET_ROW * net->rows;
   share->forces = share->saved + HOOKE_NET_ROW * saved_rows(share);
-  for (int a = 0; a < 3; a++)
+  for (int64_t a = 0; a < 3; a++)
     share->f[a] = share->forces + HOOKE_NET_FORCE * (net->list + net->ring) + a * HOOKE_TILE;
   return 1;
 }
