@@ -44,6 +44,7 @@ static int64_t *shuffled(int64_t count, uint64_t seed) {
 
 /* Numbers particles and springs at random. */
 static int32_t net_shuffle(struct net *net, uint64_t seed) {
+  if (net->springs < 1) return HOOKE_OK;
   int64_t *particle = shuffled(net->particles, seed), *spring = shuffled(net->springs, seed + 1);
   double *position = calloc((size_t)(3 * net->particles), sizeof *position);
   int64_t *ends = calloc((size_t)(2 * net->springs), sizeof *ends);
