@@ -78,6 +78,13 @@ def test_importing_is_light():
     assert run.stdout.strip() == "[]", run.stderr
 
 
+@pytest.mark.parametrize("module", ["plot", "animation"])
+def test_pictures_need_matplotlib_and_say_so(module):
+    code = f"import sys; sys.modules['matplotlib'] = None; import hooke; import hooke.{module}"
+    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    assert run.returncode and "need matplotlib" in run.stderr and "pip install matplotlib h5py" in run.stderr
+
+
 def test_leaving_with_everything_alive():
     code = """
 import hooke

@@ -6,10 +6,8 @@ import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.animation import FuncAnimation
-from matplotlib.colors import LinearSegmentedColormap
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
+from ._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap
 from ._status import BadValue
 from ._types import FloatArray, Path
 from .plot import axis_order, fit, new_space

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from ._library import lib
+from ._pictures import Line3DCollection
 from ._status import BadValue
 from ._types import FloatArray, Path, Table
 from .limit import Limit
@@ -45,8 +46,6 @@ def cloth(
     the comparison, and `frame` counts the frames that were written, from the end if negative. `up` is the
     axis that is drawn upwards.
     """
-    from mpl_toolkits.mplot3d.art3d import Line3DCollection
-
     q, springs, time = _frame(source, run, frame)
     order = axis_order(up)
     points = np.asarray(q, float)[:, order]
