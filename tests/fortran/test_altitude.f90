@@ -24,7 +24,7 @@ contains
     call spring%set("stiffness", 10)
     call spring%set("damping", 0.5_hooke_real)
     call system%add_altitude(reshape([1, 2, 3], [3, 1]), spring, status=status)
-    call expect(status == hooke_bad_value .and. index(hooke_message(), "(4, n)") > 0, "a tetrahedron has four particles")
+    call expect(status == hooke_bad_value .and. index(hooke_message(), "(4, n)") > 0, "a tetrahedron has four corners")
     call system%add_altitude(reshape([1, 2, 3, 5], [4, 1]), spring, status=status)
     call expect(status == hooke_bad_value, "there is no particle 5")
     call system%add_altitude(reshape([1, 2, 3, 4], [4, 1]), spring, "tetrahedron")
