@@ -59,7 +59,7 @@ static void test_small_scenes(void **unused) {
   (void)unused;
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
     for (uint64_t round = 0; round < 2; round++) {
-      if (left_out(2 * features + (int64_t)round, 5)) continue;
+      if (left_out(2 * features + (int64_t)round, 7)) continue;
       const uint64_t seed = 2 * (uint64_t)features + round + 1;
       compare_scene((struct random_scene_request){.seed = seed,
                                                   .particles = 7 + (int64_t)(seed * 37 % 900),
@@ -91,7 +91,7 @@ static void test_parts(void **unused) {
   const int32_t sizes = (int32_t)(sizeof size / sizeof size[0]);
   for (int32_t k = 0; k < sizes; k++) {
     for (int32_t m = 0; m < sizes; m++) {
-      if (left_out(k * sizes + m, 5)) continue;
+      if (left_out(k * sizes + m, 7)) continue;
       const int32_t features = (k * sizes + m) * 29 & SCENE_EVERYTHING;
       compare_scene((struct random_scene_request){.seed = (uint64_t)(9000 + k * sizes + m),
                                                   .particles = 7 + m,

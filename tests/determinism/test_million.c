@@ -9,7 +9,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-enum { SPRINGS = HOOKE_SANITIZED ? 100000 : 1000000, PARTICLES = HOOKE_SANITIZED ? 30000 : 300000 };
+enum { SPRINGS = HOOKE_SANITIZED ? 50000 : 1000000, PARTICLES = HOOKE_SANITIZED ? 15000 : 300000 };
 /* Steps that are solved for cost a hundred others. */
 enum { STEPS = 20, SOLVED_STEPS = 2 };
 

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "sanitized.h"
 #include "small.h"
 
 #include <math.h>
@@ -86,6 +87,7 @@ static hooke_system *random_network(uint64_t seed, double damping) {
 static void random_networks_run_up_to_the_prediction(void **unused) {
   (void)unused;
   for (uint64_t seed = 1; seed <= 100; seed++) {
+    if (left_out((int64_t)seed, 5)) continue;
     hooke_system *system = random_network(seed, 1.0);
     hooke_limit *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
     for (int64_t row = 0; row < 3; row++) {
@@ -246,6 +248,7 @@ static void check_pieces(const struct piece *piece) {
   for (int odd = UNIFORM; odd <= STIFF_SPRING; odd++) {
     double omega = 1.0;
     for (int z = 0; z < 6; z++) {
+      if (z > 0 && left_out(odd + z, 3)) continue;
       char scene[100];
       snprintf(scene, sizeof scene, "%s, %s, damping ratio %g", piece->name, names[odd], ratios[z]);
       hooke_system *system = build_piece(piece, (enum odd)odd, 2.0 * ratios[z] / omega);
