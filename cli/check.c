@@ -75,53 +75,40 @@ static void warn_of_coincident_springs(struct check *check) {
        count, count == 1 ? "spring starts" : "springs start");
 }
 
-/* Marks what bends. */
-static int32_t mark_triples(const hooke_system *system, char *held) {
-  const int64_t count = 3 * hooke_system_bending_count(system);
-  int64_t *triples = malloc((size_t)(count + 1) * sizeof *triples);
-  const int32_t status = triples ? hooke_system_bending_ends(system, triples) : HOOKE_NO_MEMORY;
+/* Marks `count` particles that springs, triples or tetrahedra name, by the function that lists them. */
+static int32_t mark(const hooke_system *system, int64_t count,
+                    int32_t (*list)(const hooke_system *, int64_t *), char *held) {
+  int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
+  const int32_t status = named ? list(system, named) : HOOKE_NO_MEMORY;
   for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
-    held[triples[i]] = 1;
-  free(triples);
-  return status;
-}
-
-/* Marks the corners of tetrahedra. */
-static int32_t mark_tetrahedra(const hooke_system *system, char *held) {
-  const int64_t count = 4 * hooke_system_altitude_count(system);
-  int64_t *corners = malloc((size_t)(count + 1) * sizeof *corners);
-  const int32_t status = corners ? hooke_system_altitude_ends(system, corners) : HOOKE_NO_MEMORY;
-  for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
-    held[corners[i]] = 1;
-  free(corners);
+    held[named[i]] = 1;
+  free(named);
   return status;
 }
 
 /* Particles that no spring, no bending and no altitude spring holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
-  int64_t particles = hooke_system_particle_count(check->setup.system);
-  int64_t springs = hooke_system_spring_count(check->setup.system);
-  int64_t *ends = malloc((size_t)(2 * springs + 1) * sizeof *ends);
+  const hooke_system *system = check->setup.system;
+  const int64_t particles = hooke_system_particle_count(system);
+  int64_t count = 0, first = 0;
   char *held = calloc((size_t)particles + 1, 1);
-  int32_t status = ends && held ? hooke_system_spring_ends(check->setup.system, ends) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = mark_triples(check->setup.system, held);
-  if (status == HOOKE_OK) status = mark_tetrahedra(check->setup.system, held);
-  if (status == HOOKE_OK) {
-    int64_t count = 0, first = 0;
-    for (int64_t i = 0; i < 2 * springs; i++)
-      held[ends[i]] = 1;
-    for (int64_t i = particles - 1; i >= 0; i--) {
-      if (held[i]) continue;
-      count++;
-      first = i;
-    }
-    if (count == 1) warn(check, "particle %" PRId64 " has no spring", first);
-    if (count > 1) {
-      warn(check, "%" PRId64 " particles have no spring, the first of them particle %" PRId64, count, first);
-    }
+  int32_t status = held ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK)
+    status = mark(system, 2 * hooke_system_spring_count(system), hooke_system_spring_ends, held);
+  if (status == HOOKE_OK)
+    status = mark(system, 3 * hooke_system_bending_count(system), hooke_system_bending_ends, held);
+  if (status == HOOKE_OK)
+    status = mark(system, 4 * hooke_system_altitude_count(system), hooke_system_altitude_ends, held);
+  for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
+    if (held[i]) continue;
+    count++;
+    first = i;
+  }
+  if (count == 1) warn(check, "particle %" PRId64 " has no spring", first);
+  if (count > 1) {
+    warn(check, "%" PRId64 " particles have no spring, the first of them particle %" PRId64, count, first);
   }
   free(held);
-  free(ends);
   return status;
 }
 
