@@ -30,12 +30,12 @@ extern const struct hooke_part_kind hooke_part_lattice;
 extern const struct hooke_part_kind hooke_part_mesh;
 extern const struct hooke_part_kind hooke_part_strand;
 
-/* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the density, bending stiffness, held particles, a
- * family of springs. */
-#define HOOKE_PART_POINT(key, text)                                                                          \
+/* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the density, bending
+ * stiffness, held particles, a family of springs. */
+#define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
-    .example = "0,0,0", .doc = (text)                                                                        \
+    .example = (such_as), .doc = (text)                                                                      \
   }
 #define HOOKE_PART_ORIGIN                                                                                    \
   {                                                                                                          \

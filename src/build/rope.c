@@ -7,15 +7,8 @@
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
-    HOOKE_PART_POINT("from", "where it begins"),
-    {.name = "to",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .max_count = 3,
-     .required = 1,
-     .example = "1,0,0",
-     .doc = "where it ends"},
+    HOOKE_PART_POINT("from", "0,0,0", "where it begins"),
+    HOOKE_PART_POINT("to", "1,0,0", "where it ends"),
     {.name = "segments",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,

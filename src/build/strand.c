@@ -19,15 +19,8 @@
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
-    HOOKE_PART_POINT("from", "where its axis begins"),
-    {.name = "to",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .max_count = 3,
-     .required = 1,
-     .example = "0,-1,0",
-     .doc = "where its axis ends"},
+    HOOKE_PART_POINT("from", "0,0,0", "where its axis begins"),
+    HOOKE_PART_POINT("to", "0,-1,0", "where its axis ends"),
     {.name = "segments",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,
