@@ -29,8 +29,8 @@ static int is_plain(const struct hooke_dataset *data, hid_t type, double file_by
   const haddr_t at = H5Dget_offset(data->id);
   const double bytes = (double)H5Dget_storage_size(data->id);
   const int inside = bytes == 0.0 || (at != HADDR_UNDEF && (double)at + bytes <= file_bytes);
-  const int plain = inside && own >= 0 && list >= 0 && H5Tequal(own, type) > 0 &&
-                    H5Pget_layout(list) == H5D_CONTIGUOUS;
+  const int plain =
+      inside && own >= 0 && list >= 0 && H5Tequal(own, type) > 0 && H5Pget_layout(list) == H5D_CONTIGUOUS;
   hooke_h5_drop(list);
   hooke_h5_drop(own);
   return plain;
