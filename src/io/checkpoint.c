@@ -199,7 +199,10 @@ int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrato
                       (long long)state->size, (long long)it->size);
   struct found found = {.state = NULL};
   int32_t status = find(path, run, it, &found);
-  if (status == HOOKE_OK) status = hooke_integrator_stand(it, &found.header.standing, found.state);
+  if (status == HOOKE_OK) {
+    status = hooke_integrator_stand(it, &found.header.standing, found.state);
+    if (status != HOOKE_OK) hooke_fail_before(status, "%s: ", path);
+  }
   if (status == HOOKE_OK) {
     it->placed = 1;
     hooke_state_copy(found.state, state);

@@ -212,7 +212,7 @@ static void impossible_numbers_are_refused(void **state) {
   memset(bad.at + 264, 0xff, 8); /* not a number */
   put_check_value(&bad);
   write_bytes(path, &bad);
-  check_refused(&reader, NULL, "");
+  check_refused(&reader, NULL, "position[0][0]");
   drop(&reader);
 }
 
