@@ -105,8 +105,8 @@ class Integrator(Closing):
 
         ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)``
         after every `stride` steps, and ``on_checkpoint(step, state)`` at each of the option `checkpoint`, where
-        `write_checkpoint` has all that the run can go on from. Returns "finished", "stopped" (a callback asked for it), "diverged" or
-        "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
+        `write_checkpoint` has all that the run can go on from. Returns "finished", "stopped" (a callback asked for
+        it), "diverged" or "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
         again; so does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
         """
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
