@@ -20,7 +20,7 @@ hooke = pytest.importorskip("hooke")
 
 CLI, CRASH = os.environ["HOOKE_CLI"], os.environ["HOOKE_CRASH"]
 LONG = os.environ.get("HOOKE_LONG") == "1"
-STRIDE = 1 if LONG else 11
+STRIDE = 1 if LONG else 17
 OLD = b"a file of before, which stays until the new one is ready\n" * 100
 
 ROPE = {
@@ -47,10 +47,13 @@ def scene(part, **run):
     return {"hooke": 1, "gravity": [0, -9.81, 0], "parts": [part], "run": run}
 
 
-# A frame of the cloth has two rows of more than 5 KiB, which lie across pages.
+# A frame of the cloth has two rows of more than 5 KiB, which lie across pages. A run that diverges makes its file again.
 SCENES = {
     "rope": scene(ROPE, method="symplectic-euler", step=1e-3, duration=0.05, every=0.01, checkpoint=0.02),
     "cloth": scene(CLOTH, method="verlet", step=1e-3, duration=0.04, every=0.01, checkpoint=0.015),
+    "diverging": scene(
+        {**ROPE, "stretch": {"stiffness": 1e5}}, method="forward-euler", step=2e-3, duration=0.2, every=0.01, checkpoint=0.02
+    ),
     "cvode": scene(ROPE, method="cvode-bdf", rtol=1e-6, duration=0.05, every=0.01, checkpoint=0.02),
 }
 
@@ -103,16 +106,17 @@ def read(path):
 class Whole:
     """The run that nobody kills."""
 
-    def __init__(self, place, words):
+    def __init__(self, place, words, code=0, status="finished"):
         place.fill(words)
         done = place.start_over()
-        assert done.returncode == 0, done.stderr
+        assert done.returncode == code, done.stderr
+        self.code, self.status = code, status
         self.final = json.loads(done.stdout)["final"]
-        self.frames, status = read(place.out)
-        assert status == "finished" and np.isfinite(self.frames["time"]).all()
+        self.frames, found = read(place.out)
+        assert found == status and np.isfinite(self.frames["time"]).all()
         self.reported, self.points = place.told()
         assert self.reported == set(self.frames["time"].tolist())
-        assert "out.h5.checkpoint" not in os.listdir(place.folder), "a run that finished needs none"
+        assert code != 0 or "out.h5.checkpoint" not in os.listdir(place.folder), "a run that finished needs none"
 
     def check_left(self, place, reported):
         """What a killed process left."""
@@ -127,17 +131,18 @@ class Whole:
         assert reported <= set(frames["time"][:count].tolist()), "a frame that was reported is lost"
         for name, values in frames.items():
             assert np.array_equal(values[:count], self.frames[name][:count]), name
-        assert status == "running" or (status == "finished" and count == len(self.frames["time"]))
+        assert status == "running" or (status == self.status and count == len(self.frames["time"]))
+        return status
 
-    def check_end(self, place, done):
-        assert done.returncode == 0, done.stderr
+    def check_end(self, place, done, left="running"):
+        assert done.returncode == self.code, done.stderr
         frames, status = read(place.out)
-        assert status == "finished"
+        assert status == self.status
         for name, values in frames.items():
             assert np.array_equal(values, self.frames[name]), name
         with hooke.open(place.out) as out:
             out.check()
-        if done.stdout:
+        if left != "finished":  # else there is nothing to go on with
             assert json.loads(done.stdout)["final"] == self.final
 
 
@@ -150,7 +155,8 @@ def place():
 
 @pytest.fixture(scope="module", params=list(SCENES))
 def case(request, place):
-    return SCENES[request.param], Whole(place, SCENES[request.param])
+    code, status = (4, "diverged") if request.param == "diverging" else (0, "finished")
+    return SCENES[request.param], Whole(place, SCENES[request.param], code, status)
 
 
 def points_of(count):
@@ -172,13 +178,13 @@ def test_every_write(place, case, torn):
             assert not reported
             whole.check_end(place, place.start_over())
             continue
-        whole.check_left(place, reported)
+        left = whole.check_left(place, reported)
         unfinished += len(reported) < len(whole.frames["time"])
-        whole.check_end(place, place.resume())
+        whole.check_end(place, place.resume(), left)
     assert before > 0 and unfinished > 0
     print(f"{whole.points} points, {before} before the file was there, {unfinished} before its last frame")
     place.fill(words)
-    assert place.start_over(at=whole.points + 1, torn=torn).returncode == 0, "there are no more points"
+    assert place.start_over(at=whole.points + 1, torn=torn).returncode == whole.code, "there are no more points"
 
 
 @pytest.mark.parametrize("torn", [False, True], ids=["crash", "torn"])
@@ -192,11 +198,11 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
         place.fill(words)
         assert place.start_over(at=at).returncode == -9
     reported, _ = place.told()
-    left = {path.name: path.read_bytes() for path in place.folder.iterdir()}
+    there = {path.name: path.read_bytes() for path in place.folder.iterdir()}
 
     def again():
         place.fill(words)
-        for name, content in left.items():
+        for name, content in there.items():
             (place.folder / name).write_bytes(content)
 
     again()
@@ -207,6 +213,6 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
         assert place.resume(at=point, torn=torn).returncode == -9
         now, _ = place.told()
         assert now >= reported
-        whole.check_left(place, now)
-        whole.check_end(place, place.resume())
+        left = whole.check_left(place, now)
+        whole.check_end(place, place.resume(), left)
     print(f"{count} points")
