@@ -3,6 +3,7 @@
 #include "build/surface.h"
 #include "core/memory.h"
 #include "core/option.h"
+#include "core/room.h"
 #include "core/status.h"
 #include "io/obj.h"
 #include "io/scene_file.h"
@@ -45,12 +46,14 @@ static int32_t read_text(const char *text, int64_t length, hooke_options *option
   return status;
 }
 
-int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options) {
+int32_t hooke_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char shown[HOOKE_OPTION_SHOWN], *text = NULL;
   int64_t length = 0, line = 0;
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hooke_scene_read_file(path, NULL, &text, &length);
+  if (status == HOOKE_OK)
+    status = hooke_room_require(memory_limit, hooke_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   hooke_free(text);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) {
@@ -71,5 +74,5 @@ int32_t hooke_mesh_read(const char *path, hooke_options *options) {
     return hooke_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
-  return hooke_mesh_read_as(path, path, options);
+  return hooke_mesh_read_as(path, path, 0.0, options);
 }
