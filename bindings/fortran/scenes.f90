@@ -42,7 +42,11 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: scene
     integer(c_int32_t) :: code
-    code = c_scene_load_within(to_c(path), options_or_null(limits), scene)
+    if (present(limits)) then
+      code = c_scene_load_within(to_c(path), options_or_null(limits), scene)
+    else
+      code = c_scene_load(to_c(path), scene)
+    end if
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine
@@ -61,7 +65,11 @@ contains
     c_name = to_c("scene")
     if (present(name)) c_name = to_c(name)
     call to_c_if(folder, c_folder)
-    code = c_scene_parse_within(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
+    if (present(limits)) then
+      code = c_scene_parse_within(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
+    else
+      code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, scene)
+    end if
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine

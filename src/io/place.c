@@ -73,9 +73,24 @@ static int sync_path(const char *path, int flags) {
   return result;
 }
 
-int32_t hooke_place_sync(const char *path) {
-  return sync_path(path, O_RDONLY) == 0 ? HOOKE_OK
-                                        : hooke_place_fail(path, "bring the data to the disk", errno);
+static int32_t compare(const char *path, const struct stat *there, int descriptor) {
+  struct stat ours;
+  if (fstat(descriptor, &ours) != 0) return hooke_place_fail(path, "look at the file", errno);
+  if (there->st_dev == ours.st_dev && there->st_ino == ours.st_ino) return HOOKE_OK;
+  return hooke_fail(HOOKE_IO_FAILED, NULL,
+                    "%s: another file has taken this name since it was written; it is left as it is", path);
+}
+
+int32_t hooke_place_same(const char *path, int descriptor, int other) {
+  struct stat there;
+  if (fstat(descriptor, &there) != 0) return hooke_place_fail(path, "look at the file", errno);
+  return compare(path, &there, other);
+}
+
+int32_t hooke_place_is(const char *path, int descriptor) {
+  struct stat there;
+  if (stat(path, &there) != 0) return hooke_place_fail(path, "find the file that was written", errno);
+  return compare(path, &there, descriptor);
 }
 
 /* The names of a folder's files are data of the folder. */
@@ -93,9 +108,23 @@ static int sync_folder_of(const char *path) {
   return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
 }
 
+int32_t hooke_place_beside(const char *path, const char *ending, char **beside) {
+  const size_t room = strlen(path) + strlen(ending) + 1;
+  *beside = hooke_new((int64_t)room, 1);
+  if (*beside == NULL) return HOOKE_NO_MEMORY;
+  snprintf(*beside, room, "%s%s", path, ending);
+  return HOOKE_OK;
+}
+
 int32_t hooke_place_take(const char *place, char **temporary) {
+  return hooke_place_take_and_keep(place, NULL, temporary);
+}
+
+int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary) {
   if (sync_path(*temporary, O_RDONLY) != 0)
     return hooke_place_fail(place, "bring the data to the disk", errno);
+  if (previous && rename(place, previous) != 0 && errno != ENOENT)
+    return hooke_place_fail(place, "keep the file that was there", errno);
   if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);
   hooke_free(*temporary);
   *temporary = NULL;
