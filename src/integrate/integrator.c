@@ -1,6 +1,7 @@
 /* Making an integrator, and asking it what it did. */
 #include "integrate/integrator.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -27,7 +28,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
     return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
                       method->needs);
   }
-  hooke_integrator *it = hooke_new(1, sizeof *it);
+  hooke_integrator *it = hooke_handle_new("hooke_integrator", sizeof *it);
   if (it == NULL) return HOOKE_NO_MEMORY;
   it->method = method;
   it->diverged_at = NAN;
@@ -110,7 +111,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hooke_free(it->x);
-  hooke_free(it);
+  hooke_handle_free(it);
 }
 
 const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {

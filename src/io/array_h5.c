@@ -2,6 +2,7 @@
 #include "io/array_h5.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -79,8 +80,8 @@ static int32_t check_storage(const struct source *source, hid_t data, double cou
   const double stored = (double)H5Dget_storage_size(data);
   if (bytes > LARGEST_RATIO * stored) {
     char text[160];
-    snprintf(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
-             stored);
+    hooke_print(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
+                stored);
     return refuse(source, text);
   }
   return HOOKE_OK;

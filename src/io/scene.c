@@ -1,6 +1,7 @@
 /* Scenes: loading, and messages that give the place in the file. */
 #include "io/scene.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/json_place.h"
@@ -61,9 +62,9 @@ static int32_t require_jansson(void) {
 }
 
 static hooke_scene *new_scene(const char *name) {
-  hooke_scene *scene = hooke_new(1, sizeof *scene);
+  hooke_scene *scene = hooke_handle_new("hooke_scene", sizeof *scene);
   if (scene && (scene->name = hooke_copy_text(name)) == NULL) {
-    hooke_free(scene);
+    hooke_handle_free(scene);
     return NULL;
   }
   return scene;
@@ -158,7 +159,7 @@ void hooke_scene_destroy(hooke_scene *scene) {
   hooke_free(scene->title);
   hooke_free(scene->text);
   hooke_free(scene->name);
-  hooke_free(scene);
+  hooke_handle_free(scene);
 }
 
 hooke_system *hooke_scene_system(hooke_scene *scene) {

@@ -1,4 +1,5 @@
 /* Trajectories: one run in one H5MD file. */
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "hooke/io.h"
@@ -35,7 +36,7 @@ static const int64_t LEAST_BYTES = 65536;
 static void release(hooke_trajectory *trajectory) {
   hooke_recording_release(&trajectory->recording);
   hooke_h5_file_release(&trajectory->file);
-  hooke_free(trajectory);
+  hooke_handle_free(trajectory);
 }
 
 static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
@@ -68,7 +69,7 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
     return hooke_fail(HOOKE_BAD_VALUE, "duration",
                       "is missing: a trajectory needs to know how many frames come");
   }
-  hooke_trajectory *made = hooke_new(1, sizeof *made);
+  hooke_trajectory *made = hooke_handle_new("hooke_trajectory", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   hooke_recording_clear(&made->recording);
   struct hooke_h5_guard guard;

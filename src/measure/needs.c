@@ -1,6 +1,7 @@
 /* What a scene needs: making one, and the table. */
 #include "measure/needs.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
@@ -77,7 +78,7 @@ int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
                            hooke_needs **out) {
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  hooke_needs *needs = hooke_new(1, sizeof *needs);
+  hooke_needs *needs = hooke_handle_new("hooke_needs", sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
   needs->system = system;
   needs->lean_error = NAN;
@@ -105,7 +106,7 @@ void hooke_needs_destroy(hooke_needs *needs) {
   hooke_free(needs->part);
   hooke_free(needs->watch);
   hooke_free(needs->largest_force);
-  hooke_free(needs);
+  hooke_handle_free(needs);
 }
 
 void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx) {

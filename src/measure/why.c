@@ -2,6 +2,7 @@
 #include "measure/why.h"
 
 #include "core/figure.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -42,7 +43,7 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
   if (run->recent.room == 0) {
     return hooke_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
   }
-  struct hooke_why *why = hooke_new(1, sizeof *why);
+  struct hooke_why *why = hooke_handle_new("hooke_why", sizeof *why);
   if (why == NULL) return HOOKE_NO_MEMORY;
   why->time = why->limit = why->particle = why->step = NAN;
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
@@ -79,7 +80,7 @@ void hooke_why_destroy(hooke_why *why) {
   if (why == NULL) return;
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  hooke_free(why);
+  hooke_handle_free(why);
 }
 
 const char *hooke_why_text(const hooke_why *why, const char *what) {
