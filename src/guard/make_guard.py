@@ -18,7 +18,6 @@ import headers  # noqa: E402
 MAY_BE_NULL = {
     ("cost_create", "run"), ("cost_create", "options"),
     ("limit_create", "run"), ("limit_create", "options"),
-    ("needs_create", "options"),
     ("study_create", "options"),
     ("view_create", "options"),
     ("scene_write", "run"), ("scene_of_system", "run"),

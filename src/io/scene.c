@@ -2,6 +2,7 @@
 #include "io/scene.h"
 
 #include "core/handle.h"
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/json_place.h"
@@ -107,6 +108,7 @@ static int32_t load_record(const char *path, hooke_scene **scene) {
 }
 
 int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
+  HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
   if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
   if (require_jansson()) return HOOKE_NOT_BUILT;
