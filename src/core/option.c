@@ -107,6 +107,14 @@ const struct hooke_option_table *hooke_options_table(const hooke_options *option
   return options->table;
 }
 
+int32_t hooke_options_require(const hooke_options *options, const struct hooke_option_table *table,
+                              const char *place, const char *maker) {
+  if (options && options->table == table) return HOOKE_OK;
+  if (options == NULL) return hooke_fail(HOOKE_BAD_VALUE, place, "are missing; make them with %s", maker);
+  return hooke_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name,
+                    maker);
+}
+
 /* The row that `name` begins with, up to the end or a dot. */
 static const struct hooke_option_row *find_first(const struct hooke_option_table *table, const char *name,
                                                  const char **rest) {

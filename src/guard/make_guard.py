@@ -14,13 +14,21 @@ sys.path.insert(0, str(ROOT / "tests/abi"))
 
 import headers  # noqa: E402
 
-# Handles that may be NULL besides those of functions that destroy or close: (function, parameter).
+# Handles that may be NULL, or that the function itself answers for, besides those of functions that destroy or close:
+# (function, parameter).
 MAY_BE_NULL = {
     ("cost_create", "run"), ("cost_create", "options"),
     ("limit_create", "run"), ("limit_create", "options"),
     ("study_create", "options"),
     ("view_create", "options"),
     ("scene_write", "run"), ("scene_of_system", "run"),
+    ("options_set_number", "options"), ("options_set_numbers", "options"), ("options_set_text", "options"),
+    ("options_unset", "options"), ("options_is_set", "options"), ("options_number_count", "options"),
+    ("options_numbers", "options"), ("options_number", "options"), ("options_text", "options"),
+    ("system_add_altitude", "options"), ("system_add_part", "options"), ("mesh_set", "options"),
+    ("integrator_create", "options"), ("integrator_create_first_order", "options"), ("comparison_create", "options"),
+    ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"), ("study_create", "run"),
+    ("study_pick", "run"), ("why_create_kept", "run"), ("mesh_read", "options"), ("scene_options_apply", "options"), ("why_advice_apply", "run"),
 }
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
 MADE_BY = "made from the headers in include/hooke by src/guard/make_guard.py"

@@ -21,6 +21,8 @@ static int32_t unknown_method(const char *name) {
 
 /* An integrator with method, options and schedule, but no problem yet. */
 static int32_t create(const hooke_options *options, hooke_integrator **out) {
+  int32_t status = hooke_run_options_require(options, "options");
+  if (status != HOOKE_OK) return status;
   const char *name = hooke_options_text(options, "method");
   const struct hooke_method *method = hooke_method_find(name);
   if (method == NULL) return unknown_method(name);
@@ -32,7 +34,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   if (it == NULL) return HOOKE_NO_MEMORY;
   it->method = method;
   it->diverged_at = NAN;
-  int32_t status = hooke_options_copy(options, &it->options);
+  status = hooke_options_copy(options, &it->options);
   if (status == HOOKE_OK) status = hooke_schedule_read(method, it->options, &it->schedule);
   if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
     status =

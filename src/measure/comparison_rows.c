@@ -13,6 +13,7 @@
 int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,
                                 hooke_comparison **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK) status = hooke_run_options_require(options, "options");
   if (status != HOOKE_OK) return status;
   if (!hooke_method_is_built("cvode-adams")) {
     return hooke_fail(HOOKE_NOT_BUILT, NULL,

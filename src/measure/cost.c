@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "measure/limit_predict.h"
 #include "model/state.h"
 #include "model/variant.h"
@@ -77,6 +78,9 @@ static int32_t list_rows(hooke_cost *cost) {
 int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                           hooke_cost **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &cost_table, "options", "hooke_cost_options_create()");
   if (status != HOOKE_OK) return status;
   hooke_cost *cost = hooke_handle_new("hooke_cost", sizeof *cost);
   if (cost == NULL) return HOOKE_NO_MEMORY;

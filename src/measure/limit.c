@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "measure/limit_measure.h"
 #include "measure/method_list.h"
 #include "model/state.h"
@@ -99,6 +100,9 @@ static int32_t make_room(hooke_limit *limit) {
 int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                            hooke_limit **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &limit_table, "options", "hooke_limit_options_create()");
   if (status != HOOKE_OK) return status;
   if (!HOOKE_HAVE_LAPACK)
     return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "hooke/study.h"
 #include "measure/step_unit.h"
 
@@ -59,7 +60,9 @@ static int32_t read_method(hooke_needs *needs) {
 }
 
 static int32_t prepare(hooke_needs *needs, const hooke_options *run, const hooke_options *options) {
-  int32_t status = hooke_options_check_required(options);
+  int32_t status = hooke_options_require(options, &needs_table, "options", "hooke_needs_options_create()");
+  if (status == HOOKE_OK) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK) status = hooke_options_check_required(options);
   if (status == HOOKE_OK) status = hooke_options_copy(run, &needs->run);
   if (status == HOOKE_OK) status = hooke_options_copy(options, &needs->options);
   if (status != HOOKE_OK) return status;

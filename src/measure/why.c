@@ -5,6 +5,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -146,6 +147,8 @@ int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_option
     return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no advice %lld; there are %lld", (long long)place,
                       (long long)why->advice_count);
   }
+  const int32_t status = hooke_run_options_require(run, "run");
+  if (status != HOOKE_OK) return status;
   const hooke_options *changes = why->advice[place].run;
   return changes ? hooke_why_apply(changes, run) : HOOKE_OK;
 }
