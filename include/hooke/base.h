@@ -13,10 +13,12 @@
 extern "C" {
 #endif
 
+#ifndef HOOKE_API
 #if defined(_WIN32)
 #define HOOKE_API
 #else
 #define HOOKE_API __attribute__((visibility("default")))
+#endif
 #endif
 
 #define HOOKE_VERSION "0.1.0"

@@ -3,6 +3,7 @@
 
 #include "build/material.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -95,7 +96,7 @@ int32_t hooke_part_new_positions(struct hooke_part *part, struct hooke_more more
   char what[128];
   va_list args;
   va_start(args, format);
-  vsnprintf(what, sizeof what, format, args);
+  hooke_print_list(what, sizeof what, format, args);
   va_end(args);
 
   *position = NULL;

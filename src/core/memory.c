@@ -1,4 +1,5 @@
 #include "core/memory.h"
+#include "core/keep_errno.h"
 #include "core/status.h"
 
 #include <stdlib.h>
@@ -15,6 +16,7 @@ static size_t whole_lines(int64_t count, size_t size) {
 }
 
 void *hooke_reserve(int64_t count, size_t size) {
+  HOOKE_KEEP_ERRNO;
   if (count < 0 || (uint64_t)count > (PTRDIFF_MAX - ALIGNMENT) / size) {
     no_memory(count, size);
     return NULL;

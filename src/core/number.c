@@ -1,5 +1,6 @@
 #include "core/number.h"
 
+#include "core/keep_errno.h"
 #include "core/memory.h"
 
 #include <math.h>
@@ -58,6 +59,7 @@ static int is_number(const char *text, int64_t length, int64_t *point, int *nonz
 }
 
 enum hooke_number_result hooke_number_parse(const char *text, int64_t length, double *value) {
+  HOOKE_KEEP_ERRNO;
   int64_t point = -1;
   int nonzero = 0;
   if (!is_number(text, length, &point, &nonzero)) return HOOKE_NUMBER_JUNK;
@@ -84,6 +86,7 @@ enum hooke_number_result hooke_number_parse(const char *text, int64_t length, do
 }
 
 void hooke_number_print(double value, char *text) {
+  HOOKE_KEEP_ERRNO;
   int precision = 15;
   do {
     snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", precision, value);

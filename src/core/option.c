@@ -1,5 +1,6 @@
 #include "core/option.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option_value.h"
 #include "core/status.h"
@@ -64,7 +65,7 @@ static int32_t fill_slots(hooke_options *options, const struct hooke_option_tabl
 
 int32_t hooke_options_create(const struct hooke_option_table *table, hooke_options **options) {
   *options = NULL;
-  hooke_options *made = hooke_new(1, sizeof *made);
+  hooke_options *made = hooke_handle_new("hooke_options", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->table = table;
   made->slot = hooke_new(count_rows(table), sizeof *made->slot);
@@ -86,7 +87,7 @@ void hooke_options_destroy(hooke_options *options) {
     hooke_free(slot->allowed);
   }
   hooke_free(options->slot);
-  hooke_free(options);
+  hooke_handle_free(options);
 }
 
 int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
@@ -104,6 +105,14 @@ int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
 
 const struct hooke_option_table *hooke_options_table(const hooke_options *options) {
   return options->table;
+}
+
+int32_t hooke_options_require(const hooke_options *options, const struct hooke_option_table *table,
+                              const char *place, const char *maker) {
+  if (options && options->table == table) return HOOKE_OK;
+  if (options == NULL) return hooke_fail(HOOKE_BAD_VALUE, place, "are missing; make them with %s", maker);
+  return hooke_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name,
+                    maker);
 }
 
 /* The row that `name` begins with, up to the end or a dot. */

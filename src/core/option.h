@@ -47,6 +47,11 @@ int32_t hooke_options_create(const struct hooke_option_table *table, hooke_optio
 
 const struct hooke_option_table *hooke_options_table(const hooke_options *options);
 
+/* HOOKE_BAD_VALUE, as the argument `place`, unless these are options of that table, as `maker` ("hooke_run_options_create()")
+ * makes them. NULL is refused. */
+int32_t hooke_options_require(const hooke_options *options, const struct hooke_option_table *table,
+                              const char *place, const char *maker);
+
 /* The row of a dotted name, NULL if there is none. */
 const struct hooke_option_row *hooke_options_find(const struct hooke_option_table *table, const char *name);
 

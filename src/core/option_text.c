@@ -2,6 +2,7 @@
 #include "core/option.h"
 
 #include "core/number.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <stdarg.h>
@@ -16,7 +17,7 @@ static void add(char *text, int64_t size, const char *format, ...) {
   size_t used = strlen(text);
   va_list args;
   va_start(args, format);
-  if ((int64_t)used < size) vsnprintf(text + used, (size_t)size - used, format, args);
+  if ((int64_t)used < size) hooke_print_list(text + used, (size_t)size - used, format, args);
   va_end(args);
 }
 

@@ -1,5 +1,6 @@
 #include "core/room.h"
 
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ const char *hooke_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]) {
     bytes /= 1000.0;
     unit++;
   }
-  snprintf(shown, HOOKE_BYTES_SHOWN, bytes < 1e6 ? "%.3g %s" : "%.2g %s", bytes, units[unit]);
+  hooke_print(shown, HOOKE_BYTES_SHOWN, bytes < 1e6 ? "%.3g %s" : "%.2g %s", bytes, units[unit]);
   return shown;
 }
 

@@ -1,5 +1,7 @@
 #include "core/status.h"
 
+#include "core/print.h"
+
 #undef hooke_fail
 #undef hooke_fail_within
 #undef hooke_fail_before
@@ -27,7 +29,7 @@ int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
-  vsnprintf(message, sizeof message, format, args);
+  hooke_print_list(message, sizeof message, format, args);
   va_end(args);
   snprintf(last.place, sizeof last.place, "%s", place ? place : "");
   memcpy(last.message, message, sizeof message);
@@ -41,7 +43,7 @@ int32_t hooke_fail_within(int32_t status, const char *format, ...) {
   char place[2 * PLACE_SIZE];
   va_list args;
   va_start(args, format);
-  vsnprintf(outer, sizeof outer, format, args);
+  hooke_print_list(outer, sizeof outer, format, args);
   va_end(args);
   const char *joint = last.place[0] && last.place[0] != '[' ? "." : "";
   snprintf(place, sizeof place, "%s%s%s", outer, joint, last.place);
@@ -53,7 +55,7 @@ int32_t hooke_fail_within(int32_t status, const char *format, ...) {
 int32_t hooke_fail_before(int32_t status, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  vsnprintf(last.before, sizeof last.before, format, args);
+  hooke_print_list(last.before, sizeof last.before, format, args);
   va_end(args);
   compose();
   return status;

@@ -1,6 +1,7 @@
 /* Making an integrator, and asking it what it did. */
 #include "integrate/integrator.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -20,6 +21,8 @@ static int32_t unknown_method(const char *name) {
 
 /* An integrator with method, options and schedule, but no problem yet. */
 static int32_t create(const hooke_options *options, hooke_integrator **out) {
+  int32_t status = hooke_run_options_require(options, "options");
+  if (status != HOOKE_OK) return status;
   const char *name = hooke_options_text(options, "method");
   const struct hooke_method *method = hooke_method_find(name);
   if (method == NULL) return unknown_method(name);
@@ -27,11 +30,11 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
     return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
                       method->needs);
   }
-  hooke_integrator *it = hooke_new(1, sizeof *it);
+  hooke_integrator *it = hooke_handle_new("hooke_integrator", sizeof *it);
   if (it == NULL) return HOOKE_NO_MEMORY;
   it->method = method;
   it->diverged_at = NAN;
-  int32_t status = hooke_options_copy(options, &it->options);
+  status = hooke_options_copy(options, &it->options);
   if (status == HOOKE_OK) status = hooke_schedule_read(method, it->options, &it->schedule);
   if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
     status =
@@ -111,7 +114,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hooke_free(it->x);
-  hooke_free(it);
+  hooke_handle_free(it);
 }
 
 const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {

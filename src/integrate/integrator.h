@@ -91,6 +91,9 @@ struct hooke_integrator {
   char message[512]; /* "" after success */
 };
 
+/* HOOKE_BAD_VALUE, as the argument `place`, for options that are not those of a run. */
+int32_t hooke_run_options_require(const hooke_options *options, const char *place);
+
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,
                             struct hooke_schedule *schedule);

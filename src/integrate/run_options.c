@@ -101,6 +101,10 @@ int32_t hooke_run_options_create(hooke_options **options) {
   return hooke_options_create(&run_table, options);
 }
 
+int32_t hooke_run_options_require(const hooke_options *options, const char *place) {
+  return hooke_options_require(options, &run_table, place, "hooke_run_options_create()");
+}
+
 /* ---- schedule ---- */
 
 /* 1 if `value` is a whole multiple of `step` to 1e-9 relative, with the multiple in `count`. */

@@ -9,6 +9,7 @@
  *   /comparison/series/error           [rows][frames], likewise energy_drift; NaN past the end of a run
  *
  * Texts are padded with zeros. All of it is made in advance and written in place, like the frames. */
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "hooke/io.h"
@@ -138,7 +139,7 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
 static void release(hooke_comparison_file *file) {
   hooke_h5_file_release(&file->file);
   hooke_free(file->recording);
-  hooke_free(file);
+  hooke_handle_free(file);
 }
 
 /* ---- frames ---- */
@@ -178,7 +179,7 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
   *file = NULL;
   int32_t status = hooke_comparison_prepare(comparison);
   if (status != HOOKE_OK) return status;
-  hooke_comparison_file *made = hooke_new(1, sizeof *made);
+  hooke_comparison_file *made = hooke_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->file.id = made->file.descriptor = -1;
   made->comparison = comparison;

@@ -1,4 +1,5 @@
 /* Tables as CSV, in the same bytes whatever the locale. */
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/number.h"
 #include "hooke/io.h"
@@ -38,6 +39,7 @@ static int32_t write_rows(const char *path, const char *temporary, const hooke_s
 }
 
 int32_t hooke_study_write_csv(const hooke_study *study, const char *path) {
+  HOOKE_KEEP_ERRNO;
   char *place, *temporary;
   int32_t status = hooke_place_find(path, &place, &temporary);
   if (status == HOOKE_OK) status = write_rows(path, temporary, study);

@@ -1,3 +1,4 @@
+#include "core/print.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -57,8 +58,8 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
   const double stored = (double)H5Dget_storage_size(data);
   if (bytes > LARGEST_RATIO * stored) {
     char text[160];
-    snprintf(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
-             stored);
+    hooke_print(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
+                stored);
     return hooke_dataset_refuse(path, name, text);
   }
   return HOOKE_OK;

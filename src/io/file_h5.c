@@ -1,4 +1,5 @@
 /* HDF5 files that take their place only when they are ready, and HDF5 errors in words. */
+#include "core/print.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -11,6 +12,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -40,8 +42,12 @@ static herr_t on_error(hid_t stack, void *ctx) {
   return 0;
 }
 
+/* HDF5 keeps its open files, and more, in variables of its own, one set for the process. */
+static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
+
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
-  *guard = (struct hooke_h5_guard){.second_version = 1};
+  *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno};
+  pthread_mutex_lock(&alone);
   H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
   if (guard->second_version) {
     H5E_auto2_t handler = NULL;
@@ -62,6 +68,8 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
   } else {
     H5Eset_auto1((H5E_auto1_t)guard->handler, guard->data);
   }
+  pthread_mutex_unlock(&alone);
+  errno = guard->error;
 }
 
 int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
@@ -86,7 +94,7 @@ static hid_t access_list(void) {
  * cannot close for want of room crashes the process at exit in some versions. */
 static int32_t try_room(const char *path, const char *temporary, double bytes) {
   char what[64];
-  snprintf(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
+  hooke_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
   unlink(temporary);
   int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY, 0666);
   if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);

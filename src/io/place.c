@@ -1,6 +1,8 @@
 #include "io/place.h"
 
+#include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <errno.h>
@@ -13,7 +15,9 @@
 #include <unistd.h>
 
 int32_t hooke_place_fail(const char *path, const char *what, int error) {
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what, strerror(error));
+  char reason[HOOKE_ERROR_SIZE];
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what,
+                    hooke_print_error(error, reason));
 }
 
 static int32_t find(const char *path, char **place) {
@@ -41,6 +45,7 @@ static int32_t find(const char *path, char **place) {
 }
 
 int32_t hooke_place_find(const char *path, char **place, char **temporary) {
+  HOOKE_KEEP_ERRNO;
   *place = NULL;
   *temporary = NULL;
   const int32_t status = find(path, place);
@@ -121,6 +126,7 @@ int32_t hooke_place_take(const char *place, char **temporary) {
 }
 
 int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary) {
+  HOOKE_KEEP_ERRNO;
   if (sync_path(*temporary, O_RDONLY) != 0)
     return hooke_place_fail(place, "bring the data to the disk", errno);
   if (previous && rename(place, previous) != 0 && errno != ENOENT)
@@ -143,6 +149,7 @@ static int32_t write_bytes(const char *path, const char *temporary, const char *
 }
 
 int32_t hooke_place_write(const char *path, const char *bytes, int64_t length) {
+  HOOKE_KEEP_ERRNO;
   char *place = NULL, *temporary = NULL;
   int32_t status = hooke_place_find(path, &place, &temporary);
   if (status == HOOKE_OK) status = write_bytes(path, temporary, bytes, length);

@@ -1,6 +1,7 @@
 /* Trajectory files read back: scene, options, outcome and frames. */
 #include "hooke/io.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/record.h"
@@ -163,7 +164,7 @@ static int32_t read_times(struct hooke_record *record) {
 
 int32_t hooke_record_open(const char *path, hooke_record **out) {
   *out = NULL;
-  struct hooke_record *record = hooke_new(1, sizeof *record);
+  struct hooke_record *record = hooke_handle_new("hooke_record", sizeof *record);
   if (record == NULL) return HOOKE_NO_MEMORY;
   record->path = hooke_copy_text(path);
   int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
@@ -188,7 +189,7 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->run);
   hooke_free(record->time);
   hooke_free(record->kept.value);
-  hooke_free(record);
+  hooke_handle_free(record);
 }
 
 const char *hooke_record_text(const hooke_record *record, const char *what) {

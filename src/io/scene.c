@@ -1,6 +1,8 @@
 /* Scenes: loading, and messages that give the place in the file. */
 #include "io/scene.h"
 
+#include "core/handle.h"
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/room.h"
 #include "core/status.h"
@@ -62,9 +64,9 @@ static int32_t require_jansson(void) {
 }
 
 static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
-  hooke_scene *scene = hooke_new(1, sizeof *scene);
+  hooke_scene *scene = hooke_handle_new("hooke_scene", sizeof *scene);
   if (scene && (scene->name = hooke_copy_text(name)) == NULL) {
-    hooke_free(scene);
+    hooke_handle_free(scene);
     return NULL;
   }
   if (scene && limits) {
@@ -117,6 +119,7 @@ int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
 }
 
 int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene) {
+  HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
   if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
   if (require_jansson()) return HOOKE_NOT_BUILT;
@@ -176,7 +179,7 @@ void hooke_scene_destroy(hooke_scene *scene) {
   hooke_free(scene->title);
   hooke_free(scene->text);
   hooke_free(scene->name);
-  hooke_free(scene);
+  hooke_handle_free(scene);
 }
 
 hooke_system *hooke_scene_system(hooke_scene *scene) {

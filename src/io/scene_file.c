@@ -1,7 +1,9 @@
 #include "io/scene_file.h"
 
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/option.h"
+#include "core/print.h"
 #include "core/room.h"
 #include "core/status.h"
 #include "io/place.h"
@@ -21,13 +23,15 @@ static int32_t refuse_open(int number, const struct hooke_json_guard *guard) {
     return hooke_fail(HOOKE_BAD_VALUE, NULL,
                       "is not a regular file; allowed: a %sfile, no pipe and no device",
                       guard ? "scene " : "");
+  char reason[HOOKE_ERROR_SIZE];
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
-                    strerror(number), guard ? "scene " : "");
+                    hooke_print_error(number, reason), guard ? "scene " : "");
 }
 
 /* Reads up to the end; `text` has `capacity` bytes, the last kept for the NUL. */
 static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text, int64_t *length) {
   int64_t capacity = first_piece;
+  char reason[HOOKE_ERROR_SIZE];
   *length = 0;
   *text = hooke_new(capacity, 1);
   if (*text == NULL) return HOOKE_NO_MEMORY;
@@ -37,7 +41,7 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     if (got == 0 && ferror(file)) {
       if (errno == EISDIR) return refuse_open(errno, guard);
       return hooke_fail(HOOKE_IO_FAILED, NULL, "reading broke off after %lld bytes: %s", (long long)*length,
-                        strerror(errno));
+                        hooke_print_error(errno, reason));
     }
     if (got == 0) break;
     if (guard && hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
@@ -59,6 +63,7 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
 
 int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, char **text,
                               int64_t *length) {
+  HOOKE_KEEP_ERRNO;
   *text = NULL;
   const int descriptor = hooke_place_open(path);
   FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
@@ -108,7 +113,8 @@ int32_t hooke_scene_find_any(const char *folder, const char *file, char **path) 
 }
 
 int32_t hooke_scene_find_file(const char *folder, const char *file, char **path) {
-  char shown[HOOKE_OPTION_SHOWN];
+  HOOKE_KEEP_ERRNO;
+  char shown[HOOKE_OPTION_SHOWN], reason[HOOKE_ERROR_SIZE];
   hooke_option_show(file, (int64_t)strlen(file), shown);
   *path = NULL;
   if (folder == NULL)
@@ -128,7 +134,7 @@ int32_t hooke_scene_find_file(const char *folder, const char *file, char **path)
   if (real_file == NULL)
     status = hooke_fail(HOOKE_BAD_VALUE, NULL,
                         "\"%s\" cannot be opened: %s; allowed: a file in the scene's folder", shown,
-                        strerror(errno));
+                        hooke_print_error(errno, reason));
   else if (!is_inside(real_folder, real_file))
     status = hooke_fail(HOOKE_BAD_VALUE, NULL,
                         "\"%s\" leads out of the scene's folder; allowed: a file inside it", shown);

@@ -1,6 +1,7 @@
 /* The top level of a scene. */
 #include "io/scene_json.h"
 
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -117,6 +118,7 @@ static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root)
 }
 
 int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+  HOOKE_KEEP_ERRNO;
   json_error_t error;
   json_t *root = json_loadb(scene->text, (size_t)scene->length, JSON_REJECT_DUPLICATES, &error);
   if (root == NULL) return syntax_error(&error, trouble);

@@ -1,6 +1,7 @@
 /* A system written as a scene: what was made from options is written as these options, the rest one by one. */
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "hooke/io.h"
 #include "io/place.h"
 #include "io/scene_words.h"
@@ -275,6 +276,7 @@ static int32_t compose(const hooke_system *system, const char *title, const hook
   struct hooke_text json = {.bytes = NULL};
   struct numbering numbering = {0};
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
   if (status == HOOKE_OK) status = check_words(system);
   if (status == HOOKE_OK) status = find_numbers(system, &numbering);
   if (status == HOOKE_OK) {

@@ -1,6 +1,8 @@
 #define _GNU_SOURCE /* dladdr */
 #include "io/share.h"
 
+#include "core/keep_errno.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <dlfcn.h>
@@ -36,6 +38,7 @@ static FILE *open_share(const char *name) {
 }
 
 int32_t hooke_share_read(const char *name, struct hooke_text *text) {
+  HOOKE_KEEP_ERRNO;
   FILE *file = open_share(name);
   if (file == NULL) {
     return hooke_fail(
@@ -50,6 +53,8 @@ int32_t hooke_share_read(const char *name, struct hooke_text *text) {
     hooke_text_add(text, piece, (int64_t)got);
   const int error = ferror(file) ? errno : 0;
   fclose(file);
-  if (error) return hooke_fail(HOOKE_IO_FAILED, NULL, "share/hooke/%s: %s", name, strerror(error));
+  char reason[HOOKE_ERROR_SIZE];
+  if (error)
+    return hooke_fail(HOOKE_IO_FAILED, NULL, "share/hooke/%s: %s", name, hooke_print_error(error, reason));
   return text->status;
 }

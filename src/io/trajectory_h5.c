@@ -1,4 +1,5 @@
 /* Trajectories: one run in one H5MD file. */
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "hooke/io.h"
@@ -25,7 +26,7 @@ int32_t hooke_io_own_process(void) {
 static const int64_t LEAST_BYTES = 65536;
 
 hooke_trajectory *hooke_trajectory_new(void) {
-  hooke_trajectory *trajectory = hooke_new(1, sizeof *trajectory);
+  hooke_trajectory *trajectory = hooke_handle_new("hooke_trajectory", sizeof *trajectory);
   if (trajectory == NULL) return NULL;
   trajectory->file.id = trajectory->file.descriptor = trajectory->recording.file.descriptor = -1;
   return trajectory;
@@ -33,7 +34,7 @@ hooke_trajectory *hooke_trajectory_new(void) {
 
 void hooke_trajectory_release(hooke_trajectory *trajectory) {
   hooke_h5_file_release(&trajectory->file);
-  hooke_free(trajectory);
+  hooke_handle_free(trajectory);
 }
 
 /* Lets HDF5 go; from here on the file is bytes. */

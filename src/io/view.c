@@ -1,6 +1,7 @@
 /* Trajectories as pages: what of a file is shown. */
 #include "io/view.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
@@ -237,7 +238,7 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
   *out = NULL;
   int32_t status = check_built();
   if (status != HOOKE_OK) return status;
-  struct hooke_view *view = hooke_new(1, sizeof *view);
+  struct hooke_view *view = hooke_handle_new("hooke_view", sizeof *view);
   if (view == NULL) return HOOKE_NO_MEMORY;
   view->record = record;
   view->bytes = NAN;
@@ -267,7 +268,7 @@ void hooke_view_destroy(hooke_view *view) {
   hooke_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hooke_free(view->energy[k]);
-  hooke_free(view);
+  hooke_handle_free(view);
 }
 
 double hooke_view_number(const hooke_view *view, const char *what) {

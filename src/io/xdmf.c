@@ -1,6 +1,8 @@
 /* The companion of a trajectory for ParaView: XML that says where in the HDF5 file everything is. */
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/number.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "hooke/io.h"
 #include "io/array_h5.h"
@@ -30,7 +32,7 @@ static void add(struct hooke_text *text, const char *format, ...) {
   char piece[512];
   va_list args;
   va_start(args, format);
-  const int length = vsnprintf(piece, sizeof piece, format, args);
+  const int length = hooke_print_list(piece, sizeof piece, format, args);
   va_end(args);
   hooke_text_add(text, piece, length < (int)sizeof piece ? length : (int)sizeof piece - 1);
 }
@@ -134,6 +136,7 @@ static int32_t check_name(const char *name) {
 
 /* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else from the root. */
 static int32_t find_name(struct companion *c, const char *path) {
+  HOOKE_KEEP_ERRNO;
   const char *there = hooke_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');
   const int64_t folder = slash ? slash - there : -1;
   char *real = NULL;

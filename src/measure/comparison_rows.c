@@ -1,6 +1,7 @@
 /* Making a comparison, and reading it. */
 #include "measure/comparison.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
@@ -12,12 +13,13 @@
 int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,
                                 hooke_comparison **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK) status = hooke_run_options_require(options, "options");
   if (status != HOOKE_OK) return status;
   if (!hooke_method_is_built("cvode-adams")) {
     return hooke_fail(HOOKE_NOT_BUILT, NULL,
                       "a comparison needs SUNDIALS for its reference, which this build is without");
   }
-  hooke_comparison *c = hooke_new(1, sizeof *c);
+  hooke_comparison *c = hooke_handle_new("hooke_comparison", sizeof *c);
   if (c == NULL) return HOOKE_NO_MEMORY;
   c->system = system;
   status = hooke_options_copy(options, &c->options);
@@ -42,7 +44,7 @@ void hooke_comparison_destroy(hooke_comparison *c) {
     hooke_free(c->row[k].method);
   hooke_options_destroy(c->options);
   hooke_free(c->row);
-  hooke_free(c);
+  hooke_handle_free(c);
 }
 
 int32_t hooke_comparison_add(hooke_comparison *c, const char *method) {

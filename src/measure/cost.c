@@ -2,9 +2,11 @@
 #include "measure/cost.h"
 
 #include "core/figure.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "measure/limit_predict.h"
 #include "model/state.h"
 #include "model/variant.h"
@@ -76,8 +78,11 @@ static int32_t list_rows(hooke_cost *cost) {
 int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                           hooke_cost **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &cost_table, "options", "hooke_cost_options_create()");
   if (status != HOOKE_OK) return status;
-  hooke_cost *cost = hooke_new(1, sizeof *cost);
+  hooke_cost *cost = hooke_handle_new("hooke_cost", sizeof *cost);
   if (cost == NULL) return HOOKE_NO_MEMORY;
   cost->system = system;
   cost->step = cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
@@ -99,7 +104,7 @@ void hooke_cost_destroy(hooke_cost *cost) {
   hooke_options_destroy(cost->run);
   hooke_options_destroy(cost->options);
   hooke_free(cost->row);
-  hooke_free(cost);
+  hooke_handle_free(cost);
 }
 
 void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx) {

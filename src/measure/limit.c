@@ -2,9 +2,11 @@
 #include "measure/limit.h"
 
 #include "core/clock.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "measure/limit_measure.h"
 #include "measure/method_list.h"
 #include "model/state.h"
@@ -98,10 +100,13 @@ static int32_t make_room(hooke_limit *limit) {
 int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                            hooke_limit **out) {
   int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &limit_table, "options", "hooke_limit_options_create()");
   if (status != HOOKE_OK) return status;
   if (!HOOKE_HAVE_LAPACK)
     return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
-  hooke_limit *limit = hooke_new(1, sizeof *limit);
+  hooke_limit *limit = hooke_handle_new("hooke_limit", sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
   limit->system = system;
   status =
@@ -131,7 +136,7 @@ void hooke_limit_destroy(hooke_limit *limit) {
   hooke_options_destroy(limit->options);
   hooke_free(limit->shape);
   hooke_free(limit->stiffest);
-  hooke_free(limit);
+  hooke_handle_free(limit);
 }
 
 void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void *ctx) {

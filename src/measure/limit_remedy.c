@@ -1,5 +1,6 @@
 /* What it would buy to change the few springs or particles that a limit hangs on. */
 #include "core/memory.h"
+#include "core/print.h"
 #include "measure/limit_blame.h"
 #include "measure/limit_predict.h"
 #include "model/system.h"
@@ -122,7 +123,7 @@ static void add(char *text, size_t size, const char *format, ...) {
   const size_t used = strlen(text);
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text + used, size - used, format, arguments);
+  hooke_print_list(text + used, size - used, format, arguments);
   va_end(arguments);
 }
 
@@ -130,9 +131,9 @@ static void add(char *text, size_t size, const char *format, ...) {
 static const char *figure(double value, char text[24]) {
   const double unit = value >= 10.0 && value < 1e6 ? pow(10.0, floor(log10(value)) - 1.0) : 0.0;
   if (unit > 0.0)
-    snprintf(text, 24, "%.0f", round(value / unit) * unit);
+    hooke_print(text, 24, "%.0f", round(value / unit) * unit);
   else
-    snprintf(text, 24, "%.2g", value);
+    hooke_print(text, 24, "%.2g", value);
   return text;
 }
 

@@ -1,9 +1,11 @@
 /* What a scene needs: making one, and the table. */
 #include "measure/needs.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "hooke/study.h"
 #include "measure/step_unit.h"
 
@@ -58,7 +60,9 @@ static int32_t read_method(hooke_needs *needs) {
 }
 
 static int32_t prepare(hooke_needs *needs, const hooke_options *run, const hooke_options *options) {
-  int32_t status = hooke_options_check_required(options);
+  int32_t status = hooke_options_require(options, &needs_table, "options", "hooke_needs_options_create()");
+  if (status == HOOKE_OK) status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK) status = hooke_options_check_required(options);
   if (status == HOOKE_OK) status = hooke_options_copy(run, &needs->run);
   if (status == HOOKE_OK) status = hooke_options_copy(options, &needs->options);
   if (status != HOOKE_OK) return status;
@@ -77,7 +81,7 @@ int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
                            hooke_needs **out) {
   int32_t status = hooke_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  hooke_needs *needs = hooke_new(1, sizeof *needs);
+  hooke_needs *needs = hooke_handle_new("hooke_needs", sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
   needs->system = system;
   needs->lean_error = NAN;
@@ -105,7 +109,7 @@ void hooke_needs_destroy(hooke_needs *needs) {
   hooke_free(needs->part);
   hooke_free(needs->watch);
   hooke_free(needs->largest_force);
-  hooke_free(needs);
+  hooke_handle_free(needs);
 }
 
 void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx) {

@@ -2,6 +2,7 @@
 #include "measure/needs.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "measure/naming.h"
 
@@ -24,7 +25,7 @@ static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_
   *made = (struct hooke_needs_row){.kind = kind, .needed = 1};
   va_list args;
   va_start(args, format);
-  vsnprintf(made->without, sizeof made->without, format, args);
+  hooke_print_list(made->without, sizeof made->without, format, args);
   va_end(args);
   const int32_t status = hooke_variant_create(needs->system, &made->variant);
   if (status != HOOKE_OK) return status;

@@ -2,6 +2,7 @@
 #include "measure/needs.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -31,8 +32,8 @@ static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hoo
   const struct hooke_needs_trial trial = {made, &map};
   status = hooke_needs_measure(needs, &trial, cost, path);
   if (status == HOOKE_OK && path->position == NULL)
-    snprintf(note, HOOKE_NEEDS_NOTE,
-             "%g times finer, it does not run to its end with any step that was tried", scale);
+    hooke_print(note, HOOKE_NEEDS_NOTE,
+                "%g times finer, it does not run to its end with any step that was tried", scale);
   hooke_variant_map_release(&map);
   hooke_system_destroy(made);
   return status;
@@ -41,19 +42,21 @@ static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hoo
 /* Richardson (1911): with a change d between N and 2N of order p, what is left at N is d 2^p / (2^p - 1). */
 static void extrapolate(const hooke_needs *needs, double step_error, struct hooke_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
-    snprintf(part->note, sizeof part->note,
-             "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
-             "order cannot be seen",
-             step_error);
+    hooke_print(
+        part->note, sizeof part->note,
+        "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
+        "order cannot be seen",
+        step_error);
     if (part->change <= needs->want) part->factor = 1.0;
     return;
   }
   part->order = log2(part->change / part->change_fine);
   if (!(part->order >= LOWEST_ORDER && part->order <= HIGHEST_ORDER)) {
-    snprintf(part->note, sizeof part->note,
-             "the changes do not fall as a power of the resolution (order %.2g), so nothing can be said of a "
-             "finer one",
-             part->order);
+    hooke_print(
+        part->note, sizeof part->note,
+        "the changes do not fall as a power of the resolution (order %.2g), so nothing can be said of a "
+        "finer one",
+        part->order);
     return;
   }
   const double growth = exp2(part->order);

@@ -1,6 +1,7 @@
 /* The table: one run for every ingredient. */
 #include "measure/needs.h"
 
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -25,7 +26,7 @@ static void judge(const hooke_needs *needs, const struct hooke_needs_path *path,
   row->error = hooke_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
   if (beyond > 0.0)
-    snprintf(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
+    hooke_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }
 
 int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row) {
@@ -63,8 +64,8 @@ static int32_t is_known(const hooke_needs *needs, const struct hooke_needs_row *
 }
 
 static void name_idle(struct hooke_needs_row *row, double force, int64_t count) {
-  snprintf(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
-           count == 1 ? "spring that never passes" : "springs that never pass", force);
+  hooke_print(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
+              count == 1 ? "spring that never passes" : "springs that never pass", force);
 }
 
 /* The boldest threshold that the want allows; without springs for any, the row goes. */

@@ -1,6 +1,8 @@
 /* The observed order of a method: least squares of log error on log step. */
 #include "measure/study.h"
 
+#include "core/print.h"
+
 #include "integrate/method.h"
 
 #include <math.h>
@@ -47,19 +49,20 @@ static void explain(const hooke_study *study, int32_t method, struct hooke_study
   }
   if (order->order >= order->theory - BELOW && order->order <= order->theory + ABOVE) return;
   if (study->reference.trusted < study->reference.frames.count) {
-    snprintf(order->note, (size_t)size,
-             "%.2f instead of %g: the motion is chaotic, errors do not follow the step", order->order,
-             order->theory);
+    hooke_print(order->note, (size_t)size,
+                "%.2f instead of %g: the motion is chaotic, errors do not follow the step", order->order,
+                order->theory);
   } else if (order->order > order->theory) {
-    snprintf(order->note, (size_t)size,
-             "%.2f instead of %g: the steps are not yet small enough for the asymptotic law", order->order,
-             order->theory);
+    hooke_print(order->note, (size_t)size,
+                "%.2f instead of %g: the steps are not yet small enough for the asymptotic law", order->order,
+                order->theory);
   } else {
-    snprintf(order->note, (size_t)size,
-             "%.2f instead of %g: forces that are not smooth (springs that only pull or pass zero length, a "
-             "callback) "
-             "or depend on velocity cost order, and so do steps near the limit of stability",
-             order->order, order->theory);
+    hooke_print(
+        order->note, (size_t)size,
+        "%.2f instead of %g: forces that are not smooth (springs that only pull or pass zero length, a "
+        "callback) "
+        "or depend on velocity cost order, and so do steps near the limit of stability",
+        order->order, order->theory);
   }
 }
 

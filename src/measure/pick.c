@@ -3,6 +3,7 @@
 
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -42,7 +43,8 @@ int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double 
   hooke_options *beginning = NULL, *options = NULL;
   hooke_study *study = NULL;
   double share = 1.0;
-  int32_t status = hooke_options_copy(run, &beginning);
+  int32_t status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK) status = hooke_options_copy(run, &beginning);
   if (status == HOOKE_OK) status = shorten(system, run, beginning, &share);
   if (status == HOOKE_OK) status = hooke_study_options_create(&options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "budget", BUDGET);

@@ -3,6 +3,7 @@
 #include "measure/study_search.h"
 
 #include "core/clock.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -35,13 +36,13 @@ static void explain_no_rows(hooke_study *study) {
     if (finest == NULL || row->value < finest->value) finest = row;
   }
   if (finest == NULL && study->budget_spent) {
-    snprintf(r->note, sizeof r->note, "the budget of %g s ended before the first run did; give a larger one",
-             study->budget);
+    hooke_print(r->note, sizeof r->note,
+                "the budget of %g s ended before the first run did; give a larger one", study->budget);
   } else if (finest == NULL) {
     snprintf(r->note, sizeof r->note, "there are no runs to choose from");
   } else {
     const int adaptive = hooke_study_is_adaptive(study, finest->method);
-    snprintf(
+    hooke_print(
         r->note, sizeof r->note,
         "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
         study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
@@ -62,14 +63,14 @@ static void keep_closest(hooke_study *study, const struct hooke_study_candidate 
   }
   keep(study, closest, 0);
   if (r->want <= study->reference.agreement) {
-    snprintf(r->note, sizeof r->note,
-             "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
-             study->reference.agreement);
+    hooke_print(r->note, sizeof r->note,
+                "%.3g m is below %.3g m, to which the reference itself is known; want more than that",
+                r->want, study->reference.agreement);
   } else {
-    snprintf(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
-             r->error,
-             study->budget_spent ? "a larger budget would try finer steps"
-                                 : "finer steps or tighter tolerances, or other methods, might");
+    hooke_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
+                r->error,
+                study->budget_spent ? "a larger budget would try finer steps"
+                                    : "finer steps or tighter tolerances, or other methods, might");
   }
 }
 

@@ -2,9 +2,11 @@
 #include "measure/study.h"
 
 #include "core/clock.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 #include "measure/method_list.h"
 #include "measure/step_unit.h"
 
@@ -91,10 +93,14 @@ int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
   if (!hooke_method_is_built("cvode-adams")) {
     return hooke_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
   }
-  hooke_study *study = hooke_new(1, sizeof *study);
+  int32_t status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &study_table, "options", "hooke_study_options_create()");
+  if (status != HOOKE_OK) return status;
+  hooke_study *study = hooke_handle_new("hooke_study", sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
   study->system = system;
-  int32_t status = hooke_options_copy(run, &study->run);
+  status = hooke_options_copy(run, &study->run);
   if (status == HOOKE_OK) {
     status =
         options ? hooke_options_copy(options, &study->options) : hooke_study_options_create(&study->options);
@@ -120,7 +126,7 @@ void hooke_study_destroy(hooke_study *study) {
   hooke_options_destroy(study->run);
   hooke_options_destroy(study->options);
   hooke_free(study->row);
-  hooke_free(study);
+  hooke_handle_free(study);
 }
 
 void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx) {

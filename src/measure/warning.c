@@ -1,6 +1,7 @@
 /* Watching the step of a run against the safe bound, at a price that stays below a hundredth of the stepping. */
 #include "core/clock.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/naming.h"
@@ -44,12 +45,13 @@ static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke
   watch->told[kind] = 1;
   const int64_t spring = hooke_naming_heaviest_words(system, particle, h, where);
   if (kind == NEVER_STABLE) {
-    snprintf(sentence, sizeof sentence,
-             "at t = %.6g s %s is stable at no step, and takes %.6g s: some motion has no damping and grows "
-             "slowly, such as that at particle %lld%s%s",
-             *state->t, method, h, (long long)particle, where[0] ? " on " : "", where);
+    hooke_print(
+        sentence, sizeof sentence,
+        "at t = %.6g s %s is stable at no step, and takes %.6g s: some motion has no damping and grows "
+        "slowly, such as that at particle %lld%s%s",
+        *state->t, method, h, (long long)particle, where[0] ? " on " : "", where);
   } else {
-    snprintf(
+    hooke_print(
         sentence, sizeof sentence,
         "at t = %.6g s the step %.6g s is %s %.6g s, up to which %s is certain to be stable; it hangs on "
         "particle %lld%s%s",

@@ -2,8 +2,10 @@
 #include "measure/why.h"
 
 #include "core/figure.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,7 +44,7 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
   if (run->recent.room == 0) {
     return hooke_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
   }
-  struct hooke_why *why = hooke_new(1, sizeof *why);
+  struct hooke_why *why = hooke_handle_new("hooke_why", sizeof *why);
   if (why == NULL) return HOOKE_NO_MEMORY;
   why->time = why->limit = why->particle = why->step = NAN;
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
@@ -79,7 +81,7 @@ void hooke_why_destroy(hooke_why *why) {
   if (why == NULL) return;
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  hooke_free(why);
+  hooke_handle_free(why);
 }
 
 const char *hooke_why_text(const hooke_why *why, const char *what) {
@@ -145,6 +147,8 @@ int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_option
     return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no advice %lld; there are %lld", (long long)place,
                       (long long)why->advice_count);
   }
+  const int32_t status = hooke_run_options_require(run, "run");
+  if (status != HOOKE_OK) return status;
   const hooke_options *changes = why->advice[place].run;
   return changes ? hooke_why_apply(changes, run) : HOOKE_OK;
 }

@@ -2,6 +2,7 @@
 #include "measure/why_trial.h"
 
 #include "core/number.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "measure/limit_predict.h"
 #include "measure/step_bound.h"
@@ -110,7 +111,7 @@ static int32_t offer_fixed(struct hooke_plan *plan, const char *method) {
 static double rounded(double value) {
   char text[32];
   double read = value;
-  snprintf(text, sizeof text, "%.1e", value);
+  hooke_print(text, sizeof text, "%.1e", value);
   return hooke_number_parse(text, (int64_t)strlen(text), &read) == HOOKE_NUMBER_FINE ? read : value;
 }
 
@@ -265,10 +266,10 @@ static void advise_scene(struct hooke_inquiry *inquiry) {
   struct hooke_why *why = inquiry->why;
   struct hooke_why_advice *advice = &why->advice[why->advice_count];
   if (inquiry->slip.found) {
-    snprintf(advice->change, sizeof advice->change,
-             "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
-             inquiry->slip.of_drive ? "drive" : "force", (long long)inquiry->slip.particle,
-             inquiry->slip.time);
+    hooke_print(advice->change, sizeof advice->change,
+                "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
+                inquiry->slip.of_drive ? "drive" : "force", (long long)inquiry->slip.particle,
+                inquiry->slip.time);
   } else if (inquiry->remedy[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
   } else if (strcmp(why->cause, "overflow") == 0) {

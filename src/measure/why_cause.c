@@ -2,6 +2,7 @@
 #include "measure/why.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "measure/limit.h"
 #include "measure/naming.h"
@@ -26,7 +27,7 @@ static void say(struct hooke_inquiry *inquiry, const char *cause, const char *fo
   why->cause = cause;
   int used = snprintf(why->sentence, sizeof why->sentence, "%s: ", how);
   va_start(args, format);
-  vsnprintf(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
+  hooke_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
   va_end(args);
 }
 
@@ -52,12 +53,12 @@ static const char *show(const struct hooke_inquiry *inquiry, char text[160]) {
   const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
                                                                                   : inquiry->why->noticed;
   if (inquiry->run->outcome == HOOKE_DIVERGED) {
-    snprintf(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
-             (long long)inquiry->bad_particle,
-             isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
-                                         : "numbers are no longer finite");
+    hooke_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
+                (long long)inquiry->bad_particle,
+                isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
+                                            : "numbers are no longer finite");
   } else {
-    snprintf(text, 160, "at t = %.6g s it ended", t);
+    hooke_print(text, 160, "at t = %.6g s it ended", t);
   }
   return text;
 }
@@ -209,7 +210,8 @@ static void judge_overflow(struct hooke_inquiry *inquiry) {
   if (bent < 0) blame_spring(inquiry, spring, NAN);
   if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
-  if (!isnan(inquiry->why->step)) snprintf(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
+  if (!isnan(inquiry->why->step))
+    hooke_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
   const struct hooke_spring s = spring >= 0 ? hooke_naming_spring(system, spring) : (struct hooke_spring){0};
   const int64_t light =
       spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
@@ -330,8 +332,8 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
     return judge_excess(inquiry);
   } else if (inquiry->flips > 0) {
     inquiry->why->particle = NAN;
-    snprintf(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
-             (long long)inquiry->flips, inquiry->flip_time);
+    hooke_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
+                (long long)inquiry->flips, inquiry->flip_time);
     judge_collapse(inquiry, inquiry->flipped, what);
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",

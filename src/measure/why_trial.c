@@ -1,6 +1,7 @@
 #include "measure/why_trial.h"
 
 #include "core/number.h"
+#include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -61,7 +62,7 @@ int32_t hooke_change_begin(struct hooke_change *change, const char *option) {
 void hooke_change_say(struct hooke_change *change, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  vsnprintf(change->words, sizeof change->words, format, args);
+  hooke_print_list(change->words, sizeof change->words, format, args);
   va_end(args);
 }
 
@@ -130,11 +131,11 @@ static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, do
 static int proves(const struct hooke_plan *plan, double reached, int32_t finished, char *text, size_t size) {
   const double noticed = plan->inquiry->why->noticed, begun = *plan->first->t;
   if (plan->late)
-    snprintf(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
+    hooke_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
   else if (finished)
     snprintf(text, size, " (tried: it runs to its end)");
   else
-    snprintf(text, size, " (tried up to t = %.3g s: there it is well)", reached);
+    hooke_print(text, size, " (tried up to t = %.3g s: there it is well)", reached);
   return (finished && !plan->late) || reached > noticed + 0.5 * (noticed - begun);
 }
 

@@ -264,6 +264,8 @@ static int32_t keep_options(const hooke_options *options, struct hooke_group *gr
 static int32_t add_group(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
                          const hooke_options *options, int32_t from_part) {
   int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hooke_options_require(options, &spring_table, "options", "hooke_spring_options_create()");
   if (status == HOOKE_OK) status = hooke_options_check_required(options);
   if (status == HOOKE_OK) status = check_ends(system, count, ends);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);

@@ -1,5 +1,6 @@
 #include "model/state.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/system.h"
@@ -7,10 +8,10 @@
 #include <string.h>
 
 int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
-  hooke_state *state = hooke_new(1, sizeof *state);
+  hooke_state *state = hooke_handle_new("hooke_state", sizeof *state);
   double *block = hooke_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
   if (state == NULL || block == NULL) {
-    hooke_free(state);
+    hooke_handle_free(state);
     hooke_free(block);
     return HOOKE_NO_MEMORY;
   }
@@ -74,7 +75,7 @@ int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
 void hooke_state_destroy(hooke_state *state) {
   if (state == NULL) return;
   hooke_free(state->t);
-  hooke_free(state);
+  hooke_handle_free(state);
 }
 
 int32_t hooke_state_copy(const hooke_state *from, hooke_state *to) {

@@ -1,6 +1,7 @@
 /* Building a system: particles, pins, gravity, drag and the caller's own force. */
 #include "model/system.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force.h"
@@ -9,7 +10,7 @@
 #include <string.h>
 
 int32_t hooke_system_create(hooke_system **system) {
-  *system = hooke_new(1, sizeof **system);
+  *system = hooke_handle_new("hooke_system", sizeof **system);
   return *system ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
@@ -46,7 +47,7 @@ void hooke_system_destroy(hooke_system *system) {
   hooke_free(system->derived);
   hooke_free(system->drive);
   hooke_free(system->force_row);
-  hooke_free(system);
+  hooke_handle_free(system);
 }
 
 int32_t hooke_system_require_open(const hooke_system *system) {

@@ -1,0 +1,80 @@
+#include "core/handle.h"
+
+#if HOOKE_CHECK_HANDLES
+
+#include "core/status.h"
+
+#include <pthread.h>
+#include <string.h>
+
+/* In front of every object, in its block: so that the list needs no memory of its own. */
+struct entry {
+  _Alignas(64) struct entry *next;
+  const char *type;
+};
+
+/* The one thing that outlives a call, and only in builds for finding mistakes. Lists by address. */
+enum { LISTS = 4096 };
+static struct entry *alive[LISTS];
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+
+static struct entry **list_of(const struct entry *entry) {
+  const uintptr_t block = (uintptr_t)entry / 64;
+  return &alive[(block ^ block / LISTS) % LISTS];
+}
+
+/* The link that leads to the entry; to NULL if it is not there. Reads none but entries that are alive. */
+static struct entry **find(const struct entry *entry) {
+  struct entry **link = list_of(entry);
+  while (*link && *link != entry)
+    link = &(*link)->next;
+  return link;
+}
+
+void *hooke_handle_new(const char *type, size_t size) {
+  struct entry *entry = hooke_new(1, sizeof *entry + size);
+  if (entry == NULL) return NULL;
+  entry->type = type;
+  pthread_mutex_lock(&mutex);
+  struct entry **list = list_of(entry);
+  entry->next = *list;
+  *list = entry;
+  pthread_mutex_unlock(&mutex);
+  return entry + 1;
+}
+
+void hooke_handle_free(void *object) {
+  if (object == NULL) return;
+  struct entry *entry = (struct entry *)object - 1;
+  pthread_mutex_lock(&mutex);
+  struct entry **link = find(entry);
+  if (*link) *link = entry->next;
+  pthread_mutex_unlock(&mutex);
+  hooke_free(entry);
+}
+
+int32_t hooke_handle_is(const void *object, const char *type, const char *function, const char *argument) {
+  const char *found = NULL;
+  if (object) {
+    const uintptr_t before = (uintptr_t)object - sizeof(struct entry);
+    pthread_mutex_lock(&mutex);
+    const struct entry *entry = *find((const struct entry *)before);
+    if (entry) found = entry->type;
+    pthread_mutex_unlock(&mutex);
+  }
+  if (found && strcmp(found, type) == 0) return 1;
+  if (object == NULL)
+    hooke_fail(HOOKE_BAD_CALL, argument, "is NULL; %s() needs a %s", function, type);
+  else if (found)
+    hooke_fail(HOOKE_BAD_CALL, argument, "is a %s; %s() needs a %s", found, function, type);
+  else
+    hooke_fail(HOOKE_BAD_CALL, argument, "is no %s: it was destroyed, or never made; in a call of %s()", type,
+               function);
+  return 0;
+}
+
+#else
+
+typedef int hooke_handle_nothing; /* a file of C has to have something */
+
+#endif

@@ -1,0 +1,48 @@
+#include "core/print.h"
+
+#include "core/keep_errno.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The thread's locale is the caller's; "C" takes its place for a moment, for which C libraries take no memory. */
+struct plain {
+  locale_t locale, callers;
+};
+
+static struct plain begin_plain(void) {
+  struct plain plain = {.locale = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
+  if (plain.locale) plain.callers = uselocale(plain.locale);
+  return plain;
+}
+
+static void end_plain(struct plain plain) {
+  if (plain.locale == (locale_t)0) return;
+  uselocale(plain.callers);
+  freelocale(plain.locale);
+}
+
+int hooke_print_list(char *text, size_t size, const char *format, va_list args) {
+  HOOKE_KEEP_ERRNO;
+  const struct plain plain = begin_plain();
+  const int length = vsnprintf(text, size, format, args);
+  end_plain(plain);
+  return length;
+}
+
+int hooke_print(char *text, size_t size, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  const int length = hooke_print_list(text, size, format, args);
+  va_end(args);
+  return length;
+}
+
+const char *hooke_print_error(int error, char *text) {
+  HOOKE_KEEP_ERRNO;
+  const struct plain plain = begin_plain();
+  if (strerror_r(error, text, HOOKE_ERROR_SIZE) != 0) snprintf(text, HOOKE_ERROR_SIZE, "error %d", error);
+  end_plain(plain);
+  return text;
+}

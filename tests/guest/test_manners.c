@@ -1,0 +1,406 @@
+/* What a guest finds in a process it leaves as it is: errno, rounding mode, treatment of denormals and masks of exceptions,
+ * locale, mask and handlers of signals, working folder, mask of modes, open files, threads. After every call of a tour
+ * through the whole interface, calls that fail among them. */
+#define _GNU_SOURCE /* fegetexcept() */
+#include "check.h"
+#include "random_scene.h"
+#include "run.h"
+#include "small.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <fenv.h>
+#include <locale.h>
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+/* ---- what there is to be left alone ---- */
+
+enum { SENTINEL = 12345, SIGNALS = 32, PATH_ROOM = 512 };
+
+struct manners {
+  int error, rounding, traps, x87;
+  unsigned control; /* of MXCSR: rounding, masks, denormals; not the flags */
+  char locale[PATH_ROOM], folder[PATH_ROOM];
+  locale_t threads_locale;
+  sigset_t mask;
+  void (*handler[SIGNALS])(int);
+  mode_t modes;
+  int64_t files, threads;
+};
+
+static int64_t count_entries(const char *folder) {
+  DIR *all = opendir(folder);
+  if (all == NULL) return -1;
+  int64_t count = 0;
+  while (readdir(all))
+    count++;
+  closedir(all);
+  return count;
+}
+
+static void look(struct manners *m) {
+  m->error = errno;
+  m->rounding = fegetround();
+  m->traps = fegetexcept();
+#if defined(__x86_64__)
+  unsigned short word;
+  __asm__ __volatile__("fnstcw %0" : "=m"(word));
+  m->x87 = word;
+  m->control = _mm_getcsr() & ~0x3fU;
+#endif
+  snprintf(m->locale, sizeof m->locale, "%s", setlocale(LC_ALL, NULL));
+  m->threads_locale = uselocale((locale_t)0);
+  pthread_sigmask(SIG_BLOCK, NULL, &m->mask);
+  for (int k = 1; k < SIGNALS; k++) {
+    struct sigaction action;
+    m->handler[k] = sigaction(k, NULL, &action) == 0 ? action.sa_handler : NULL;
+  }
+  if (getcwd(m->folder, sizeof m->folder) == NULL) m->folder[0] = '\0';
+  m->modes = umask(022);
+  umask(m->modes);
+}
+
+static void count_all(struct manners *m) {
+  m->files = count_entries("/proc/self/fd");
+  m->threads = count_entries("/proc/self/task");
+}
+
+static struct manners before, start;
+
+static void arrive(void) {
+  look(&before);
+  errno = SENTINEL;
+}
+
+static int64_t complaints; /* all are told before the test fails */
+
+__attribute__((format(printf, 1, 2))) static void complain(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  char text[1024];
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  print_error("%s\n", text);
+  complaints++;
+}
+
+static void leave(const char *call) {
+  struct manners after;
+  look(&after);
+  if (after.error != SENTINEL)
+    complain("%s\n  sets errno to %d (%s)", call, after.error, strerror(after.error));
+  if (after.rounding != before.rounding || after.traps != before.traps || after.x87 != before.x87 ||
+      after.control != before.control)
+    complain("%s\n  changes the floating-point environment", call);
+  if (strcmp(after.locale, before.locale) != 0 || after.threads_locale != before.threads_locale)
+    complain("%s\n  changes the locale", call);
+  for (int k = 1; k < SIGNALS; k++)
+    if (after.handler[k] != before.handler[k] || sigismember(&after.mask, k) != sigismember(&before.mask, k))
+      complain("%s\n  changes what becomes of signal %d", call, k);
+  if (strcmp(after.folder, before.folder) != 0 || after.modes != before.modes)
+    complain("%s\n  changes the working folder or the mask of modes", call);
+}
+
+/* A call whose result is asserted, or of none. */
+#define OK(call)           REFUSED(call, HOOKE_OK)
+#define REFUSED(call, yes) (arrive(), expect((call), (yes), #call))
+#define ASK(call)          (arrive(), (void)(call), leave(#call))
+
+static void expect(int32_t status, int32_t expected, const char *call) {
+  leave(call);
+  if (status != expected) complain("%s\n  returned %d (%s)", call, (int)status, hooke_last_error());
+}
+
+/* ---- the tour ---- */
+
+static const char trajectory_path[] = "guest_manners.h5", report_path[] = "guest_manners.html",
+                  table_path[] = "guest_manners.csv", scene_path[] = "guest_manners.json",
+                  nowhere[] = "no/such/folder/file";
+static const char scene_text[] =
+    "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"rope\", \"from\": [0, 0, 0],"
+    " \"to\": [1, 0, 0.25], \"segments\": 8, \"mass\": 0.1, \"pinned\": \"start\","
+    " \"stretch\": {\"stiffness\": 50.5, \"damping\": 1e-2}}],"
+    " \"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 0.05, \"every\": 0.01}}";
+
+static int32_t go_on(double done, const char *what, void *ctx) {
+  (void)done, (void)what, (void)ctx;
+  return 0;
+}
+
+static void tour_building(void) {
+  hooke_system *system = NULL;
+  hooke_options *springs = NULL, *rope = NULL, *none = NULL;
+  const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[] = {1},
+               far[] = {1e308, 1e308, 0, -1e308, 0, 0, 0, 0, 1};
+  const int64_t ends[] = {0, 1, 1, 2}, triple[] = {0, 1, 2}, wrong[] = {0, 7};
+  int64_t first;
+  double bending = 1.0;
+  OK(hooke_system_create(&system));
+  OK(hooke_system_add_particles(system, 3, q, NULL, 1, mass, &first));
+  OK(hooke_spring_options_create(&springs));
+  OK(hooke_options_set_text(springs, "stiffness", "1e3"));
+  REFUSED(hooke_options_set_text(springs, "stiffness", "1e999"), HOOKE_BAD_VALUE);
+  REFUSED(hooke_options_set_text(springs, "stiffness", "1e-999"), HOOKE_BAD_VALUE);
+  REFUSED(hooke_options_set_text(springs, "stifness", "1"), HOOKE_BAD_VALUE);
+  REFUSED(hooke_options_set_number(springs, "stiffness", NAN), HOOKE_BAD_VALUE);
+  OK(hooke_system_add_springs(system, "a", 2, ends, springs));
+  REFUSED(hooke_system_add_springs(system, "b", 1, wrong, springs), HOOKE_BAD_VALUE);
+  OK(hooke_system_add_bending(system, "c", 1, triple, 1, &bending));
+  OK(hooke_part_options_create("rope", &rope));
+  REFUSED(hooke_part_options_create("robe", &none), HOOKE_BAD_VALUE);
+  REFUSED(hooke_system_add_part(system, "rope", NULL, rope, NULL, NULL), HOOKE_BAD_VALUE);
+  OK(hooke_system_commit(system));
+  REFUSED(hooke_system_commit(system), HOOKE_BAD_CALL);
+  ASK(hooke_system_energy(system, far, far));
+  ASK(hooke_system_memory(system));
+  ASK(hooke_options_destroy(springs));
+  ASK(hooke_options_destroy(rope));
+  ASK(hooke_system_destroy(system));
+  REFUSED(hooke_state_create_first_order(INT64_MAX / 64, &(hooke_state *){NULL}), HOOKE_NO_MEMORY);
+  ASK(hooke_build_fact("instructions"));
+  ASK(hooke_build_fact("licence"));
+}
+
+static void tour_methods(void) {
+  struct random_scene scene;
+  random_scene_create(
+      (struct random_scene_request){
+          .seed = 5, .particles = 700, .springs = 2000, .features = SCENE_EVERYTHING},
+      &scene);
+  for (int64_t m = 0; m < hooke_method_count() + 2; m++) {
+    const char *method = m < hooke_method_count()
+                             ? hooke_method_name(m)
+                             : (const char *[]){"rk8pd", "arkode-esdirk"}[m - hooke_method_count()];
+    if (!hooke_method_is_built(method)) continue;
+    for (int32_t threads = 1; threads <= 2; threads++) {
+      hooke_options *options = run_options((struct run){
+          .method = method, .step = 1e-3, .duration = 4e-3, .rtol = 1e-3, .atol = 1e-3, .threads = threads});
+      hooke_integrator *integrator = NULL;
+      hooke_state *state = NULL;
+      OK(hooke_integrator_create(scene.system, options, &integrator));
+      OK(hooke_state_create(scene.system, &state));
+      OK(hooke_integrator_run(integrator, state));
+      OK(hooke_integrator_step(integrator, state, 2));
+      ASK(hooke_integrator_count(integrator, "steps"));
+      ASK(hooke_integrator_destroy(integrator));
+      ASK(hooke_state_destroy(state));
+      ASK(hooke_options_destroy(options));
+    }
+  }
+  random_scene_destroy(&scene);
+}
+
+static void tour_divergence(void) {
+  hooke_system *system = small_oscillator(100.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "forward-euler", .step = 0.5, .duration = 500.0});
+  hooke_state *state = start_state(system);
+  REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+#if HOOKE_HAVE_LAPACK
+  hooke_why *why = NULL;
+  OK(hooke_why_create(integrator, &why));
+  ASK(hooke_why_text(why, "sentence"));
+  ASK(hooke_why_destroy(why));
+#endif
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+#if HOOKE_HAVE_JANSSON && HOOKE_HAVE_HDF5 && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS
+
+static void tour_files(hooke_system *system, const hooke_options *run) {
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  hooke_trajectory *trajectory = NULL;
+  hooke_record *record = NULL;
+  hooke_view *view = NULL;
+  int64_t rows, columns;
+  OK(hooke_integrator_create(system, run, &integrator));
+  OK(hooke_state_create(system, &state));
+  REFUSED(hooke_trajectory_create(nowhere, system, integrator, scene_text, &trajectory), HOOKE_IO_FAILED);
+  REFUSED(hooke_trajectory_create("/", system, integrator, scene_text, &trajectory), HOOKE_IO_FAILED);
+  OK(hooke_trajectory_create(trajectory_path, system, integrator, scene_text, &trajectory));
+  OK(hooke_trajectory_write_behind(trajectory));
+  OK(hooke_trajectory_write(trajectory, 0, state));
+  OK(hooke_trajectory_write(trajectory, 10, state));
+  OK(hooke_trajectory_close(trajectory, HOOKE_OK));
+  REFUSED(hooke_record_open(nowhere, &record), HOOKE_IO_FAILED);
+  OK(hooke_record_open(trajectory_path, &record));
+  OK(hooke_record_read(record, 1, state));
+  OK(hooke_record_size(record, "time", &rows, &columns));
+  REFUSED(hooke_record_size(record, "tine", &rows, &columns), HOOKE_BAD_VALUE);
+  OK(hooke_view_create(record, NULL, &view));
+  REFUSED(hooke_view_write(view, nowhere, "title"), HOOKE_IO_FAILED);
+#if HOOKE_HAVE_CHARTJS && HOOKE_HAVE_THREEJS
+  OK(hooke_view_write(view, report_path, "title"));
+#endif
+  ASK(hooke_view_destroy(view));
+  REFUSED(hooke_record_write_xdmf(record, nowhere), HOOKE_IO_FAILED);
+  ASK(hooke_record_close(record));
+  OK(hooke_scene_write(scene_path, system, "title", run));
+  REFUSED(hooke_scene_write(nowhere, system, "title", run), HOOKE_IO_FAILED);
+  ASK(hooke_integrator_destroy(integrator));
+  ASK(hooke_state_destroy(state));
+}
+
+static void tour_scenes(void) {
+  hooke_scene *scene = NULL;
+  hooke_state *state = NULL;
+  REFUSED(hooke_scene_load(nowhere, &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_load("/", &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_parse("{\"hooke\": 1e999}", 16, "a", NULL, &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_parse("{\"hooke\": 1,}", 13, "a", NULL, &scene), HOOKE_BAD_VALUE);
+  OK(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", ".", &scene));
+  OK(hooke_scene_commit(scene));
+  hooke_system *system = hooke_scene_system(scene);
+  hooke_options *run = hooke_scene_run_options(scene), *options = NULL;
+  tour_files(system, run);
+
+  hooke_limit *limit = NULL;
+  OK(hooke_limit_create(system, run, NULL, &limit));
+  OK(hooke_state_create(system, &state));
+  OK(hooke_limit_find(limit, state));
+  REFUSED(hooke_limit_write_report(limit, state, nowhere, "scene"), HOOKE_IO_FAILED);
+  ASK(hooke_limit_destroy(limit));
+
+  hooke_cost *cost = NULL;
+  OK(hooke_cost_options_create(&options));
+  OK(hooke_options_set_number(options, "predict", 1));
+  OK(hooke_cost_create(system, run, options, &cost));
+  OK(hooke_cost_find(cost, state));
+  ASK(hooke_cost_destroy(cost));
+  ASK(hooke_options_destroy(options));
+
+  hooke_needs *needs = NULL;
+  OK(hooke_needs_options_create(&options));
+  OK(hooke_options_set_text(options, "want", "0.1"));
+  OK(hooke_needs_create(system, run, options, &needs));
+  OK(hooke_needs_find(needs));
+  ASK(hooke_needs_destroy(needs));
+  ASK(hooke_options_destroy(options));
+
+  hooke_study *study = NULL;
+  OK(hooke_study_options_create(&options));
+  OK(hooke_options_set_text(options, "methods", "verlet,cvode-adams"));
+  OK(hooke_study_create(system, run, options, &study));
+  ASK(hooke_study_on_progress(study, go_on, NULL));
+  OK(hooke_study_run(study));
+  OK(hooke_study_recommend(study, 1e-3));
+  OK(hooke_study_write_csv(study, table_path));
+  REFUSED(hooke_study_write_csv(study, nowhere), HOOKE_IO_FAILED);
+  OK(hooke_study_write_h5(study, trajectory_path, NULL, HOOKE_OK));
+  REFUSED(hooke_study_write_h5(study, nowhere, NULL, HOOKE_OK), HOOKE_IO_FAILED);
+#if HOOKE_HAVE_CHARTJS
+  OK(hooke_study_write_report(study, report_path, "scene", NULL));
+#endif
+  ASK(hooke_study_destroy(study));
+  ASK(hooke_options_destroy(options));
+
+  hooke_comparison *comparison = NULL;
+  hooke_comparison_file *file = NULL;
+  OK(hooke_comparison_create(system, run, &comparison));
+  OK(hooke_comparison_add(comparison, "verlet"));
+  OK(hooke_comparison_file_create(trajectory_path, system, comparison, NULL, &file));
+  OK(hooke_comparison_run(comparison));
+  OK(hooke_comparison_file_close(file));
+  ASK(hooke_comparison_destroy(comparison));
+  ASK(hooke_state_destroy(state));
+  ASK(hooke_scene_destroy(scene));
+  remove(trajectory_path);
+  remove(report_path);
+  remove(table_path);
+  remove(scene_path);
+}
+
+#else
+
+static void tour_scenes(void) {
+  hooke_scene *scene = NULL;
+  ASK(hooke_scene_load(nowhere, &scene));
+  ASK(hooke_scene_parse("{", 1, "a", NULL, &scene));
+  (void)go_on, (void)trajectory_path, (void)report_path, (void)table_path, (void)scene_path, (void)scene_text;
+}
+
+#endif
+
+static void tour(void) {
+  complaints = 0;
+  tour_building();
+  tour_methods();
+  tour_divergence();
+  tour_scenes();
+  assert_int_equal(complaints, 0);
+}
+
+/* ---- in the surroundings that are usual, and in odd ones ---- */
+
+static void test_as_usual(void **unused) {
+  (void)unused;
+  tour();
+}
+
+static void on_signal(int number) {
+  (void)number;
+}
+
+/* Everything that can be set is set to what it is not by default. Results are not looked at here: in another rounding mode
+ * they are the caller's. */
+static void test_in_odd_surroundings(void **unused) {
+  (void)unused;
+  sigset_t mask, kept;
+  sigemptyset(&mask);
+  sigaddset(&mask, SIGUSR1);
+  sigaddset(&mask, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &mask, &kept);
+  struct sigaction action = {.sa_handler = on_signal}, pipe_before, interrupt_before;
+  sigaction(SIGPIPE, &action, &pipe_before);
+  sigaction(SIGINT, &action, &interrupt_before);
+  const mode_t modes = umask(077);
+  fesetround(FE_UPWARD);
+#if defined(__x86_64__)
+  const unsigned control = _mm_getcsr();
+  _mm_setcsr(control | 0x8040U); /* denormals are zero, coming and going */
+#endif
+  tour();
+#if defined(__x86_64__)
+  _mm_setcsr(control);
+#endif
+  fesetround(FE_TONEAREST);
+  umask(modes);
+  sigaction(SIGINT, &interrupt_before, NULL);
+  sigaction(SIGPIPE, &pipe_before, NULL);
+  pthread_sigmask(SIG_SETMASK, &kept, NULL);
+}
+
+/* The first tour may have made libraries open what they keep; a second one adds nothing. */
+static void test_nothing_stays_open(void **unused) {
+  (void)unused;
+  count_all(&start);
+  if (start.files < 0) skip();
+  tour();
+  struct manners end;
+  count_all(&end);
+  assert_int_equal(end.files, start.files);
+  assert_int_equal(end.threads, start.threads);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_as_usual),
+      cmocka_unit_test(test_nothing_stays_open),
+      cmocka_unit_test(test_in_odd_surroundings),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,262 @@
+/* Options all have one type, whatever they are options of: a function that is given those of something else says so, in
+ * every build, and does not look for what they do not have. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- every table of options that there is ---- */
+
+static int32_t make_rope(hooke_options **o) {
+  return hooke_part_options_create("rope", o);
+}
+static int32_t make_cloth(hooke_options **o) {
+  return hooke_part_options_create("cloth", o);
+}
+static int32_t make_lattice(hooke_options **o) {
+  return hooke_part_options_create("lattice", o);
+}
+static int32_t make_mesh(hooke_options **o) {
+  return hooke_part_options_create("mesh", o);
+}
+static int32_t make_strand(hooke_options **o) {
+  return hooke_part_options_create("strand", o);
+}
+static int32_t make_scene(hooke_options **o) {
+  return hooke_scene_options_create("scene", o);
+}
+static int32_t make_particles(hooke_options **o) {
+  return hooke_scene_options_create("particles", o);
+}
+static int32_t make_driven(hooke_options **o) {
+  return hooke_scene_options_create("driven", o);
+}
+
+static const struct {
+  const char *name;
+  int32_t (*make)(hooke_options **options);
+} tables[] = {{"run", hooke_run_options_create},
+              {"springs", hooke_spring_options_create},
+              {"altitude", hooke_altitude_options_create},
+              {"rope", make_rope},
+              {"cloth", make_cloth},
+              {"lattice", make_lattice},
+              {"mesh", make_mesh},
+              {"strand", make_strand},
+              {"scene", make_scene},
+              {"particles", make_particles},
+              {"driven", make_driven},
+              {"limit", hooke_limit_options_create},
+              {"cost", hooke_cost_options_create},
+              {"needs", hooke_needs_options_create},
+              {"study", hooke_study_options_create},
+              {"view", hooke_view_options_create}};
+enum { TABLES = sizeof tables / sizeof tables[0] };
+
+/* ---- every function that takes some ---- */
+
+static const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const int64_t four[] = {0, 1, 2, 3};
+
+static hooke_system *open_system(void) {
+  return small_system(4, place, NULL, 1.0, 0);
+}
+
+static int32_t add_springs(hooke_options *o) {
+  hooke_system *system = open_system();
+  const int32_t status = hooke_system_add_springs(system, NULL, 2, four, o);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static int32_t add_altitude(hooke_options *o) {
+  hooke_system *system = open_system();
+  const int32_t status = hooke_system_add_altitude(system, NULL, 1, four, o);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static int32_t add_part(const char *kind, hooke_options *o) {
+  hooke_system *system = open_system();
+  const int32_t status = hooke_system_add_part(system, kind, NULL, o, NULL, NULL);
+  hooke_system_destroy(system);
+  return status;
+}
+static int32_t add_rope(hooke_options *o) {
+  return add_part("rope", o);
+}
+static int32_t add_cloth(hooke_options *o) {
+  return add_part("cloth", o);
+}
+static int32_t add_lattice(hooke_options *o) {
+  return add_part("lattice", o);
+}
+static int32_t add_mesh(hooke_options *o) {
+  return add_part("mesh", o);
+}
+static int32_t add_strand(hooke_options *o) {
+  return add_part("strand", o);
+}
+
+static int32_t set_mesh(hooke_options *o) {
+  return hooke_mesh_set(o, 3, place, 1, four);
+}
+
+static int32_t apply_scene(hooke_options *o) {
+  hooke_system *system = open_system();
+  const int32_t status = hooke_scene_options_apply(o, system);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static hooke_system *committed(void) {
+  return small_oscillator(10.0);
+}
+
+static int32_t grow(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)t, (void)ctx;
+  memcpy(rate, x, (size_t)n * sizeof *x);
+  return 0;
+}
+
+static int32_t create_first_order(hooke_options *o) {
+  hooke_integrator *made = NULL;
+  hooke_options_set_text(o, "method", "rk4");
+  const int32_t status = hooke_integrator_create_first_order(1, grow, NULL, o, &made);
+  hooke_integrator_destroy(made);
+  return status;
+}
+
+#define TAKES(name, type, create, destroy)                                                                   \
+  static int32_t name(hooke_options *o) {                                                                    \
+    hooke_system *system = committed();                                                                      \
+    type *made = NULL;                                                                                       \
+    const int32_t status = create;                                                                           \
+    if (status == HOOKE_OK) destroy(made);                                                                   \
+    hooke_system_destroy(system);                                                                            \
+    return status;                                                                                           \
+  }
+TAKES(create_integrator, hooke_integrator, hooke_integrator_create(system, o, &made),
+      hooke_integrator_destroy)
+TAKES(create_comparison, hooke_comparison, hooke_comparison_create(system, o, &made),
+      hooke_comparison_destroy)
+TAKES(create_limit_of_run, hooke_limit, hooke_limit_create(system, o, NULL, &made), hooke_limit_destroy)
+TAKES(create_limit, hooke_limit, hooke_limit_create(system, NULL, o, &made), hooke_limit_destroy)
+TAKES(create_cost_of_run, hooke_cost, hooke_cost_create(system, o, NULL, &made), hooke_cost_destroy)
+TAKES(create_cost, hooke_cost, hooke_cost_create(system, NULL, o, &made), hooke_cost_destroy)
+TAKES(create_study_of_run, hooke_study, hooke_study_create(system, o, NULL, &made), hooke_study_destroy)
+TAKES(write_scene, hooke_scene, hooke_scene_of_system(system, NULL, o, "a", NULL, &made), hooke_scene_destroy)
+
+static int32_t with_run(hooke_options *o,
+                        int32_t (*create)(hooke_system *, hooke_options *, hooke_options *)) {
+  hooke_system *system = committed();
+  hooke_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 0.1});
+  const int32_t status = create(system, run, o);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static int32_t study_with(hooke_system *system, hooke_options *run, hooke_options *o) {
+  hooke_study *made = NULL;
+  const int32_t status = hooke_study_create(system, run, o, &made);
+  if (status == HOOKE_OK) hooke_study_destroy(made);
+  return status;
+}
+static int32_t create_study(hooke_options *o) {
+  return with_run(o, study_with);
+}
+
+static int32_t needs_with(hooke_system *system, hooke_options *run, hooke_options *o) {
+  hooke_needs *made = NULL;
+  if (hooke_options_row_count(o) == 2) hooke_options_set_text(o, "want", "0.1");
+  const int32_t status = hooke_needs_create(system, run, o, &made);
+  if (status == HOOKE_OK) hooke_needs_destroy(made);
+  return status;
+}
+static int32_t create_needs(hooke_options *o) {
+  return with_run(o, needs_with);
+}
+
+static int32_t create_needs_of_run(hooke_options *o) {
+  hooke_system *system = committed();
+  hooke_options *options;
+  hooke_needs *made = NULL;
+  check_ok(hooke_needs_options_create(&options));
+  check_ok(hooke_options_set_text(options, "want", "0.1"));
+  hooke_options_set_number(o, "duration", 0.1);
+  const int32_t status = hooke_needs_create(system, o, options, &made);
+  if (status == HOOKE_OK) hooke_needs_destroy(made);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static int32_t pick(hooke_options *o) {
+  hooke_system *system = committed();
+  hooke_options_set_number(o, "duration", 0.1);
+  const int32_t status = hooke_study_pick(system, o, 0.1, NULL, NULL);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static const struct {
+  const char *name,
+      *table; /* the one that it takes; NULL: some of the option are required, which nobody sets here */
+  int32_t (*take)(hooke_options *options);
+} functions[] = {{"add_springs", NULL, add_springs},
+                 {"add_altitude", NULL, add_altitude},
+                 {"add_part rope", NULL, add_rope},
+                 {"add_part cloth", NULL, add_cloth},
+                 {"add_part lattice", NULL, add_lattice},
+                 {"add_part mesh", NULL, add_mesh},
+                 {"add_part strand", NULL, add_strand},
+                 {"mesh_set", "mesh", set_mesh},
+                 {"scene_options_apply", "scene", apply_scene},
+                 {"integrator_create", "run", create_integrator},
+                 {"integrator_create_first_order", "run", create_first_order},
+                 {"comparison_create", "run", create_comparison},
+                 {"limit_create run", "run", create_limit_of_run},
+                 {"limit_create", "limit", create_limit},
+                 {"cost_create run", "run", create_cost_of_run},
+                 {"cost_create", "cost", create_cost},
+                 {"study_create run", NULL, create_study_of_run},
+                 {"study_create", "study", create_study},
+                 {"needs_create run", "run", create_needs_of_run},
+                 {"needs_create", "needs", create_needs},
+                 {"study_pick", "run", pick},
+                 {"scene_of_system", "run", write_scene}};
+
+static void test_other_options_are_refused(void **unused) {
+  (void)unused;
+  int64_t taken = 0, bad = 0;
+  for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
+    for (int t = 0; t < TABLES; t++) {
+      hooke_options *options = NULL;
+      if (tables[t].make(&options) == HOOKE_NOT_BUILT) continue;
+      hooke_options_set_number(options, "step", 0.01); /* of a run; others have none */
+      const int32_t status = functions[f].take(options);
+      const int right = functions[f].table && strcmp(functions[f].table, tables[t].name) == 0;
+      if (!right && status >= 0) {
+        print_error("%s takes the options of %s\n", functions[f].name, tables[t].name);
+        bad++;
+      }
+      if (right && status != HOOKE_OK && status != HOOKE_NOT_BUILT) {
+        print_error("%s refuses the options of %s: %s\n", functions[f].name, tables[t].name,
+                    hooke_last_error());
+        bad++;
+      }
+      taken += right && status == HOOKE_OK;
+      hooke_options_destroy(options);
+    }
+  }
+  assert_int_equal(bad, 0);
+  assert_true(taken >= 4);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_other_options_are_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
