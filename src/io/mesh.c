@@ -53,12 +53,10 @@ int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *op
   status = hooke_scene_read_file(path, NULL, &text, &length);
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   hooke_free(text);
-  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) {
-    if (status != HOOKE_OK) return status;
-    return hooke_options_unset(options, "file");
-  }
+  if (status == HOOKE_OK) return hooke_options_unset(options, "file");
   hooke_options_unset(options, "vertices");
   hooke_options_unset(options, "triangles");
+  if (status == HOOKE_NO_MEMORY) return status;
   hooke_option_show(name, (int64_t)strlen(name), shown);
   return line > 0 ? hooke_fail_before(status, "%s:%lld: ", shown, (long long)line)
                   : hooke_fail_before(status, "%s: ", shown);

@@ -13,7 +13,8 @@
 #include <unistd.h>
 
 int32_t hooke_place_fail(const char *path, const char *what, int error) {
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what, strerror(error));
+  return hooke_fail(error == ENOMEM ? HOOKE_NO_MEMORY : HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path,
+                    what, strerror(error));
 }
 
 static int32_t find(const char *path, char **place) {
