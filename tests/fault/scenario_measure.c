@@ -26,11 +26,17 @@ end:
   return NULL;
 }
 
+/* From the start, which a failed attempt may have left. */
+static int32_t go_along(hooke_limit *limit, const hooke_state *start, hooke_state *state) {
+  const int32_t status = hooke_state_copy(start, state);
+  return status != HOOKE_OK ? status : hooke_limit_along(limit, state);
+}
+
 static void limit(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 5);
   hooke_options *options = NULL, *run = system ? make_run(a, NULL, 1e-4, 2e-4, 0.0) : NULL;
   hooke_limit *limit = NULL;
-  hooke_state *state = NULL;
+  hooke_state *state = NULL, *other = NULL;
   if (run == NULL) goto end;
   TRY(a, hooke_limit_options_create(&options));
   TRY(a, hooke_options_set_number(options, "predict", with == NULL));
@@ -38,6 +44,7 @@ static void limit(struct attempt *a, const void *with) {
   TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
   TRY(a, hooke_limit_create(system, run, options, &limit));
   TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_state_create(system, &other));
   TRY(a, hooke_limit_find(limit, state));
   for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
     attempt_number(a, hooke_limit_number(limit, k, "predicted"));
@@ -49,9 +56,10 @@ static void limit(struct attempt *a, const void *with) {
   attempt_text(a, hooke_limit_remedy_text(limit, "sentence"));
   attempt_number(a, hooke_limit_remedy_number(limit, "gain"));
   attempt_number(a, hooke_limit_mode_number(limit, 0, "frequency"));
-  if (with == NULL) TRY(a, hooke_limit_along(limit, state));
+  if (with == NULL) TRY(a, go_along(limit, state, other));
   attempt_number(a, hooke_limit_number(limit, 0, "smallest"));
 end:
+  hooke_state_destroy(other);
   hooke_state_destroy(state);
   hooke_limit_destroy(limit);
   hooke_options_destroy(options);
@@ -94,12 +102,12 @@ end:
 
 static void needs(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 4);
-  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.02, 0.01) : NULL, *options = NULL;
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL, *options = NULL;
   hooke_needs *needs = NULL;
   (void)with;
   if (run == NULL) goto end;
   TRY(a, hooke_needs_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "want", 1e-3));
+  TRY(a, hooke_options_set_number(options, "want", 1e-2));
   TRY(a, hooke_needs_create(system, run, options, &needs));
   TRY(a, hooke_needs_find(needs));
   TRY(a, hooke_needs_refine(needs));
