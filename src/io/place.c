@@ -1,5 +1,7 @@
 #include "io/place.h"
 
+#include "io/bytes.h"
+
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -110,11 +112,10 @@ int32_t hooke_place_take(const char *place, char **temporary) {
 
 static int32_t write_bytes(const char *path, const char *temporary, const char *bytes, int64_t length) {
   unlink(temporary);
-  FILE *file = fopen(temporary, "wx");
-  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
-  int error = 0;
-  if (fwrite(bytes, 1, (size_t)length, file) != (size_t)length || fflush(file) != 0) error = errno;
-  if (fclose(file) != 0 && error == 0) error = errno;
+  const int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
+  int error = hooke_bytes_write(descriptor, 0, length, bytes);
+  if (close(descriptor) != 0 && error == 0) error = errno;
   return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
 }
 

@@ -18,7 +18,8 @@ struct attempt {
   int64_t refused; /* calls that failed for a fault */
   int64_t seen;    /* failures planned that were met by a call so far */
   int32_t gave_up;
-  char wrong[640]; /* what must not be; "" if nothing */
+  int64_t committed; /* frames that were reported as written */
+  char wrong[640];   /* what must not be; "" if nothing */
 };
 
 /* Makes a call of the library; leaves through `end:` if the scenario is over. */
@@ -29,6 +30,15 @@ struct attempt {
     if (attempt_failed((a), (call), (expected), #call) &&                                                    \
         ((a)->gave_up || attempt_failed((a), (call), (expected), #call)))                                    \
       goto end;                                                                                              \
+  } while (0)
+
+/* The same of what cannot be done again: a failure ends the scenario. */
+#define TRY_ONCE(a, call)                                                                                    \
+  do {                                                                                                       \
+    if (attempt_failed((a), (call), 0, #call)) {                                                             \
+      (a)->gave_up = 1;                                                                                      \
+      goto end;                                                                                              \
+    }                                                                                                        \
   } while (0)
 
 /* 1 if the call did not come to what was expected; the first time for a fault it may be made again. */

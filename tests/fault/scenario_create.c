@@ -213,7 +213,7 @@ end:
 }
 
 const struct scenario creating[] = {
-    {"create, by hand", by_hand, NULL, 1, NULL},
-    {"create, by parts", by_parts, NULL, 1, NULL},
-    {NULL, NULL, NULL, 0, NULL},
+    {"create, by hand", by_hand, NULL, 1, NULL, NULL},
+    {"create, by parts", by_parts, NULL, 1, NULL, NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
 };

@@ -184,13 +184,13 @@ end:
 }
 
 const struct scenario loading[] = {
-    {"load, parts", load, "parts.json", 1, "jansson"},
-    {"load, springs and drives", load, "springs.json", 1, "jansson"},
-    {"load, mesh of a file", load, "mesh.json", 1, "jansson"},
-    {"load, arrays of a file", load, "arrays.json", 1, "jansson hdf5"},
-    {"load, scene of a trajectory", load, "arrays.h5", 1, "jansson hdf5"},
-    {"parse", parse, NULL, 1, "jansson"},
-    {"refuse a wrong scene", refuse, NULL, 1, "jansson"},
-    {"read a mesh", read_mesh, NULL, 1, NULL},
-    {NULL, NULL, NULL, 0, NULL},
+    {"load, parts", load, "parts.json", 1, "jansson", NULL},
+    {"load, springs and drives", load, "springs.json", 1, "jansson", NULL},
+    {"load, mesh of a file", load, "mesh.json", 1, "jansson", NULL},
+    {"load, arrays of a file", load, "arrays.json", 1, "jansson hdf5", NULL},
+    {"load, scene of a trajectory", load, "arrays.h5", 1, "jansson hdf5", NULL},
+    {"parse", parse, NULL, 1, "jansson", NULL},
+    {"refuse a wrong scene", refuse, NULL, 1, "jansson", NULL},
+    {"read a mesh", read_mesh, NULL, 1, NULL, NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
 };

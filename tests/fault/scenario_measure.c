@@ -207,13 +207,13 @@ end:
 }
 
 const struct scenario measuring[] = {
-    {"limit, predicted", limit, NULL, 1, "lapack"},
-    {"limit, measured", limit, "", 5, "lapack"},
-    {"why", why, NULL, 5, "lapack"},
-    {"needs", needs, NULL, 20, NULL},
-    {"study", study, NULL, 20, "sundials gsl"},
-    {"pick", pick, NULL, 50, "sundials gsl"},
-    {"compare", compare, NULL, 3, "sundials"},
-    {"cost", cost, NULL, 5, "lapack"},
-    {NULL, NULL, NULL, 0, NULL},
+    {"limit, predicted", limit, NULL, 1, "lapack", NULL},
+    {"limit, measured", limit, "", 5, "lapack", NULL},
+    {"why", why, NULL, 20, "lapack", NULL},
+    {"needs", needs, NULL, 300, NULL, NULL},
+    {"study", study, NULL, 100, "sundials gsl", NULL},
+    {"pick", pick, NULL, 2000, "sundials gsl", NULL},
+    {"compare", compare, NULL, 3, "sundials", NULL},
+    {"cost", cost, NULL, 5, "lapack", NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
 };

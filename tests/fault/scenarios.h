@@ -12,6 +12,7 @@ struct scenario {
   const void *with;
   int32_t share;     /* of its points one in so many is tried, unless HOOKE_LONG is set */
   const char *needs; /* of hooke_build_fact(), words between blanks; NULL: nothing */
+  const char *file;  /* what it writes in its folder; NULL: nothing */
 };
 
 extern const struct scenario creating[], loading[], running[], measuring[], writing[];

@@ -30,6 +30,7 @@ FAILS(creating)
 FAILS(loading)
 FAILS(running)
 FAILS(measuring)
+FAILS(writing)
 
 static int set_up(void **unused) {
   (void)unused;
@@ -43,10 +44,8 @@ static int tear_down(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(creating_fails),
-      cmocka_unit_test(loading_fails),
-      cmocka_unit_test(running_fails),
-      cmocka_unit_test(measuring_fails),
+      cmocka_unit_test(creating_fails),  cmocka_unit_test(loading_fails), cmocka_unit_test(running_fails),
+      cmocka_unit_test(measuring_fails), cmocka_unit_test(writing_fails),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
