@@ -223,7 +223,7 @@ HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, do
 
 /* df/dq and df/dv as sparse 3x3 blocks, callbacks left out, in compressed rows: row_start (n + 1), column
  * (count, ascending within a row, the diagonal always there), and blocks of 9 in row order, `count` being
- * hooke_system_block_count(). Either block array may be NULL. */
+ * hooke_system_block_count(), which is -1 before commit and without memory. Either block array may be NULL. */
 HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
 HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
                                                   int64_t *column);

@@ -17,6 +17,8 @@ static _Thread_local struct {
   char place[PLACE_SIZE];
   char message[MESSAGE_SIZE];
   char line[LINE_SIZE];
+  int64_t count;
+  int32_t status;
 } last;
 
 static void compose(void) {
@@ -34,6 +36,8 @@ int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
   snprintf(last.place, sizeof last.place, "%s", place ? place : "");
   memcpy(last.message, message, sizeof message);
   last.before[0] = '\0';
+  last.count++;
+  last.status = status;
   compose();
   return status;
 }
@@ -59,6 +63,14 @@ int32_t hooke_fail_before(int32_t status, const char *format, ...) {
   va_end(args);
   compose();
   return status;
+}
+
+int64_t hooke_fail_count(void) {
+  return last.count;
+}
+
+int32_t hooke_fail_status(void) {
+  return last.status;
 }
 
 const char *hooke_fail_place(void) {

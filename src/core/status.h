@@ -23,6 +23,10 @@ int32_t hooke_fail_before(int32_t status, const char *format, ...) __attribute__
 #define hooke_fail_before(status, ...) (hooke_fail_before(status, __VA_ARGS__), (status))
 #endif
 
+/* How many failures this thread has met, and the status of the last: for who has only learned that something failed. */
+int64_t hooke_fail_count(void);
+int32_t hooke_fail_status(void);
+
 /* Place of the last failure, "" if it had none, and its message without the place. */
 const char *hooke_fail_place(void);
 const char *hooke_fail_message(void);

@@ -63,13 +63,13 @@ static int32_t create(hooke_integrator *it) {
   if (status != HOOKE_OK) return status;
   struct hooke_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  if (flag == ARK_SUCCESS) return HOOKE_OK;
-  return hooke_fail(flag == ARK_MEM_FAIL ? HOOKE_NO_MEMORY : HOOKE_SOLVER_FAILED, NULL,
-                    "ARKODE could not be set up: %s", own->message);
+  return hooke_sundials_created(it, "ARKODE", flag == ARK_SUCCESS, flag == ARK_MEM_FAIL);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  struct hooke_sundials *own = it->own;
+  const int32_t status = hooke_sundials_renew(it);
+  if (status != HOOKE_OK) return status;
+  const struct hooke_sundials *own = it->own;
   hooke_sundials_load(it, state);
   if (ARKStepReInit(own->memory, NULL, hooke_sundials_slope, *state->t, own->y) == ARK_SUCCESS)
     return HOOKE_OK;

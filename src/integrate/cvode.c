@@ -65,9 +65,7 @@ static int32_t create(hooke_integrator *it) {
   if (status != HOOKE_OK) return status;
   struct hooke_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  if (flag == CV_SUCCESS) return HOOKE_OK;
-  return hooke_fail(flag == CV_MEM_FAIL ? HOOKE_NO_MEMORY : HOOKE_SOLVER_FAILED, NULL,
-                    "CVODE could not be set up: %s", own->message);
+  return hooke_sundials_created(it, "CVODE", flag == CV_SUCCESS, flag == CV_MEM_FAIL);
 }
 
 static int32_t start(hooke_integrator *it, double t) {
@@ -80,7 +78,9 @@ static int32_t start(hooke_integrator *it, double t) {
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  struct hooke_sundials *own = it->own;
+  const int32_t status = hooke_sundials_renew(it);
+  if (status != HOOKE_OK) return status;
+  const struct hooke_sundials *own = it->own;
   hooke_sundials_load(it, state);
   if (own->choice) hooke_order_choice_begin(own->choice, *state->t);
   return start(it, *state->t);

@@ -26,10 +26,31 @@ int32_t hooke_sundials_create(hooke_integrator *it, int32_t implicit, int64_t ve
   if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
   own->y = hooke_sundials_vector(size, it->crew, own->context);
   own->tolerance = hooke_sundials_vector(size, it->crew, own->context);
-  if (own->y == NULL || own->tolerance == NULL) return no_memory(it, size);
+  if (own->y == NULL || own->tolerance == NULL || !hooke_sundials_spare_create(own->y, &own->spare))
+    return no_memory(it, size);
   N_VConst(0.0, own->y);
   hooke_unknowns_tolerance(it, &own->unknowns, N_VGetArrayPointer(own->tolerance));
   return implicit ? hooke_sundials_linear_create(it) : HOOKE_OK;
+}
+
+int32_t hooke_sundials_created(const hooke_integrator *it, const char *solver, int32_t created,
+                               int32_t no_room) {
+  const struct hooke_sundials *own = it->own;
+  if (own->spare.taken || no_room) return no_memory(it, own->unknowns.size);
+  if (created) return HOOKE_OK;
+  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", solver, own->message);
+}
+
+int32_t hooke_sundials_renew(hooke_integrator *it) {
+  if (it->own) {
+    const struct hooke_sundials *own = it->own;
+    if (!own->spare.taken) return HOOKE_OK;
+    it->method->destroy(it);
+  }
+  it->own_memory = 0;
+  const int32_t status = it->method->create(it);
+  if (status != HOOKE_OK && it->own) it->method->destroy(it);
+  return status;
 }
 
 void hooke_sundials_release(hooke_integrator *it) {
@@ -38,6 +59,7 @@ void hooke_sundials_release(hooke_integrator *it) {
   if (own->nonlinear) SUNNonlinSolFree(own->nonlinear);
   if (own->y) N_VDestroy(own->y);
   if (own->tolerance) N_VDestroy(own->tolerance);
+  hooke_sundials_spare_release(&own->spare);
   if (own->context) SUNContext_Free(&own->context);
   hooke_unknowns_release(&own->unknowns);
   hooke_free(own);
@@ -96,6 +118,7 @@ static int complaint_length(const char *message) {
 int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
   const struct hooke_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
+  if (own->spare.taken) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
                       "%s gave up at t = %.17g s: %.*s; try other tolerances, or a fixed-step method", solver,

@@ -2,9 +2,9 @@
 #ifndef HOOKE_INTEGRATE_SUNDIALS_PROBLEM_H
 #define HOOKE_INTEGRATE_SUNDIALS_PROBLEM_H
 
+#include "integrate/sundials_vector.h"
 #include "integrate/unknowns.h"
 
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_nonlinearsolver.h>
@@ -21,6 +21,7 @@ struct hooke_sundials {
   /* where a Newton iteration is: time, gamma and unknowns; a flag */
   int (*where)(void *memory, realtype *t, realtype *gamma, N_Vector *y);
   N_Vector y, tolerance;
+  struct hooke_sundials_spare spare;
   SUNLinearSolver linear;
   SUNNonlinearSolver nonlinear;
   struct hooke_order_choice *choice; /* of cvode-bdf where it chooses its highest order, else NULL */
@@ -31,6 +32,11 @@ struct hooke_sundials {
 /* Makes integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and room for products of
  * the derivative; `vectors`: how many the solver keeps besides, for the count of memory. HOOKE_NO_MEMORY. */
 int32_t hooke_sundials_create(hooke_integrator *integrator, int32_t implicit, int64_t vectors);
+/* The status of what a solver was made with: `created`, or `no_room` as it said itself. HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED. */
+int32_t hooke_sundials_created(const hooke_integrator *integrator, const char *solver, int32_t created,
+                               int32_t no_room);
+/* Before a run: made anew, if the run before came to be without memory inside the solver. HOOKE_NO_MEMORY. */
+int32_t hooke_sundials_renew(hooke_integrator *integrator);
 /* All but `memory`, which goes first. */
 void hooke_sundials_release(hooke_integrator *integrator);
 

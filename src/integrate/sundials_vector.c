@@ -17,6 +17,8 @@ struct content {
   struct _N_VectorContent_Serial serial;
   void *plain; /* what it is a copy of */
   struct hooke_crew *crew;
+  struct hooke_sundials_spare *spare; /* for clones; NULL: none */
+  int32_t is_spare;
 };
 
 static double *numbers(N_Vector v) {
@@ -226,6 +228,7 @@ static int scale_each(int count, realtype *c, N_Vector *x, N_Vector *z) {
 
 static void destroy(N_Vector v) {
   struct content *content = v->content;
+  if (content->is_spare) return; /* others may still have it */
   v->content = content->plain;
   hooke_free(content);
   N_VDestroy_Serial(v);
@@ -245,8 +248,31 @@ static N_Vector wrap(N_Vector v, struct hooke_crew *crew) {
   return content ? v : NULL;
 }
 
+/* N_VClone() writes to what it gets without a look. */
 static N_Vector clone(N_Vector v) {
-  return wrap(N_VClone_Serial(v), ((struct content *)v->content)->crew);
+  const struct content *content = v->content;
+  struct hooke_sundials_spare *spare = content->spare;
+  N_Vector copy = wrap(N_VClone_Serial(v), content->crew);
+  if (copy) ((struct content *)copy->content)->spare = spare;
+  if (copy || spare == NULL) return copy;
+  spare->taken = 1;
+  return spare->vector;
+}
+
+int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spare) {
+  struct content *content = v->content;
+  spare->vector = clone(v);
+  if (spare->vector == NULL) return 0;
+  ((struct content *)spare->vector->content)->is_spare = 1;
+  content->spare = ((struct content *)spare->vector->content)->spare = spare;
+  return 1;
+}
+
+void hooke_sundials_spare_release(struct hooke_sundials_spare *spare) {
+  if (spare->vector == NULL) return;
+  ((struct content *)spare->vector->content)->is_spare = 0;
+  destroy(spare->vector);
+  spare->vector = NULL;
 }
 
 N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context) {

@@ -32,6 +32,7 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
     length = strcspn(text, "'");
   }
   snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
+  guard->no_memory = entry->maj_num == H5E_RESOURCE;
   return 0;
 }
 
@@ -46,7 +47,7 @@ static herr_t on_error(hid_t stack, void *ctx) {
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
 
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
-  *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno};
+  *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno, .failures = hooke_fail_count()};
   pthread_mutex_lock(&alone);
   H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
   if (guard->second_version) {
@@ -73,6 +74,9 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
 }
 
 int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
+  const int ours = hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY;
+  if (guard->no_memory || (guard->reason[0] == '\0' && ours))
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
   return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
                     guard->reason);
 }

@@ -11,6 +11,8 @@
  * at a time: between begin and end no other thread of hooke is in it. Guards are not nested. */
 struct hooke_h5_guard {
   char reason[256];
+  int32_t no_memory; /* is the reason */
+  int64_t failures;  /* of ours, before */
   unsigned second_version;
   void (*handler)(void);
   void *data;
@@ -19,7 +21,7 @@ struct hooke_h5_guard {
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard);
 void hooke_h5_guard_end(const struct hooke_h5_guard *guard);
 
-/* Fails with "path: could not <what>: reason". */
+/* Fails with "path: could not <what>: reason": HOOKE_IO_FAILED, or HOOKE_NO_MEMORY where that is the reason, HDF5's or ours. */
 int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what);
 
 struct hooke_h5_file {

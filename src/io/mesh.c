@@ -49,10 +49,10 @@ static int32_t read_text(const char *text, int64_t length, hooke_options *option
 /* Options that could not be made a mesh have none, and the message says which file is to blame. */
 static int32_t finish(int32_t status, int64_t line, const char *name, hooke_options *options) {
   if (status == HOOKE_OK) return hooke_options_unset(options, "file");
-  if (status == HOOKE_NO_MEMORY) return status;
   char shown[HOOKE_OPTION_SHOWN];
   hooke_options_unset(options, "vertices");
   hooke_options_unset(options, "triangles");
+  if (status == HOOKE_NO_MEMORY) return status;
   hooke_option_show(name, (int64_t)strlen(name), shown);
   return line > 0 ? hooke_fail_before(status, "%s:%lld: ", shown, (long long)line)
                   : hooke_fail_before(status, "%s: ", shown);

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "io/bytes.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,8 +17,8 @@
 
 int32_t hooke_place_fail(const char *path, const char *what, int error) {
   char reason[HOOKE_ERROR_SIZE];
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path, what,
-                    hooke_print_error(error, reason));
+  return hooke_fail(error == ENOMEM ? HOOKE_NO_MEMORY : HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path,
+                    what, hooke_print_error(error, reason));
 }
 
 static int32_t find(const char *path, char **place) {
@@ -140,11 +141,10 @@ int32_t hooke_place_take_and_keep(const char *place, const char *previous, char 
 
 static int32_t write_bytes(const char *path, const char *temporary, const char *bytes, int64_t length) {
   unlink(temporary);
-  FILE *file = fopen(temporary, "wx");
-  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
-  int error = 0;
-  if (fwrite(bytes, 1, (size_t)length, file) != (size_t)length || fflush(file) != 0) error = errno;
-  if (fclose(file) != 0 && error == 0) error = errno;
+  const int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
+  int error = hooke_bytes_write(descriptor, 0, length, bytes);
+  if (close(descriptor) != 0 && error == 0) error = errno;
   return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
 }
 

@@ -5,7 +5,7 @@
 
 #include "hooke/base.h"
 
-/* Fails with HOOKE_IO_FAILED, "path: could not <what>: reason"; `error` is an errno. */
+/* Fails with "path: could not <what>: reason"; `error` is an errno. HOOKE_IO_FAILED, HOOKE_NO_MEMORY for ENOMEM. */
 int32_t hooke_place_fail(const char *path, const char *what, int error);
 
 /* `place`: `path` with links followed, so that a link stays one when its target is replaced, and from the root, so that

@@ -31,22 +31,28 @@ static int is_here(hid_t file, const char *name) {
          link.type == H5L_TYPE_HARD;
 }
 
-/* A text of fixed length, stored in this very file; NULL if there is none. */
-static char *read_text(hid_t file, const char *name) {
-  if (!is_here(file, "hooke") || !is_here(file, name)) return NULL;
+/* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
+static int32_t read_text(hid_t file, const char *name, char **out) {
+  int32_t status = HOOKE_OK;
+  *out = NULL;
+  if (!is_here(file, "hooke") || !is_here(file, name)) return status;
   hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
   hid_t type = data < 0 ? -1 : H5Dget_type(data);
   const int fixed = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
   const hsize_t length = fixed ? H5Tget_size(type) : 0, stored = fixed ? H5Dget_storage_size(data) : 0;
   char *text = NULL;
-  if (fixed && length == stored && length < LONGEST_TEXT) text = hooke_new((int64_t)length + 1, 1);
+  if (fixed && length == stored && length < LONGEST_TEXT) {
+    text = hooke_new((int64_t)length + 1, 1);
+    if (text == NULL) status = HOOKE_NO_MEMORY;
+  }
   if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
     hooke_free(text);
     text = NULL;
   }
   hooke_h5_drop(type);
   hooke_h5_drop(data);
-  return text;
+  *out = text;
+  return status;
 }
 
 /* Of variable length; NULL if it cannot be read, else for H5free_memory(). */
@@ -140,11 +146,12 @@ static int32_t read_hooke(struct hooke_record *record) {
     file = H5Fopen(record->path, H5F_ACC_RDONLY, list);
   if (file < 0) status = hooke_h5_fail(&guard, record->path, "open the file as HDF5");
   if (status == HOOKE_OK) {
-    record->scene = read_text(file, "hooke/scene");
-    record->status = read_text(file, "hooke/status");
+    status = read_text(file, "hooke/scene", &record->scene);
+    if (status == HOOKE_OK) status = read_text(file, "hooke/status", &record->status);
     record->run = read_attribute(file, "run");
+    if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
-    status = record->run ? read_options(file, record->options) : HOOKE_NO_MEMORY;
+    if (status == HOOKE_OK) status = read_options(file, record->options);
     hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);

@@ -18,6 +18,7 @@ static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
 static int32_t refuse_open(int number, const struct hooke_json_guard *guard) {
+  if (number == ENOMEM) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
   const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
   if (number == EINVAL)
     return hooke_fail(HOOKE_BAD_VALUE, NULL,
@@ -131,7 +132,9 @@ int32_t hooke_scene_find_file(const char *folder, const char *file, char **path)
   char *real_folder = realpath(folder, NULL);
   char *real_file = real_folder ? realpath(joined, NULL) : NULL;
   int32_t status = HOOKE_OK;
-  if (real_file == NULL)
+  if (real_file == NULL && errno == ENOMEM)
+    status = hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
+  else if (real_file == NULL)
     status = hooke_fail(HOOKE_BAD_VALUE, NULL,
                         "\"%s\" cannot be opened: %s; allowed: a file in the scene's folder", shown,
                         hooke_print_error(errno, reason));

@@ -7,6 +7,7 @@
 
 #if HOOKE_HAVE_JANSSON
 
+#include <errno.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -40,9 +41,13 @@ static int ran_out_of_memory(const json_error_t *error) {
          strstr(error->text, "string or '}' expected near '\"") || strstr(error->text, "invalid token");
 }
 
+static int32_t no_memory(void) {
+  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
+}
+
 static int32_t syntax_error(const json_error_t *error, struct hooke_scene_trouble *trouble) {
   enum json_error_code code = json_error_code(error);
-  if (ran_out_of_memory(error)) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
+  if (ran_out_of_memory(error)) return no_memory();
   char text[JSON_ERROR_TEXT_LENGTH];
   int null_character = code == json_error_null_character || code == json_error_null_byte_in_key;
   snprintf(text, sizeof text, "%s", null_character ? "the character \\u0000 in a text" : error->text);
@@ -51,6 +56,43 @@ static int32_t syntax_error(const json_error_t *error, struct hooke_scene_troubl
   trouble->line = error->line > 0 ? error->line : 1;
   trouble->column = error->column;
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+}
+
+struct source {
+  const char *next;
+  int64_t left;
+  int32_t starved; /* something could not be allocated */
+};
+
+/* jansson leaves out what it has no memory for, of a word or of a number, and goes on. All that tells of it is `errno`,
+ * and only until the next number; so it is given a byte at a time. */
+static size_t give_byte(void *buffer, size_t size, void *ctx) {
+  struct source *source = ctx;
+  source->starved |= errno == ENOMEM;
+  if (size == 0 || source->left == 0) return 0;
+  *(char *)buffer = *source->next++;
+  source->left--;
+  return 1;
+}
+
+/* NULL, with the failure in `status`, if it cannot be had. */
+static json_t *load(const hooke_scene *scene, struct hooke_scene_trouble *trouble, int32_t *status) {
+  struct source source = {.next = scene->text, .left = scene->length};
+  const int kept = errno;
+  json_error_t error;
+  errno = 0;
+  json_t *root = json_load_callback(give_byte, &source, JSON_REJECT_DUPLICATES, &error);
+  source.starved |= errno == ENOMEM;
+  errno = kept;
+  *status = HOOKE_OK;
+  if (source.starved) {
+    json_decref(root);
+    root = NULL;
+    *status = no_memory();
+  } else if (root == NULL) {
+    *status = syntax_error(&error, trouble);
+  }
+  return root;
 }
 
 /* ---- the parts of a scene ---- */
@@ -119,11 +161,11 @@ static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root)
 
 int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
   HOOKE_KEEP_ERRNO;
-  json_error_t error;
-  json_t *root = json_loadb(scene->text, (size_t)scene->length, JSON_REJECT_DUPLICATES, &error);
-  if (root == NULL) return syntax_error(&error, trouble);
+  int32_t status;
+  json_t *root = load(scene, trouble, &status);
+  if (root == NULL) return status;
   struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
-  int32_t status = hooke_system_create(&scene->system);
+  status = hooke_system_create(&scene->system);
   if (status == HOOKE_OK) status = hooke_system_limit_memory(scene->system, scene->memory_limit);
   if (status == HOOKE_OK) status = read_scene(&reader, root);
   hooke_part_names_release(&reader.parts);

@@ -31,7 +31,7 @@ static FILE *open_share(const char *name) {
   for (int k = 0; k < NEAR_COUNT; k++) {
     snprintf(path, sizeof path, "%s/%s/%s", folder, near_library[k], name);
     FILE *file = fopen(path, "rb");
-    if (file) return file;
+    if (file || errno == ENOMEM) return file;
   }
   snprintf(path, sizeof path, "%s/%s", HOOKE_SHARE_INSTALLED, name);
   return fopen(path, "rb");
@@ -40,6 +40,8 @@ static FILE *open_share(const char *name) {
 int32_t hooke_share_read(const char *name, struct hooke_text *text) {
   HOOKE_KEEP_ERRNO;
   FILE *file = open_share(name);
+  if (file == NULL && errno == ENOMEM)
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to open share/hooke/%s", name);
   if (file == NULL) {
     return hooke_fail(
         HOOKE_NOT_BUILT, NULL,

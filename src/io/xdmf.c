@@ -12,10 +12,12 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct companion {
   const hooke_record *record;
@@ -171,10 +173,10 @@ static char *name_beside(const char *there) {
 static int32_t check_replaced(const char *path) {
   static const char head[] = "<?xml";
   char begin[sizeof head] = {0};
-  FILE *file = fopen(path, "rb");
-  if (file == NULL) return HOOKE_OK;
-  const size_t got = fread(begin, 1, sizeof head - 1, file);
-  fclose(file);
+  const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hooke_place_fail(path, "look what is there", errno);
+  const ssize_t got = read(descriptor, begin, sizeof head - 1);
+  close(descriptor);
   return got == 0 || strcmp(begin, head) == 0
              ? HOOKE_OK
              : hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is there already and is no XDMF; it is left as it is",

@@ -61,5 +61,10 @@ int32_t hooke_comparison_run(hooke_comparison *c) {
   if (status == HOOKE_OK) status = run_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)
     status = run_row(c, &c->row[k]);
+  /* as before, unless frames have been handed out */
+  if (status < 0 && c->on_frame == NULL) {
+    hooke_comparison_release_room(c);
+    c->runs_begun = 0;
+  }
   return status;
 }

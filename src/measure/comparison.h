@@ -28,5 +28,7 @@ struct hooke_comparison {
 
 /* Room for frames and rows, and the method that gives the reference; once, before the first run. */
 int32_t hooke_comparison_prepare(hooke_comparison *comparison);
+/* Undoes that. */
+void hooke_comparison_release_room(hooke_comparison *comparison);
 
 #endif

@@ -30,7 +30,7 @@ int32_t hooke_comparison_create(const hooke_system *system, const hooke_options 
   return status;
 }
 
-static void release_room(hooke_comparison *c) {
+void hooke_comparison_release_room(hooke_comparison *c) {
   for (int64_t k = 0; k < c->row_count; k++)
     hooke_trial_release(&c->row[k].trial);
   hooke_frames_release(&c->frames);
@@ -39,7 +39,7 @@ static void release_room(hooke_comparison *c) {
 
 void hooke_comparison_destroy(hooke_comparison *c) {
   if (c == NULL) return;
-  release_room(c);
+  hooke_comparison_release_room(c);
   for (int64_t k = 0; k < c->row_count; k++)
     hooke_free(c->row[k].method);
   hooke_options_destroy(c->options);
@@ -124,7 +124,7 @@ int32_t hooke_comparison_prepare(hooke_comparison *c) {
   if (status == HOOKE_OK)
     status = hooke_reference_method(c->system, hooke_state_position(state), &c->reference);
   hooke_state_destroy(state);
-  if (status != HOOKE_OK) release_room(c);
+  if (status != HOOKE_OK) hooke_comparison_release_room(c);
   return status;
 }
 

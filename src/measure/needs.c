@@ -161,6 +161,10 @@ int32_t hooke_needs_run_full(hooke_needs *needs) {
   needs->pieces_done++;
   const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
-    return refuse_full(needs);
+    status = refuse_full(needs);
+  if (status != HOOKE_OK) {
+    hooke_needs_path_release(&needs->path);
+    needs->judged = needs->frame_count;
+  }
   return status;
 }

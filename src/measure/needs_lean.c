@@ -149,6 +149,22 @@ int32_t hooke_needs_find_lean(hooke_needs *needs) {
   return status;
 }
 
+/* As it was before the table was begun. */
+static void forget(hooke_needs *needs) {
+  for (int64_t k = 0; k < needs->row_count; k++)
+    hooke_variant_release(&needs->row[k].variant);
+  needs->row_count = 0;
+  hooke_needs_path_release(&needs->lean_path);
+  hooke_variant_release(&needs->lean_variant);
+  hooke_variant_map_release(&needs->lean_map);
+  hooke_system_destroy(needs->lean);
+  hooke_options_destroy(needs->lean_run);
+  needs->lean = NULL;
+  needs->lean_run = NULL;
+  needs->lean_error = NAN;
+  memset(&needs->lean_cost, 0, sizeof needs->lean_cost);
+}
+
 int32_t hooke_needs_find(hooke_needs *needs) {
   if (needs->row_count > 0 || needs->lean) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
@@ -158,5 +174,6 @@ int32_t hooke_needs_find(hooke_needs *needs) {
   if (status == HOOKE_OK) status = hooke_needs_run_full(needs);
   if (status == HOOKE_OK) status = hooke_needs_run_rows(needs);
   if (status == HOOKE_OK) status = hooke_needs_find_lean(needs);
+  if (status < 0) forget(needs);
   return status;
 }

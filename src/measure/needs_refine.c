@@ -112,5 +112,10 @@ int32_t hooke_needs_refine(hooke_needs *needs) {
     else
       snprintf(part->note, sizeof part->note, "a %s has no resolution to change", system->part[k].kind);
   }
+  if (status < 0) {
+    hooke_free(needs->part);
+    needs->part = NULL;
+    needs->part_count = 0;
+  }
   return status;
 }

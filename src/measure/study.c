@@ -157,6 +157,17 @@ static int32_t make_reference(hooke_study *study) {
   return status;
 }
 
+/* As it was before it was run. */
+static void forget(hooke_study *study) {
+  for (int64_t k = 0; k < study->row_count; k++)
+    hooke_trial_release(&study->row[k].trial);
+  study->row_count = 0;
+  hooke_reference_release(&study->reference);
+  memset(&study->recommendation, 0, sizeof study->recommendation);
+  study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
+  study->late = study->budget_spent = 0;
+}
+
 int32_t hooke_study_run(hooke_study *study) {
   if (study->reference.frames.count > 0) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
@@ -172,5 +183,6 @@ int32_t hooke_study_run(hooke_study *study) {
   const double want = hooke_options_number(study->options, "want");
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hooke_study_find_cheapest(study, want);
+  if (status < 0) forget(study);
   return status;
 }

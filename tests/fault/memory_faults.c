@@ -1,0 +1,115 @@
+#include "memory_faults.h"
+
+#include "plan.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#if HOOKE_HAVE_JANSSON
+#include <jansson.h>
+#endif
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *block, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void __real_free(void *block);
+int __wrap_fsync(int descriptor);
+char *__real_realpath(const char *path, char *resolved);
+FILE *__real_fopen(const char *path, const char *mode);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*work)(void *),
+                          void *ctx);
+
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *block, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+void __wrap_free(void *block);
+char *__wrap_realpath(const char *path, char *resolved);
+FILE *__wrap_fopen(const char *path, const char *mode);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*work)(void *),
+                          void *ctx);
+
+static int32_t are_points = 1;
+static atomic_llong blocks;
+
+void memory_faults_are_points(int32_t are) {
+  are_points = are;
+}
+
+int64_t memory_blocks(void) {
+  return atomic_load(&blocks);
+}
+
+static int fails(void) {
+  if (!are_points || !fault_strikes()) return 0;
+  errno = ENOMEM;
+  return 1;
+}
+
+static void *counted(void *block) {
+  if (block) atomic_fetch_add(&blocks, 1);
+  return block;
+}
+
+void *__wrap_malloc(size_t size) {
+  return fails() ? NULL : counted(__real_malloc(size));
+}
+
+void *__wrap_calloc(size_t count, size_t size) {
+  return fails() ? NULL : counted(__real_calloc(count, size));
+}
+
+void *__wrap_realloc(void *block, size_t size) {
+  if (fails()) return NULL;
+  void *larger = __real_realloc(block, size);
+  return block ? larger : counted(larger);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size) {
+  return fails() ? NULL : counted(__real_aligned_alloc(alignment, size));
+}
+
+void __wrap_free(void *block) {
+  if (block) atomic_fetch_sub(&blocks, 1);
+  __real_free(block);
+}
+
+char *__wrap_realpath(const char *path, char *resolved) {
+  if (fails()) return NULL;
+  char *real = __real_realpath(path, resolved);
+  if (resolved == NULL) counted(real);
+  return real;
+}
+
+/* Nothing here is about power failures, and a disk may take its time. */
+int __wrap_fsync(int descriptor) {
+  (void)descriptor;
+  return 0;
+}
+
+FILE *__wrap_fopen(const char *path, const char *mode) {
+  return fails() ? NULL : __real_fopen(path, mode);
+}
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*work)(void *),
+                          void *ctx) {
+  return fault_strikes() ? EAGAIN : __real_pthread_create(thread, attributes, work, ctx);
+}
+
+#if HOOKE_HAVE_JANSSON
+static void *new_json(size_t size) {
+  return __wrap_malloc(size);
+}
+
+static void free_json(void *block) {
+  __wrap_free(block);
+}
+
+__attribute__((constructor)) static void take_over_jansson(void) {
+  json_set_alloc_funcs(new_json, free_json);
+}
+#endif

@@ -1,0 +1,219 @@
+/* Systems by hand and by parts, drives, commit, and questions that take scratch. */
+#include "scenarios.h"
+
+#include <string.h>
+
+enum { COUNT = 9 };
+
+static const double position[3 * COUNT] = {0, 0, 0, 1,   0, 0.1, 2, 0.2, 0, 2, 1.1, 0.3, 0.7, 1.2,
+                                           0, 3, 2, 0.2, 1, 1,   2, 5,   5, 5, 6,   5,   5.25};
+static const double velocity[3 * COUNT] = {0, 0, 0, 0.1, 0, 0, 0, 0.2};
+
+static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)v, (void)ctx;
+  force[3] -= 0.5 * q[3];
+  return 0;
+}
+
+static int32_t shake(int64_t count, double t, double *q, double *v, void *ctx) {
+  (void)t, (void)ctx;
+  memset(q, 0, (size_t)(3 * count) * sizeof *q);
+  memset(v, 0, (size_t)(3 * count) * sizeof *v);
+  return 0;
+}
+
+static void add_springs(struct attempt *a, hooke_system *system) {
+  const int64_t ends[] = {0, 1, 0, 4, 1, 2, 1, 4, 2, 3, 3, 4, 3, 5, 5, 6, 5, 7, 7, 8};
+  const double stiffness[] = {100, 90, 80, 70, 60, 50, 40, 30, 20, 10};
+  const int64_t triples[] = {0, 1, 2, 1, 2, 3}, tetrahedra[] = {0, 1, 2, 6, 1, 2, 3, 6};
+  const double coefficient = 0.5;
+  hooke_options *springs = NULL, *altitude = NULL;
+  TRY(a, hooke_spring_options_create(&springs));
+  TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
+  TRY(a, hooke_options_set_number(springs, "damping", 0.5));
+  TRY(a, hooke_options_set_text(springs, "rest_length", "initial"));
+  TRY(a, hooke_system_add_springs(system, "edges", 10, ends, springs));
+  TRY(a, hooke_options_set_text(springs, "law", "length"));
+  TRY(a, hooke_options_set_number(springs, "stiffness", 3));
+  TRY(a, hooke_options_set_number(springs, "compression", 0));
+  TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
+  TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
+  TRY(a, hooke_altitude_options_create(&altitude));
+  TRY(a, hooke_options_set_number(altitude, "stiffness", 5));
+  TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
+end:
+  hooke_options_destroy(springs);
+  hooke_options_destroy(altitude);
+}
+
+static void add_drives(struct attempt *a, hooke_system *system) {
+  const int64_t pinned[] = {0}, shaken[] = {5}, led[] = {7}, called[] = {8};
+  const double time[] = {0, 1, 2}, path[] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0};
+  TRY(a, hooke_system_pin(system, 1, pinned));
+  TRY(a, hooke_system_drive_harmonic(system, 1, shaken, (double[]){0, 0.1, 0}, 2.0, 0.3));
+  TRY(a, hooke_system_drive_table(system, 1, led, 3, time, path));
+  TRY(a, hooke_system_drive_callback(system, 1, called, shake, NULL));
+  TRY(a, hooke_system_set_force(system, pull, NULL, NULL));
+  TRY(a, hooke_system_set_drag(system, 0.01));
+  TRY(a, hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
+end:
+  return;
+}
+
+/* Functions that allocate scratch. */
+static void ask(struct attempt *a, const hooke_system *system) {
+  static double out[3 * COUNT], block[2][9 * COUNT * COUNT], number[64], bound;
+  static int64_t index[2][COUNT * COUNT + COUNT + 1];
+  int64_t blocks = 0;
+  hooke_state *state = NULL, *other = NULL;
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_state_create(system, &other));
+  TRY(a, hooke_state_copy(state, other));
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(other);
+  TRY(a, hooke_system_force(system, 0.1, q, v, out));
+  attempt_numbers(a, 3 * COUNT, out);
+  TRY(a, hooke_system_acceleration(system, 0.1, q, v, out));
+  attempt_numbers(a, 3 * COUNT, out);
+  TRY(a, hooke_system_derivative_product(system, 0.1, q, v, q, v, out));
+  attempt_numbers(a, 3 * COUNT, out);
+  TRY(a, hooke_system_derivative_pattern(system, index[0], index[1]));
+  TRY(a, hooke_system_derivative_blocks(system, q, v, block[0], block[1]));
+  TRY(a, (blocks = hooke_system_block_count(system)) < 0 ? HOOKE_NO_MEMORY : HOOKE_OK);
+  attempt_numbers(a, 9 * blocks, block[0]);
+  TRY(a, hooke_system_spring_ends(system, index[0]));
+  TRY(a, hooke_system_spring_material(system, number, NULL, number + 32));
+  attempt_numbers(a, hooke_system_spring_count(system), number);
+  TRY(a, hooke_system_bending_ends(system, index[0]));
+  TRY(a, hooke_system_bending_coefficient(system, number));
+  TRY(a, hooke_system_altitude_ends(system, index[0]));
+  TRY(a, hooke_system_altitude_material(system, number, NULL, number + 32));
+  TRY(a, hooke_system_altitude_lengths(system, q, number));
+  attempt_numbers(a, hooke_system_altitude_count(system), number);
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    TRY(a, hooke_step_bound(system, hooke_method_name(k), q, &bound));
+    attempt_number(a, bound);
+  }
+  attempt_number(a, hooke_system_energy(system, q, v));
+  attempt_number(a, hooke_system_dissipated_power(system, q, v));
+  hooke_system_momentum(system, v, number);
+  hooke_system_angular_momentum(system, q, v, number);
+  attempt_number(a, (double)hooke_system_coincident_springs(system, q));
+end:
+  hooke_state_destroy(state);
+  hooke_state_destroy(other);
+}
+
+static void by_hand(struct attempt *a, const void *with) {
+  const double mass[COUNT] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  hooke_system *system = NULL;
+  (void)with;
+  TRY(a, hooke_system_create(&system));
+  TRY(a, hooke_system_add_particles(system, COUNT - 1, position, velocity, COUNT - 1, mass, NULL));
+  TRY(a, hooke_system_add_particles(system, 1, position + 3 * (COUNT - 1), NULL, 1, mass, NULL));
+  add_springs(a, system);
+  if (a->gave_up) goto end;
+  add_drives(a, system);
+  if (a->gave_up) goto end;
+  TRY(a, hooke_system_commit(system));
+  ask(a, system);
+end:
+  hooke_system_destroy(system);
+}
+
+struct part {
+  const char *kind;
+  const char *setting[12][2];
+};
+
+static const struct part parts[] = {
+    {"rope",
+     {{"from", "0,0,0"},
+      {"to", "1,0,0"},
+      {"segments", "5"},
+      {"density", "0.1"},
+      {"stretch.stiffness", "20"},
+      {"bend.stiffness", "1"},
+      {"bending", "0.01"},
+      {"pinned", "start,end"}}},
+    {"cloth",
+     {{"origin", "0,1,0"},
+      {"edges", "1,0,0,0,0,1"},
+      {"size", "5,4"},
+      {"mass", "0.3"},
+      {"structural.stiffness", "20"},
+      {"shear.stiffness", "5"},
+      {"bend.stiffness", "1"},
+      {"pinned", "top-corners"}}},
+    {"lattice",
+     {{"origin", "0,2,0"},
+      {"edges", "1,0,0,0,1,0,0,0,1"},
+      {"size", "3,3,3"},
+      {"mass", "0.3"},
+      {"structural.stiffness", "20"},
+      {"shear.stiffness", "5"},
+      {"bend.stiffness", "1"},
+      {"pinned", "bottom"}}},
+    {"strand",
+     {{"from", "0,4,0"},
+      {"to", "1,4,0"},
+      {"segments", "4"},
+      {"mass", "0.01"},
+      {"stretch.stiffness", "20"},
+      {"bend.stiffness", "5"},
+      {"twist.stiffness", "1"},
+      {"altitude.stiffness", "1"},
+      {"pinned", "start"}}},
+};
+
+static void set_mesh(struct attempt *a, hooke_options *options) {
+  const double vertices[] = {0, 6, 0, 1, 6, 0, 0, 7, 0, 1, 7, 0, 1, 6, 0};
+  const int64_t triangles[] = {0, 1, 2, 4, 3, 2};
+  TRY(a, hooke_mesh_set(options, 5, vertices, 2, triangles));
+  TRY(a, hooke_options_set_number(options, "mass", 0.1));
+  TRY(a, hooke_options_set_number(options, "weld", 1e-6));
+  TRY(a, hooke_options_set_number(options, "structural.stiffness", 10));
+  TRY(a, hooke_options_set_number(options, "bend.damping_ratio", 0.1));
+  TRY(a, hooke_options_set_number(options, "bend.stiffness", 1));
+end:
+  return;
+}
+
+static void by_parts(struct attempt *a, const void *with) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL, *copy = NULL;
+  hooke_state *state = NULL;
+  (void)with;
+  TRY(a, hooke_system_create(&system));
+  for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
+    TRY(a, hooke_part_options_create(parts[p].kind, &options));
+    for (int k = 0; parts[p].setting[k][0]; k++)
+      TRY(a, hooke_options_set_text(options, parts[p].setting[k][0], parts[p].setting[k][1]));
+    TRY(a, hooke_options_copy(options, &copy));
+    TRY(a, hooke_system_add_part(system, parts[p].kind, p == 0 ? "line" : NULL, copy, NULL, NULL));
+    TRY(a, hooke_options_unset(options, "mass"));
+    hooke_options_destroy(options);
+    hooke_options_destroy(copy);
+    options = copy = NULL;
+  }
+  TRY(a, hooke_part_options_create("mesh", &options));
+  set_mesh(a, options);
+  if (a->gave_up) goto end;
+  TRY(a, hooke_system_add_part(system, "mesh", "sheet", options, NULL, NULL));
+  TRY(a, hooke_system_commit(system));
+  TRY(a, hooke_state_create(system, &state));
+  take_state(a, state);
+  for (int64_t k = 0; k < hooke_system_group_count(system); k++)
+    attempt_text(a, hooke_system_group_name(system, k));
+  attempt_number(a, hooke_system_potential_energy(system, hooke_state_position(state)));
+end:
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  hooke_options_destroy(copy);
+  hooke_system_destroy(system);
+}
+
+const struct scenario creating[] = {
+    {"create, by hand", by_hand, NULL, 1, NULL, NULL},
+    {"create, by parts", by_parts, NULL, 1, NULL, NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
+};

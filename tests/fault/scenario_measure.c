@@ -1,0 +1,219 @@
+/* Limits, why, needs, study, comparison, pick, cost. Times are no part of what comes out. */
+#include "scenarios.h"
+
+#include <stdio.h>
+
+/* A mass that swings on a spring along x, the other end pinned. */
+static hooke_system *make_oscillator(struct attempt *a) {
+  const double position[] = {0, 0, 0, 1.1, 0, 0}, mass = 1.0;
+  const int64_t ends[] = {0, 1}, first = 0;
+  hooke_system *system = NULL;
+  hooke_options *springs = NULL;
+  TRY(a, hooke_system_create(&system));
+  TRY(a, hooke_system_add_particles(system, 2, position, NULL, 1, &mass, NULL));
+  TRY(a, hooke_system_pin(system, 1, &first));
+  TRY(a, hooke_spring_options_create(&springs));
+  TRY(a, hooke_options_set_number(springs, "stiffness", 100));
+  TRY(a, hooke_options_set_number(springs, "damping", 0.5));
+  TRY(a, hooke_options_set_number(springs, "rest_length", 1));
+  TRY(a, hooke_system_add_springs(system, "spring", 1, ends, springs));
+  TRY(a, hooke_system_commit(system));
+  hooke_options_destroy(springs);
+  return system;
+end:
+  hooke_options_destroy(springs);
+  hooke_system_destroy(system);
+  return NULL;
+}
+
+/* From the start, which a failed attempt may have left. */
+static int32_t go_along(hooke_limit *limit, const hooke_state *start, hooke_state *state) {
+  const int32_t status = hooke_state_copy(start, state);
+  return status != HOOKE_OK ? status : hooke_limit_along(limit, state);
+}
+
+static void limit(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 5);
+  hooke_options *options = NULL, *run = system ? make_run(a, NULL, 1e-4, 2e-4, 0.0) : NULL;
+  hooke_limit *limit = NULL;
+  hooke_state *state = NULL, *other = NULL;
+  if (run == NULL) goto end;
+  TRY(a, hooke_limit_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "predict", with == NULL));
+  TRY(a, hooke_options_set_number(options, "accuracy", 0.1));
+  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
+  TRY(a, hooke_limit_create(system, run, options, &limit));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_state_create(system, &other));
+  TRY(a, hooke_limit_find(limit, state));
+  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
+    attempt_number(a, hooke_limit_number(limit, k, "predicted"));
+    attempt_number(a, hooke_limit_number(limit, k, "measured"));
+    attempt_text(a, hooke_limit_text(limit, k, "note"));
+  }
+  attempt_number(a, hooke_limit_blame_number(limit, 0, "share"));
+  attempt_text(a, hooke_limit_blame_text(limit, 0, "group"));
+  attempt_text(a, hooke_limit_remedy_text(limit, "sentence"));
+  attempt_number(a, hooke_limit_remedy_number(limit, "gain"));
+  attempt_number(a, hooke_limit_mode_number(limit, 0, "frequency"));
+  if (with == NULL) TRY(a, go_along(limit, state, other));
+  attempt_number(a, hooke_limit_number(limit, 0, "smallest"));
+end:
+  hooke_state_destroy(other);
+  hooke_state_destroy(state);
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void why(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 3);
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 0.05, 100.0, 1.0) : NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL, *last = NULL;
+  hooke_why *why = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_integrator_create(system, run, &integrator));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_state_create(system, &last));
+  TRY_FOR(a, hooke_integrator_run(integrator, last), HOOKE_DIVERGED);
+  TRY(a, hooke_why_create(integrator, &why));
+  attempt_text(a, hooke_why_text(why, "cause"));
+  attempt_text(a, hooke_why_text(why, "sentence"));
+  attempt_number(a, hooke_why_number(why, "limit"));
+  hooke_why_destroy(why);
+  why = NULL;
+  TRY(a, hooke_why_create_kept(system, run, state, last, &why));
+  attempt_text(a, hooke_why_text(why, "sentence"));
+  for (int64_t k = 0; k < hooke_why_advice_count(why); k++)
+    attempt_text(a, hooke_why_advice_text(why, k, "change"));
+  if (hooke_why_advice_count(why) > 0) TRY(a, hooke_why_advice_apply(why, 0, run));
+  attempt_number(a, hooke_options_number(run, "step"));
+end:
+  hooke_why_destroy(why);
+  hooke_state_destroy(last);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void needs(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 4);
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL, *options = NULL;
+  hooke_needs *needs = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_needs_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "want", 1e-2));
+  TRY(a, hooke_needs_create(system, run, options, &needs));
+  TRY(a, hooke_needs_find(needs));
+  TRY(a, hooke_needs_refine(needs));
+  for (int64_t k = 0; k < hooke_needs_row_count(needs); k++) {
+    attempt_text(a, hooke_needs_text(needs, k, "without"));
+    attempt_number(a, hooke_needs_number(needs, k, "error"));
+    attempt_number(a, hooke_needs_number(needs, k, "needed"));
+  }
+  attempt_number(a, hooke_needs_part_number(needs, 0, "change"));
+  attempt_number(a, (double)hooke_system_spring_count(hooke_needs_lean(needs)));
+end:
+  hooke_needs_destroy(needs);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void study(struct attempt *a, const void *with) {
+  hooke_system *system = make_oscillator(a);
+  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.05, 0.01) : NULL, *options = NULL;
+  hooke_study *study = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_study_options_create(&options));
+  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4,cvode-adams"));
+  TRY(a, hooke_options_set_number(options, "points", 6));
+  TRY(a, hooke_study_create(system, run, options, &study));
+  TRY(a, hooke_study_run(study));
+  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
+    attempt_text(a, hooke_study_text(study, k, "status"));
+    attempt_number(a, hooke_study_number(study, k, "error"));
+  }
+  attempt_number(a, hooke_study_order(study, "rk4", "order"));
+  attempt_number(a, hooke_study_figure(study, "agreement"));
+  TRY(a, hooke_study_recommend(study, 1e-3));
+end:
+  hooke_study_destroy(study);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void pick(struct attempt *a, const void *with) {
+  hooke_system *system = make_oscillator(a);
+  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.2, 0.1) : NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_study_pick(system, run, 1e-3, NULL, NULL));
+end:
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void compare(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 3);
+  hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.02, 0.01) : NULL;
+  hooke_comparison *comparison = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_comparison_create(system, run, &comparison));
+  TRY(a, hooke_comparison_add(comparison, "verlet"));
+  TRY(a, hooke_comparison_add(comparison, "cvode-bdf"));
+  TRY(a, hooke_comparison_run(comparison));
+  for (int64_t k = 0; k < hooke_comparison_row_count(comparison); k++) {
+    attempt_text(a, hooke_comparison_text(comparison, k, "status"));
+    attempt_number(a, hooke_comparison_number(comparison, k, "error"));
+    attempt_number(a, hooke_comparison_number(comparison, k, "energy_drift"));
+  }
+end:
+  hooke_comparison_destroy(comparison);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void cost(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 3);
+  hooke_options *run = system ? make_run(a, "verlet", 1e-3, 0.02, 0.01) : NULL, *options = NULL;
+  hooke_cost *cost = NULL;
+  hooke_state *state = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_cost_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "budget", 1e-3));
+  TRY(a, hooke_cost_create(system, run, options, &cost));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_cost_find(cost, state));
+  for (int64_t k = 0; k < hooke_cost_row_count(cost); k++) {
+    attempt_text(a, hooke_cost_text(cost, k, "name"));
+    attempt_number(a, hooke_cost_number(cost, k, "step_limit_without"));
+  }
+end:
+  hooke_state_destroy(state);
+  hooke_cost_destroy(cost);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+const struct scenario measuring[] = {
+    {"limit, predicted", limit, NULL, 1, "lapack", NULL},
+    {"limit, measured", limit, "", 5, "lapack", NULL},
+    {"why", why, NULL, 20, "lapack", NULL},
+    {"needs", needs, NULL, 300, NULL, NULL},
+    {"study", study, NULL, 100, "sundials gsl", NULL},
+    {"pick", pick, NULL, 2000, "sundials gsl", NULL},
+    {"compare", compare, NULL, 3, "sundials", NULL},
+    {"cost", cost, NULL, 5, "lapack", NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
+};

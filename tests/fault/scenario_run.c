@@ -1,0 +1,123 @@
+/* Runs by every method, alone and in a crew, with all that watches them. */
+#include "scenarios.h"
+
+#include <stdio.h>
+
+struct with {
+  const char *method;
+  int32_t threads;
+  const char *linear_solver, *newton; /* NULL: as by default */
+};
+
+static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
+  attempt_number(ctx, (double)step);
+  take_state(ctx, state);
+  return 0;
+}
+
+static int32_t hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                    int64_t particle, void *ctx) {
+  (void)sentence, (void)t, (void)limit, (void)spring, (void)particle;
+  attempt_text(ctx, kind);
+  return 0;
+}
+
+/* From the start, whatever an attempt before has left: frames that were seen then do not count. */
+static int32_t run_from_start(struct attempt *a, hooke_integrator *integrator, const hooke_state *start,
+                              hooke_state *state, uint64_t before) {
+  a->hash = before;
+  const int32_t status = hooke_state_copy(start, state);
+  return status != HOOKE_OK ? status : hooke_integrator_run(integrator, state);
+}
+
+static void run(struct attempt *a, const void *with) {
+  const struct with *w = with;
+  const double segments = w->threads > 1 ? 9000 : 6;
+  hooke_system *system = make_rope(a, segments);
+  hooke_options *options =
+      system ? make_run(a, w->method, w->threads > 1 ? 1e-7 : 1e-4, w->threads > 1 ? 4e-7 : 4e-4, 0.0) : NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_state *start = NULL, *state = NULL;
+  if (options == NULL) goto end;
+  TRY(a, hooke_options_set_number(options, "threads", w->threads));
+  TRY(a, hooke_options_set_number(options, "rtol", 1e-4));
+  if (w->linear_solver) TRY(a, hooke_options_set_text(options, "linear_solver", w->linear_solver));
+  if (w->newton) TRY(a, hooke_options_set_text(options, "newton", w->newton));
+  TRY(a, hooke_integrator_create(system, options, &integrator));
+  TRY(a, hooke_integrator_on_frame(integrator, see, a));
+  TRY(a, hooke_integrator_on_step(integrator, 2, see, a));
+  TRY(a, hooke_integrator_on_warning(integrator, hear, a));
+  TRY(a, hooke_state_create(system, &start));
+  TRY(a, hooke_state_create(system, &state));
+  const uint64_t before = a->hash;
+  TRY(a, run_from_start(a, integrator, start, state, before));
+  TRY(a, hooke_integrator_step(integrator, state, 2));
+  take_state(a, state);
+  if (hooke_integrator_recent_count(integrator) > 0) TRY(a, hooke_integrator_recent(integrator, 0, start));
+  take_state(a, start);
+end:
+  hooke_state_destroy(state);
+  hooke_state_destroy(start);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)t, (void)ctx;
+  for (int64_t k = 0; k < n; k++)
+    rate[k] = -(double)(k + 1) * x[k];
+  return 0;
+}
+
+static void run_first_order(struct attempt *a, const void *with) {
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  hooke_options *options = make_run(a, with, 1e-3, 4e-3, 1e-3);
+  if (options == NULL) goto end;
+  TRY(a, hooke_integrator_create_first_order(3, decay, NULL, options, &integrator));
+  TRY(a, hooke_state_create_first_order(3, &state));
+  for (int k = 0; k < 3; k++)
+    hooke_state_position(state)[k] = 1.0;
+  hooke_state_set_time(state, 0.0);
+  TRY(a, hooke_integrator_run(integrator, state));
+  take_state(a, state);
+end:
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+}
+
+#define RUN(m, ...)                                                                                          \
+  &(const struct with) {                                                                                     \
+    .method = m, __VA_ARGS__                                                                                 \
+  }
+
+const struct scenario running[] = {
+    {"run, forward-euler", run, RUN("forward-euler", 1), 1, NULL, NULL},
+    {"run, symplectic-euler", run, RUN("symplectic-euler", 1), 1, NULL, NULL},
+    {"run, symplectic-euler, 2 threads", run, RUN("symplectic-euler", 2), 20, NULL, NULL},
+    {"run, verlet", run, RUN("verlet", 1), 1, NULL, NULL},
+    {"run, verlet, 2 threads", run, RUN("verlet", 2), 20, NULL, NULL},
+    {"run, rk4", run, RUN("rk4", 1), 1, NULL, NULL},
+    {"run, rk4, 2 threads", run, RUN("rk4", 2), 20, NULL, NULL},
+    {"run, backward-euler", run, RUN("backward-euler", 1), 1, NULL, NULL},
+    {"run, backward-euler, converged", run, RUN("backward-euler", 1, .newton = "converged"), 1, NULL, NULL},
+    {"run, backward-euler, direct", run, RUN("backward-euler", 1, .linear_solver = "direct"), 1, "cholmod",
+     NULL},
+    {"run, backward-euler, 2 threads", run, RUN("backward-euler", 2), 20, NULL, NULL},
+    {"run, cvode-bdf", run, RUN("cvode-bdf", 1), 1, "sundials", NULL},
+    {"run, cvode-bdf, direct", run, RUN("cvode-bdf", 1, .linear_solver = "direct"), 1, "sundials cholmod",
+     NULL},
+    {"run, cvode-bdf, blocks", run, RUN("cvode-bdf", 1, .linear_solver = "blocks"), 1, "sundials", NULL},
+    {"run, cvode-bdf, gmres", run, RUN("cvode-bdf", 1, .linear_solver = "gmres"), 1, "sundials", NULL},
+    {"run, cvode-bdf, 2 threads", run, RUN("cvode-bdf", 2), 20, "sundials", NULL},
+    {"run, cvode-adams", run, RUN("cvode-adams", 1), 1, "sundials", NULL},
+    {"run, cvode-adams, 2 threads", run, RUN("cvode-adams", 2), 20, "sundials", NULL},
+    {"run, arkode-esdirk", run, RUN("arkode-esdirk", 1), 1, "sundials", NULL},
+    {"run, rk8pd", run, RUN("rk8pd", 1), 1, "gsl", NULL},
+    {"run, first order, rk4", run_first_order, "rk4", 1, NULL, NULL},
+    {"run, first order, cvode-bdf", run_first_order, "cvode-bdf", 1, "sundials", NULL},
+    {"run, first order, rk8pd", run_first_order, "rk8pd", 1, "gsl", NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL},
+};

@@ -1,0 +1,250 @@
+/* Everything that is written, and read back: trajectories, comparisons, studies, tables, reports, pages, scenes. */
+#include "scenarios.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PATH_SIZE = 512, FRAMES = 5 };
+
+static const char *path_of(const struct attempt *a, const char *name) {
+  static _Thread_local char path[2][PATH_SIZE];
+  static _Thread_local int turn;
+  turn = !turn;
+  snprintf(path[turn], PATH_SIZE, "%s/%s", a->folder, name);
+  return path[turn];
+}
+
+/* ---- reading back ---- */
+
+static void read_back(struct attempt *a, const char *path, const hooke_system *system, int64_t frames) {
+  static double numbers[3 * 2000];
+  hooke_record *record = NULL;
+  hooke_state *state = NULL;
+  int64_t rows, columns;
+  TRY(a, hooke_record_open(path, &record));
+  TRY(a, hooke_state_create(system, &state));
+  if (hooke_record_frame_count(record) != frames)
+    attempt_wrong(a, "%lld frames were written, and %lld are there", (long long)frames,
+                  (long long)hooke_record_frame_count(record));
+  for (int64_t k = 0; k < frames; k++) {
+    TRY(a, hooke_record_read(record, k, state));
+    take_state(a, state);
+  }
+  TRY(a, hooke_record_size(record, "kinetic_energy", &rows, &columns));
+  TRY(a, hooke_record_numbers(record, "kinetic_energy", numbers));
+  attempt_numbers(a, frames, numbers);
+  TRY(a, hooke_record_numbers(record, "mass", numbers));
+  attempt_number(a, numbers[0]);
+  attempt_text(a, hooke_record_text(record, "status"));
+  attempt_text(a, hooke_record_text(record, "scene"));
+  attempt_text(a, hooke_options_text(hooke_record_options(record), "method"));
+end:
+  hooke_state_destroy(state);
+  hooke_record_close(record);
+}
+
+/* ---- trajectories ---- */
+
+struct course {
+  double segments;
+  int64_t frames; /* to write of those that there is room for */
+  int32_t behind; /* by a thread */
+};
+
+/* States that are not those of a run: writing is what counts here. */
+static void put(hooke_state *state, int64_t frame) {
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  hooke_state_set_time(state, 1e-3 * (double)frame);
+  for (int64_t k = 0; k < hooke_state_size(state); k++) {
+    q[k] = (double)(frame + 1) + 1e-3 * (double)k;
+    v[k] = (double)(frame + 1) - 1e-3 * (double)k;
+  }
+}
+
+static void trajectory(struct attempt *a, const void *with) {
+  const struct course *course = with;
+  char path[PATH_SIZE];
+  hooke_system *system = make_rope(a, course->segments);
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 1e-3 * (FRAMES - 1), 1e-3) : NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  hooke_trajectory *trajectory = NULL;
+  snprintf(path, sizeof path, "%s", path_of(a, "out.h5"));
+  if (run == NULL) goto end;
+  TRY(a, hooke_integrator_create(system, run, &integrator));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_trajectory_create(path, system, integrator, "{ \"hooke\": 1 }", &trajectory));
+  if (course->behind) TRY(a, hooke_trajectory_write_behind(trajectory));
+  for (int64_t k = 0; k < course->frames; k++) {
+    put(state, k);
+    TRY_ONCE(a, hooke_trajectory_write(trajectory, k, state));
+    if (k == 1) TRY_ONCE(a, hooke_trajectory_sync(trajectory));
+    if (!course->behind) a->committed = k + 1;
+  }
+  {
+    hooke_trajectory *closing = trajectory;
+    trajectory = NULL;
+    TRY_ONCE(a, hooke_trajectory_close(closing, course->frames < FRAMES ? HOOKE_STOPPED : HOOKE_OK));
+  }
+  read_back(a, path, system, course->frames);
+end:
+  hooke_trajectory_close(trajectory, HOOKE_STOPPED);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+/* What is written from a trajectory: page and companion. */
+static void shown(struct attempt *a, const void *with) {
+  hooke_record *record = NULL;
+  hooke_view *view = NULL;
+  const int32_t page = with != NULL;
+  TRY(a, hooke_record_open(path_of(a, "arrays.h5"), &record));
+  if (page) {
+    TRY(a, hooke_view_create(record, NULL, &view));
+    attempt_number(a, hooke_view_number(view, "strain"));
+    TRY(a, hooke_view_write(view, path_of(a, "out.html"), NULL));
+    attempt_number(a, hooke_view_number(view, "bytes"));
+  } else {
+    TRY(a, hooke_record_write_xdmf(record, path_of(a, "out.xdmf")));
+  }
+end:
+  hooke_view_destroy(view);
+  hooke_record_close(record);
+}
+
+/* ---- comparisons ---- */
+
+static void comparison(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 3);
+  hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.004, 0.002) : NULL;
+  hooke_comparison *comparison = NULL;
+  hooke_comparison_file *file = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_comparison_create(system, run, &comparison));
+  TRY(a, hooke_comparison_add(comparison, "verlet"));
+  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), system, comparison, "{}", &file));
+  if (a->on_file) {
+    /* a frame that cannot be written stops the run, and closing tells why */
+    const int32_t status = hooke_comparison_run(comparison);
+    if (status != HOOKE_OK && (status != HOOKE_STOPPED || fault_failures() == 0))
+      attempt_wrong(a, "hooke_comparison_run() returned %d: %s", (int)status, hooke_last_error());
+  } else {
+    TRY_ONCE(a, hooke_comparison_run(comparison));
+  }
+  {
+    hooke_comparison_file *closing = file;
+    file = NULL;
+    TRY_ONCE(a, hooke_comparison_file_close(closing));
+  }
+  attempt_number(a, hooke_comparison_number(comparison, 0, "error"));
+end:
+  hooke_comparison_file_close(file);
+  hooke_comparison_destroy(comparison);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+/* ---- studies, limits and needs ---- */
+
+enum kind { STUDY_H5, STUDY_CSV, STUDY_REPORT };
+
+static void study(struct attempt *a, const void *with) {
+  const enum kind kind = *(const enum kind *)with;
+  hooke_system *system = make_rope(a, 1);
+  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.004, 0.002) : NULL, *options = NULL;
+  hooke_study *study = NULL;
+  if (run == NULL) goto end;
+  TRY(a, hooke_study_options_create(&options));
+  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler"));
+  TRY(a, hooke_study_create(system, run, options, &study));
+  TRY(a, hooke_study_run(study));
+  if (kind == STUDY_H5) TRY(a, hooke_study_write_h5(study, path_of(a, "out.h5"), "{}", HOOKE_OK));
+  if (kind == STUDY_CSV) TRY(a, hooke_study_write_csv(study, path_of(a, "out.csv")));
+  if (kind == STUDY_REPORT) TRY(a, hooke_study_write_report(study, path_of(a, "out.html"), "rope", "hooke"));
+end:
+  hooke_study_destroy(study);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static void limit_report(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 3);
+  hooke_options *options = NULL;
+  hooke_limit *limit = NULL;
+  hooke_state *state = NULL;
+  (void)with;
+  if (system == NULL) goto end;
+  TRY(a, hooke_limit_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "predict", 1));
+  TRY(a, hooke_limit_create(system, NULL, options, &limit));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_limit_find(limit, state));
+  TRY(a, hooke_limit_write_report(limit, state, path_of(a, "out.html"), "rope"));
+end:
+  hooke_state_destroy(state);
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static void needs_report(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 2);
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL, *options = NULL;
+  hooke_needs *needs = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_needs_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "want", 1e-2));
+  TRY(a, hooke_needs_create(system, run, options, &needs));
+  TRY(a, hooke_needs_find(needs));
+  TRY(a, hooke_needs_write_report(needs, path_of(a, "out.html"), "rope", "hooke run"));
+end:
+  hooke_needs_destroy(needs);
+  hooke_options_destroy(options);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+/* ---- scenes ---- */
+
+static void scene(struct attempt *a, const void *with) {
+  hooke_system *system = make_rope(a, 4);
+  hooke_options *run = system ? make_run(a, "verlet", 1e-3, 0.1, 0.01) : NULL;
+  hooke_scene *again = NULL;
+  (void)with;
+  if (run == NULL) goto end;
+  TRY(a, hooke_scene_write(path_of(a, "out.json"), system, "a rope", run));
+  TRY(a, hooke_scene_load(path_of(a, "out.json"), &again));
+  attempt_text(a, hooke_scene_text(again));
+  hooke_scene_destroy(again);
+  again = NULL;
+  TRY(a, hooke_scene_of_system(system, "a rope", run, "rope", NULL, &again));
+  attempt_text(a, hooke_scene_text(again));
+end:
+  hooke_scene_destroy(again);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
+static const struct course whole = {6, FRAMES, 0}, cut = {6, 3, 0}, behind = {1500, FRAMES, 1};
+static const enum kind h5 = STUDY_H5, csv = STUDY_CSV, report = STUDY_REPORT;
+
+const struct scenario writing[] = {
+    {"write, trajectory", trajectory, &whole, 4, "hdf5", "out.h5"},
+    {"write, trajectory cut short", trajectory, &cut, 4, "hdf5", "out.h5"},
+    {"write, trajectory by a thread", trajectory, &behind, 12, "hdf5", "out.h5"},
+    {"write, comparison", comparison, NULL, 7, "hdf5 sundials", "out.h5"},
+    {"write, study in HDF5", study, &h5, 200, "hdf5 sundials gsl", "out.h5"},
+    {"write, study as CSV", study, &csv, 200, "sundials gsl", "out.csv"},
+    {"write, study as report", study, &report, 200, "sundials gsl chartjs", "out.html"},
+    {"write, limits as report", limit_report, NULL, 10, "lapack chartjs", "out.html"},
+    {"write, needs as report", needs_report, NULL, 200, "chartjs", "out.html"},
+    {"write, page", shown, "", 1, "hdf5 jansson chartjs threejs", "out.html"},
+    {"write, XDMF", shown, NULL, 1, "hdf5 jansson", "out.xdmf"},
+    {"write, scene", scene, NULL, 1, "jansson", "out.json"},
+    {NULL, NULL, NULL, 0, NULL, NULL},
+};

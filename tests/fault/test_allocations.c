@@ -1,0 +1,51 @@
+/* Every allocation of hooke and of jansson fails in turn, alone and with all after it: the call says so, its objects work
+ * afterwards as if nothing had been, and every block is released. */
+#include "check.h"
+#include "memory_faults.h"
+#include "scenarios.h"
+#include "sweep.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static struct sweep sweep;
+
+static void try_point(const struct scenario *scenario, int64_t k, enum fault_reach reach, struct attempt *a) {
+  const int64_t blocks = memory_blocks();
+  *a = sweep_attempt(&sweep, reach);
+  fault_begin(k, reach);
+  scenario->run(a, scenario->with);
+  fault_end();
+  const int64_t left = memory_blocks() - blocks;
+  if (left != 0) attempt_wrong(a, "%lld blocks are left", (long long)left);
+}
+
+#define FAILS(kind)                                                                                          \
+  static void kind##_fails(void **unused) {                                                                  \
+    (void)unused;                                                                                            \
+    sweep_all(&sweep, kind, try_point);                                                                      \
+  }
+
+FAILS(creating)
+FAILS(loading)
+FAILS(running)
+FAILS(measuring)
+FAILS(writing)
+
+static int set_up(void **unused) {
+  (void)unused;
+  return sweep_open(&sweep);
+}
+
+static int tear_down(void **unused) {
+  (void)unused;
+  return sweep_close(&sweep);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(creating_fails),  cmocka_unit_test(loading_fails), cmocka_unit_test(running_fails),
+      cmocka_unit_test(measuring_fails), cmocka_unit_test(writing_fails),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
