@@ -76,7 +76,7 @@ static void set_one(hooke_options *options, const char *name, const char *value)
     set_again(options, name);
   } else {
     hooke_fuzz_require(status == HOOKE_BAD_VALUE, "a text that is refused is a bad value");
-    hooke_fuzz_require_message(0);
+    hooke_fuzz_require_message();
     hooke_fuzz_require(hooke_options_is_set(options, name) == was_set,
                        "a failure leaves the option as it was");
   }

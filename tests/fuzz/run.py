@@ -338,8 +338,8 @@ def coverage(targets):
         subprocess.run([tools[0], "merge", "-sparse", str(raw), "-o", str(data)], check=True)
         told = subprocess.run([tools[1], "export", "-summary-only", f"-instr-profile={data}", target.program("fuzz-coverage")],
                               check=True, capture_output=True, text=True).stdout
-        summary = {str(pathlib.Path(f["filename"]).relative_to(ROOT)): f["summary"]["lines"]
-                   for f in json.loads(told)["data"][0]["files"] if f["filename"].startswith(str(ROOT))}
+        summary = {os.path.relpath(ROOT / "build" / "fuzz-coverage" / f["filename"], ROOT): f["summary"]["lines"]
+                   for f in json.loads(told)["data"][0]["files"]}
         files = {f: summary[f] for f in target.files if f in summary}
         covered, count = (sum(f[key] for f in files.values()) for key in ("covered", "count"))
         result[target.name] = {"covered": covered, "count": count, "percent": round(100 * covered / max(count, 1), 1),
