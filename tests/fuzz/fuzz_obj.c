@@ -97,7 +97,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_options *options = choose_options(data[0], data[1]);
   const char *text = (const char *)data + 2;
   const int64_t length = (int64_t)size - 2;
-  const int32_t status = hooke_mesh_parse(text, length, "mesh.obj", options);
+  const int32_t status = hooke_mesh_parse(text, length, "mesh.obj", 0.0, options);
   if (status == HOOKE_OK)
     build(options);
   else
