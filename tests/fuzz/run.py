@@ -27,6 +27,8 @@ import sys
 import threading
 import time
 
+import seeds
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "tests" / "fuzz"
 BUILD = ROOT / "build" / "fuzz"
@@ -361,11 +363,12 @@ def tell_coverage(targets):
 def minimise(targets):
     """The fewest inputs that reach as much; small ones come first."""
     build("fuzz")
+    seeds.make(BUILD / "seeds")
     for target in targets:
         new = target.work / "minimised"
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
-        old = [str(f) for f in (target.corpus, target.work / "corpus") if f.is_dir()]
+        old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
         subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         shutil.rmtree(target.corpus, ignore_errors=True)
