@@ -58,11 +58,13 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
                   : hooke_fail_before(status, "%s: ", shown);
 }
 
-int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, hooke_options *options) {
+int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
+                         hooke_options *options) {
   int64_t line = 0;
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = read_text(text, length, options, &line);
+  status = hooke_room_require(memory_limit, hooke_obj_bytes(text, length), "the mesh");
+  if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   return finish(status, line, name, options);
 }
 
@@ -72,10 +74,8 @@ int32_t hooke_mesh_read_as(const char *path, const char *name, double memory_lim
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hooke_scene_read_file(path, NULL, &text, &length);
-  if (status == HOOKE_OK)
-    status = hooke_room_require(memory_limit, hooke_obj_bytes(text, length), "the mesh");
-  status =
-      status == HOOKE_OK ? hooke_mesh_parse(text, length, name, options) : finish(status, 0, name, options);
+  status = status == HOOKE_OK ? hooke_mesh_parse(text, length, name, memory_limit, options)
+                              : finish(status, 0, name, options);
   hooke_free(text);
   return status;
 }

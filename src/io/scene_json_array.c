@@ -142,9 +142,22 @@ int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t
 
 static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
 
+/* "rope0, cloth1", up to the room that there is. */
+static void list_parts(const struct hooke_part_names *parts, char *names, size_t size) {
+  names[0] = '\0';
+  for (int64_t k = 0; k < parts->count; k++) {
+    char shown[HOOKE_OPTION_SHOWN];
+    const size_t used = strlen(names);
+    hooke_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
+    const int fits = used + strlen(shown) + strlen(", , ...") < size;
+    snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
+    if (!fits) return;
+  }
+}
+
 static int32_t find_in_part(const struct hooke_scene_reader *reader, const char *name, int64_t index,
                             int64_t *particle) {
-  char names[256] = "", shown[HOOKE_OPTION_SHOWN];
+  char names[256], shown[HOOKE_OPTION_SHOWN];
   hooke_option_show(name, (int64_t)strlen(name), shown);
   const struct hooke_named_part *part = hooke_part_names_find(&reader->parts, name);
   if (part && index >= 0 && index < part->count) {
@@ -154,10 +167,7 @@ static int32_t find_in_part(const struct hooke_scene_reader *reader, const char 
   if (part)
     return hooke_fail(HOOKE_BAD_VALUE, "[1]", "part \"%s\" has no particle %lld; allowed: 0 to %lld", shown,
                       (long long)index, (long long)part->count - 1);
-  for (int64_t k = 0; k < reader->parts.count && strlen(names) + 1 < sizeof names; k++) {
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", reader->parts.part[k].name);
-  }
+  list_parts(&reader->parts, names, sizeof names);
   return hooke_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
                     names[0] ? names : "none, as this scene has no parts");
 }

@@ -18,11 +18,7 @@ void hooke_fuzz_is_accepted(void);
 /* Ends the process, which is a finding, unless `holds`. */
 void hooke_fuzz_require(int holds, const char *what);
 
-/* Requires that a failure (a status < 0) has a message: not empty, of one line, without control characters and, where the
- * caller's text was UTF-8, UTF-8. */
-void hooke_fuzz_require_message(int utf8);
-
-/* The same of any text; `what` is what it is called if it fails. */
-void hooke_fuzz_require_text(const char *text, int utf8, const char *what);
+/* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control characters. */
+void hooke_fuzz_require_message(void);
 
 #endif

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* A small machine, so that a scene that is too large for it is refused and not built: that is what is tested. */
-enum { PAGE = 4096, PAGES = 64 };
+enum { PAGE = 4096, PAGES = 24 };
 
 long __wrap_sysconf(int name);
 long __real_sysconf(int name);
@@ -53,7 +53,7 @@ static void require_place(const char *text, size_t size) {
 static void require_failure(int32_t status, const char *text, size_t size) {
   hooke_fuzz_require(status == HOOKE_BAD_VALUE || status == HOOKE_NO_MEMORY || status == HOOKE_NOT_BUILT,
                      "a scene that is refused is a bad value, or too large");
-  hooke_fuzz_require_message(1);
+  hooke_fuzz_require_message();
   if (status == HOOKE_BAD_VALUE) require_place(text, size);
 }
 
@@ -126,6 +126,14 @@ static void go_around(hooke_scene *scene) {
   hooke_scene_destroy(again);
 }
 
+/* Every other scene is written and read again, which takes as long as all the rest: always the same ones. */
+static int is_chosen(const char *text, size_t size) {
+  uint32_t sum = 0;
+  for (size_t k = 0; k < size; k++)
+    sum = 31 * sum + (unsigned char)text[k];
+  return (sum >> 7) % 2 == 0;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static const char folder[] = HOOKE_SOURCE_DIR "/tests/fuzz/files";
   const char *text = size ? (const char *)data : "";
@@ -136,7 +144,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_OK) {
     hooke_fuzz_is_accepted();
-    go_around(scene);
+    if (is_chosen(text, size)) go_around(scene);
   } else {
     require_failure(status, text, size);
   }

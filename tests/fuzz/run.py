@@ -27,6 +27,8 @@ import sys
 import threading
 import time
 
+import seeds
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "tests" / "fuzz"
 BUILD = ROOT / "build" / "fuzz"
@@ -338,8 +340,8 @@ def coverage(targets):
         subprocess.run([tools[0], "merge", "-sparse", str(raw), "-o", str(data)], check=True)
         told = subprocess.run([tools[1], "export", "-summary-only", f"-instr-profile={data}", target.program("fuzz-coverage")],
                               check=True, capture_output=True, text=True).stdout
-        summary = {str(pathlib.Path(f["filename"]).relative_to(ROOT)): f["summary"]["lines"]
-                   for f in json.loads(told)["data"][0]["files"] if f["filename"].startswith(str(ROOT))}
+        summary = {os.path.relpath(ROOT / "build" / "fuzz-coverage" / f["filename"], ROOT): f["summary"]["lines"]
+                   for f in json.loads(told)["data"][0]["files"]}
         files = {f: summary[f] for f in target.files if f in summary}
         covered, count = (sum(f[key] for f in files.values()) for key in ("covered", "count"))
         result[target.name] = {"covered": covered, "count": count, "percent": round(100 * covered / max(count, 1), 1),
@@ -361,11 +363,12 @@ def tell_coverage(targets):
 def minimise(targets):
     """The fewest inputs that reach as much; small ones come first."""
     build("fuzz")
+    seeds.make(BUILD / "seeds")
     for target in targets:
         new = target.work / "minimised"
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
-        old = [str(f) for f in (target.corpus, target.work / "corpus") if f.is_dir()]
+        old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
         subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         shutil.rmtree(target.corpus, ignore_errors=True)

@@ -236,10 +236,11 @@ static void zeros_keep_their_sign(void **state) {
 /* "-0" is a whole number too, and a scene has no word for the sign of one. */
 static void whole_numbers_have_one_zero(void **state) {
   (void)state;
+  const double wanted[2] = {0.0, 1.0};
   hooke_options *options;
   check_ok(hooke_part_options_create("rope", &options));
   check_ok(hooke_options_set_text(options, "pinned", "-0,1"));
-  check_same_bits(2, hooke_options_numbers(options, "pinned"), (const double[]){0.0, 1.0});
+  check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
   hooke_options_destroy(options);
 }
 
