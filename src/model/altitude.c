@@ -68,7 +68,8 @@ void hooke_altitude_group_strip(struct hooke_altitude_group *group) {
 int32_t hooke_altitudes_create(const struct hooke_altitude_group *group, int64_t group_count,
                                struct hooke_altitudes *altitudes) {
   memset(altitudes, 0, sizeof *altitudes);
-  for (const struct hooke_altitude_group *g = group; g < group + group_count; g++) {
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_altitude_group *g = &group[n];
     for (int64_t k = 0; k < g->count; k++)
       altitudes->count += acts(&g->tetrahedron[k]);
   }
@@ -77,7 +78,8 @@ int32_t hooke_altitudes_create(const struct hooke_altitude_group *group, int64_t
     memset(altitudes, 0, sizeof *altitudes);
     return HOOKE_NO_MEMORY;
   }
-  for (const struct hooke_altitude_group *g = group; g < group + group_count; g++) {
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_altitude_group *g = &group[n];
     for (int64_t k = 0; k < g->count; k++) {
       if (!acts(&g->tetrahedron[k])) continue;
       altitudes->damped |= g->tetrahedron[k].damping != 0.0;

@@ -84,7 +84,8 @@ static void sort_stretch(struct sorter *sorter, const struct hooke_bending_group
 
 static void sort_groups(struct sorter *sorter, const struct hooke_bending_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
-  for (const struct hooke_bending_group *g = group; g < group + group_count; g++) {
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_bending_group *g = &group[n];
     for (int64_t k = 0; k < g->count;) {
       const int64_t length = stretch_at(g, k, 0);
       sort_stretch(sorter, g, k, k + length);
