@@ -20,6 +20,8 @@ module hooke_trajectories
     procedure :: create => create_trajectory
     procedure :: write => write_frame
     procedure :: write_behind
+    procedure :: sync
+    procedure :: run => run_of_trajectory
     procedure :: close => close_trajectory
     procedure, private :: assign_trajectory
     generic :: assignment(=) => assign_trajectory
@@ -32,6 +34,7 @@ module hooke_trajectories
     procedure :: open => open_record
     procedure :: text
     procedure :: frame_count
+    procedure :: check => check_frame
     procedure :: read => read_frame
     procedure :: numbers
     procedure :: place
@@ -89,6 +92,21 @@ contains
     call accept(c_trajectory_write_behind(self%address()), status)
   end subroutine
 
+  ! Brings all frames to the disk, so that they outlast a power failure.
+  subroutine sync(self, status)
+    class(hooke_trajectory), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_trajectory_sync(self%address()), status)
+  end subroutine
+
+  ! Which run the file is of: 32 hexadecimal digits that no other run has.
+  function run_of_trajectory(self) result(run)
+    class(hooke_trajectory), intent(in) :: self
+    character(:), allocatable :: run
+    run = to_text(c_trajectory_run(self%address()))
+  end function
+
   ! Writes the outcome, the status of hooke_integrator's run(), and closes the file.
   subroutine close_trajectory(self, outcome, status)
     class(hooke_trajectory), intent(inout) :: self
@@ -133,7 +151,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! "scene" or "status"; "" for another word.
+  ! "scene", "status" or "run"; "" for another word.
   function text(self, what)
     class(hooke_record), intent(in) :: self
     character(*), intent(in) :: what
@@ -146,6 +164,16 @@ contains
     frame_count = to_integer(c_record_frame_count(self%address()))
   end function
 
+  ! Refuses a frame whose numbers are not those that were written: 1 is the first, -1 the last.
+  subroutine check_frame(self, frame, status)
+    class(hooke_record), intent(in) :: self
+    integer, intent(in) :: frame
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (is_no_frame(frame, status)) return
+    call accept(c_record_check(self%address(), from_zero(frame)), status)
+  end subroutine
+
   ! Reads a frame into a state of the scene's system: 1 is the first, -1 the last, -2 the one before it.
   subroutine read_frame(self, frame, state, status)
     class(hooke_record), intent(in) :: self
@@ -154,13 +182,22 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     if (state%is_missing(status)) return
-    if (frame == 0) then
-      call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
-      return
-    end if
-    call accept(c_record_read(self%address(), int(merge(frame - 1, frame, frame > 0), c_int64_t), state%address()), &
-      status)
+    if (is_no_frame(frame, status)) return
+    call accept(c_record_read(self%address(), from_zero(frame), state%address()), status)
   end subroutine
+
+  logical function is_no_frame(frame, status)
+    integer, intent(in) :: frame
+    integer, intent(out), optional :: status
+    is_no_frame = frame == 0
+    if (is_no_frame) call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
+  end function
+
+  ! As C counts.
+  pure integer(c_int64_t) function from_zero(frame)
+    integer, intent(in) :: frame
+    from_zero = merge(frame - 1, frame, frame > 0)
+  end function
 
   ! Writes the companion by which ParaView reads it: beside the trajectory, or at `path`.
   subroutine write_xdmf(self, path, status)

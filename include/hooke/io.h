@@ -103,6 +103,13 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
  * HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
+/* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power failure, too. A failure
+ * marks the file bad. HOOKE_IO_FAILED. */
+HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
+
+/* Which run the file is of: 32 hexadecimal digits that no other run has, also in the file. Valid as long as the trajectory. */
+HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
+
 /* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), shortens the file to the frames it has, and releases
  * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
@@ -117,7 +124,8 @@ HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped", "diverged",
- * "step-limit", "solver-failed" or "failed". NULL for another word. */
+ * "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run() says, "" if an earlier version
+ * wrote it. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, as it ran; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
@@ -125,8 +133,13 @@ HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 /* Frames that are there. */
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
 /* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last. HOOKE_BAD_VALUE if there is
- * none, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+ * none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
+
+/* HOOKE_BAD_VALUE for a frame that is damaged: whose numbers are not those that were written, by the check value beside them.
+ * Frames without one, of files that are older than check values are, pass. hooke_record_read() looks, too; arrays that are read
+ * as a whole, and what reads the file by itself, do not. */
+HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 
 /* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies rows x columns
  * numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of docs/trajectory.md, of all

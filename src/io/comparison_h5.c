@@ -15,6 +15,7 @@
 
 #if HOOKE_HAVE_HDF5
 
+#include "io/bytes.h"
 #include "io/file_h5.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
@@ -34,8 +35,15 @@ static const char *const columns[] = {"step",      "rtol",        "atol",       
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 static const char *const series[] = {"error", "energy_drift"};
 
+/* Where the arrays of the table begin in the file. */
+struct table {
+  int64_t reference, method, status, column[COLUMN_COUNT], time, series[2];
+};
+
 struct hooke_comparison_file {
   struct hooke_h5_file file;
+  struct table at;
+  int64_t status_at;
   hooke_comparison *comparison;
   int64_t row_count, frame_count;
   struct hooke_recording *recording; /* the reference, then a row each */
@@ -49,40 +57,41 @@ static const char *method_of(const hooke_comparison_file *file, int64_t row) {
   return method ? method : "";
 }
 
-static herr_t write_text(hid_t table, const char *name, int64_t row, const char *text) {
-  hid_t data = H5Dopen2(table, name, H5P_DEFAULT);
-  herr_t result = data < 0 ? -1 : hooke_h5_write_text(data, row, text ? text : "");
+/* Where it begins; takes the dataset over. */
+static herr_t find(hid_t data, int64_t *at) {
+  const haddr_t first = data < 0 ? HADDR_UNDEF : H5Dget_offset(data);
   hooke_h5_drop(data);
+  *at = (int64_t)first;
+  return first == HADDR_UNDEF ? -1 : 0;
+}
+
+/* Numbers have the machine's order of bytes, since they are written as bytes. */
+static hid_t new_numbers(hid_t where, const char *name, int rank, const hsize_t *size) {
+  const double none = NAN;
+  return hooke_h5_array(where, name, H5T_NATIVE_DOUBLE, rank, size, &none);
+}
+
+static herr_t make_series(hooke_comparison_file *file, hid_t table) {
+  const hsize_t frames = (hsize_t)file->frame_count, both[2] = {(hsize_t)file->row_count, frames};
+  hid_t group = H5Gcreate2(table, "series", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  herr_t result = group < 0 ? -1 : find(new_numbers(group, "time", 1, &frames), &file->at.time);
+  for (int k = 0; result >= 0 && k < 2; k++)
+    result = find(new_numbers(group, series[k], 2, both), &file->at.series[k]);
+  hooke_h5_drop(group);
   return result;
 }
 
-static herr_t make_table(const hooke_comparison_file *file) {
-  const double none = NAN;
-  const hsize_t rows = (hsize_t)file->row_count, frames = (hsize_t)file->frame_count,
-                both[2] = {rows, frames};
+static herr_t make_table(hooke_comparison_file *file) {
+  const hsize_t rows = (hsize_t)file->row_count;
+  struct table *at = &file->at;
   hid_t table = H5Gcreate2(file->file.id, "comparison", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  hid_t group = table < 0 ? -1 : H5Gcreate2(table, "series", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  hid_t made[COLUMN_COUNT + 6];
-  int count = 0;
-  if (group >= 0) {
-    made[count++] = hooke_h5_texts(table, "reference", -1, TEXT_LENGTH);
-    made[count++] = hooke_h5_texts(table, "method", file->row_count, TEXT_LENGTH);
-    made[count++] = hooke_h5_texts(table, "status", file->row_count, TEXT_LENGTH);
-    for (int k = 0; k < COLUMN_COUNT; k++) {
-      made[count++] = hooke_h5_array(table, columns[k], H5T_IEEE_F64LE, 1, &rows, &none);
-    }
-    made[count++] = hooke_h5_array(group, "time", H5T_IEEE_F64LE, 1, &frames, &none);
-    for (int k = 0; k < 2; k++)
-      made[count++] = hooke_h5_array(group, series[k], H5T_IEEE_F64LE, 2, both, &none);
-  }
-  herr_t result = count == 0 ? -1 : 0;
-  for (int k = 0; k < count; k++) {
-    if (made[k] < 0) result = -1;
-    hooke_h5_drop(made[k]);
-  }
-  for (int64_t k = 0; result >= 0 && k < file->row_count; k++)
-    result = write_text(table, "method", k, method_of(file, k));
-  hooke_h5_drop(group);
+  if (table < 0) return -1;
+  herr_t result = find(hooke_h5_texts(table, "reference", -1, TEXT_LENGTH), &at->reference);
+  if (result >= 0) result = find(hooke_h5_texts(table, "method", file->row_count, TEXT_LENGTH), &at->method);
+  if (result >= 0) result = find(hooke_h5_texts(table, "status", file->row_count, TEXT_LENGTH), &at->status);
+  for (int k = 0; result >= 0 && k < COLUMN_COUNT; k++)
+    result = find(new_numbers(table, columns[k], 1, &rows), &at->column[k]);
+  if (result >= 0) result = make_series(file, table);
   hooke_h5_drop(table);
   return result;
 }
@@ -96,6 +105,13 @@ static herr_t make_recordings(hooke_comparison_file *file, const hooke_system *s
   return result;
 }
 
+/* Text number `k` of an array of texts. */
+static int write_text(const hooke_comparison_file *file, int64_t at, int64_t k, const char *text) {
+  char padded[TEXT_LENGTH] = {0};
+  if (text) memcpy(padded, text, strnlen(text, TEXT_LENGTH));
+  return hooke_bytes_write(file->file.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
+}
+
 static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
                     const char *scene_text, hooke_comparison_file *file) {
   const double runs = (double)(file->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
@@ -107,13 +123,19 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   if (result >= 0) result = make_recordings(file, system);
   if (result >= 0) result = hooke_h5md_connect(file->file.id, system, "all");
   if (result >= 0) result = make_table(file);
+  if (result >= 0) result = hooke_h5md_find_status(file->file.id, &file->status_at);
   if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");
-  return hooke_h5_file_publish(guard, &file->file);
+  status = hooke_h5_file_settle(guard, &file->file);
+  for (int64_t k = 0; k <= file->row_count; k++)
+    file->recording[k].file.descriptor = file->file.descriptor;
+  int error = 0;
+  for (int64_t k = 0; status == HOOKE_OK && error == 0 && k < file->row_count; k++)
+    error = write_text(file, file->at.method, k, method_of(file, k));
+  if (error) return hooke_place_fail(path, "write the names of the methods", error);
+  return status == HOOKE_OK ? hooke_h5_file_publish(&file->file) : status;
 }
 
 static void release(hooke_comparison_file *file) {
-  for (int64_t k = 0; file->recording && k <= file->row_count; k++)
-    hooke_recording_release(&file->recording[k]);
   hooke_h5_file_release(&file->file);
   hooke_free(file->recording);
   hooke_free(file);
@@ -121,7 +143,7 @@ static void release(hooke_comparison_file *file) {
 
 /* ---- frames ---- */
 
-static struct hooke_recording *find(hooke_comparison_file *file, const char *run) {
+static struct hooke_recording *find_run(hooke_comparison_file *file, const char *run) {
   if (strcmp(run, "reference") == 0) return &file->recording[0];
   for (int64_t k = 1; k <= file->row_count; k++) {
     if (strcmp(file->recording[k].group, run) == 0) return &file->recording[k];
@@ -133,7 +155,7 @@ static struct hooke_recording *find(hooke_comparison_file *file, const char *run
 static int32_t write_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                            void *ctx) {
   hooke_comparison_file *file = ctx;
-  struct hooke_recording *recording = find(file, run);
+  struct hooke_recording *recording = find_run(file, run);
   if (file->failure[0] || recording == NULL || recording->written == recording->frame_count) {
     if (file->failure[0] == '\0') {
       snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.path,
@@ -158,14 +180,11 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
   if (status != HOOKE_OK) return status;
   hooke_comparison_file *made = hooke_new(1, sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  made->file.id = -1;
+  made->file.id = made->file.descriptor = -1;
   made->comparison = comparison;
   made->row_count = hooke_comparison_row_count(comparison);
   made->frame_count = hooke_comparison_frame_count(comparison);
   made->recording = hooke_new(made->row_count + 1, sizeof *made->recording);
-  for (int64_t k = 0; made->recording && k <= made->row_count; k++)
-    hooke_recording_clear(&made->recording[k]);
-
   struct hooke_h5_guard guard;
   hooke_h5_guard_begin(&guard);
   status = made->recording ? fill(&guard, path, system, scene_text, made) : HOOKE_NO_MEMORY;
@@ -181,52 +200,39 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
 
 /* ---- the table ---- */
 
-/* Writes `count` numbers of an array of the table: from `first` on (rank 1), or in row `first` (rank 2). */
-static herr_t write_numbers(hid_t table, const char *name, int rank, int64_t first, int64_t count,
-                            const double *value) {
-  const hsize_t line = (hsize_t)count;
-  const hsize_t begin[2] = {(hsize_t)first, 0}, size[2] = {rank == 1 ? line : 1, line};
-  hid_t data = H5Dopen2(table, name, H5P_DEFAULT);
-  hid_t there = data < 0 ? -1 : H5Dget_space(data), here = H5Screate_simple(1, &line, NULL);
-  herr_t result = there < 0 || here < 0 ? -1 : 0;
-  if (result >= 0) result = H5Sselect_hyperslab(there, H5S_SELECT_SET, begin, NULL, size, NULL);
-  if (result >= 0) result = H5Dwrite(data, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, value);
-  hooke_h5_drop(here);
-  hooke_h5_drop(there);
-  hooke_h5_drop(data);
-  return result;
+/* Numbers of an array of the table, from number `first` on. */
+static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
+                         const double *value) {
+  const int64_t size = (int64_t)sizeof *value;
+  return hooke_bytes_write(file->file.descriptor, at + size * first, size * count, value);
 }
 
-static herr_t write_table_row(const hooke_comparison_file *file, hid_t table, int64_t row) {
+static int write_table_row(const hooke_comparison_file *file, int64_t row) {
   const hooke_comparison *comparison = file->comparison;
-  herr_t result = write_text(table, "method", row, method_of(file, row));
-  if (result >= 0)
-    result = write_text(table, "status", row, hooke_comparison_text(comparison, row, "status"));
-  for (int k = 0; result >= 0 && k < COLUMN_COUNT; k++) {
+  int error = write_text(file, file->at.method, row, method_of(file, row));
+  if (error == 0)
+    error = write_text(file, file->at.status, row, hooke_comparison_text(comparison, row, "status"));
+  for (int k = 0; error == 0 && k < COLUMN_COUNT; k++) {
     const double number = hooke_comparison_number(comparison, row, columns[k]);
-    result = write_numbers(table, columns[k], 1, row, 1, &number);
+    error = write_numbers(file, file->at.column[k], row, 1, &number);
   }
-  if (file->recording[row + 1].written == 0) return result; /* it has not run: no series */
-  for (int k = 0; result >= 0 && k < 2; k++) {
+  if (file->recording[row + 1].written == 0) return error; /* it has not run: no series */
+  for (int k = 0; error == 0 && k < 2; k++) {
     const double *value = hooke_comparison_series(comparison, row, series[k]);
-    char name[32];
-    snprintf(name, sizeof name, "series/%s", series[k]);
-    if (value) result = write_numbers(table, name, 2, row, file->frame_count, value);
+    if (value)
+      error = write_numbers(file, file->at.series[k], row * file->frame_count, file->frame_count, value);
   }
-  return result;
+  return error;
 }
 
-static herr_t write_table(const hooke_comparison_file *file) {
-  hid_t table = H5Gopen2(file->file.id, "comparison", H5P_DEFAULT);
-  herr_t result = table < 0 ? -1 : 0;
-  if (result >= 0) result = write_text(table, "reference", 0, hooke_comparison_reference(file->comparison));
+static int write_table(const hooke_comparison_file *file) {
   const double *time = hooke_comparison_series(file->comparison, 0, "time");
   const int64_t frames = file->recording[0].written;
-  if (result >= 0 && frames > 0) result = write_numbers(table, "series/time", 1, 0, frames, time);
-  for (int64_t k = 0; result >= 0 && k < file->row_count; k++)
-    result = write_table_row(file, table, k);
-  hooke_h5_drop(table);
-  return result;
+  int error = write_text(file, file->at.reference, 0, hooke_comparison_reference(file->comparison));
+  if (error == 0 && frames > 0) error = write_numbers(file, file->at.time, 0, frames, time);
+  for (int64_t k = 0; error == 0 && k < file->row_count; k++)
+    error = write_table_row(file, k);
+  return error;
 }
 
 /* ---- closing ---- */
@@ -248,50 +254,77 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
   return HOOKE_OK;
 }
 
+/* The same file with room for exactly the frames that there are, and all that does not change with them. */
+static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
+                           struct hooke_recording *recording) {
+  herr_t result = hooke_h5md_copy(old, shorter);
+  for (int64_t k = 0; result >= 0 && k <= file->row_count; k++)
+    result =
+        hooke_recording_copy(&file->recording[k], old, shorter, file->recording[k].written, &recording[k]);
+  if (result >= 0) result = hooke_h5md_refer(shorter, "all");
+  return result < 0 ? result : H5Ocopy(old, "comparison", shorter, "comparison", H5P_DEFAULT, H5P_DEFAULT);
+}
+
+static int copy_frames(const hooke_comparison_file *file, int descriptor, struct hooke_recording *recording) {
+  int error = 0;
+  for (int64_t k = 0; error == 0 && k <= file->row_count; k++) {
+    recording[k].file.descriptor = descriptor;
+    error = hooke_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
+  }
+  return error;
+}
+
 /* A new file in which every run has exactly its frames takes the place of ours. */
-static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file) {
+static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file,
+                       struct hooke_recording *recording) {
+  const char *what = "shorten the file to the frames it has";
   struct hooke_h5_file shorter;
+  hid_t old;
   double bytes = hooke_h5_file_bytes(&file->file);
   for (int64_t k = 0; k <= file->row_count; k++)
-    bytes -= hooke_recording_unused_bytes(&file->recording[k]);
-  int32_t status = hooke_h5_file_create(guard, file->file.path, bytes, &shorter);
-  herr_t result = 0;
-  for (int64_t k = 0; status == HOOKE_OK && result >= 0 && k <= file->row_count; k++) {
-    struct hooke_recording recording;
-    result = hooke_recording_copy(&file->recording[k], shorter.id, &recording);
-    hooke_recording_release(&recording);
-  }
-  if (status == HOOKE_OK) {
-    if (result >= 0) result = hooke_h5md_copy(file->file.id, shorter.id, "all");
-    if (result >= 0) {
-      result = H5Ocopy(file->file.id, "comparison", shorter.id, "comparison", H5P_DEFAULT, H5P_DEFAULT);
-    }
-    if (result < 0) status = hooke_h5_fail(guard, file->file.path, "shorten the file to the frames it has");
-  }
-  if (status == HOOKE_OK) status = hooke_h5_file_finish(guard, &shorter);
+    bytes -= hooke_recording_bytes_after(&file->recording[k], file->recording[k].written);
+  int32_t status = hooke_h5_file_open(guard, &file->file, &old);
+  if (status != HOOKE_OK) return status;
+  status = hooke_h5_file_create(guard, file->file.path, bytes, &shorter);
+  if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording) < 0)
+    status = hooke_h5_fail(guard, file->file.path, what);
+  H5Fclose(old);
+  if (status == HOOKE_OK) status = hooke_h5_file_settle(guard, &shorter);
+  const int error = status == HOOKE_OK ? copy_frames(file, shorter.descriptor, recording) : 0;
+  if (error) status = hooke_place_fail(file->file.path, what, error);
+  if (status == HOOKE_OK) status = hooke_h5_file_publish(&shorter);
+  if (status == HOOKE_OK) status = hooke_h5_file_close(&shorter);
   hooke_h5_file_release(&shorter);
   return status;
 }
 
-static int32_t finish(struct hooke_h5_guard *guard, hooke_comparison_file *file) {
-  if (file->failure[0]) return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
-  if (write_table(file) < 0 || hooke_h5md_write_status(file->file.id, outcome_of(file)) < 0) {
-    return hooke_h5_fail(guard, file->file.path, "write the table of the comparison");
+static int32_t shorten(const hooke_comparison_file *file) {
+  struct hooke_recording *recording = hooke_new(file->row_count + 1, sizeof *recording);
+  if (recording == NULL) return HOOKE_NO_MEMORY;
+  struct hooke_h5_guard guard;
+  hooke_h5_guard_begin(&guard);
+  const int32_t status = rewrite(&guard, file, recording);
+  hooke_h5_guard_end(&guard);
+  hooke_free(recording);
+  return status;
+}
+
+static int32_t finish(hooke_comparison_file *file) {
+  if (file->failure[0]) {
+    hooke_h5md_write_status(file->file.descriptor, file->status_at, HOOKE_IO_FAILED);
+    return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
   }
-  if (is_short(file)) return rewrite(guard, file);
-  for (int64_t k = 0; k <= file->row_count; k++)
-    hooke_recording_release(&file->recording[k]);
-  return hooke_h5_file_finish(guard, &file->file);
+  int error = write_table(file);
+  if (error == 0) error = hooke_h5md_write_status(file->file.descriptor, file->status_at, outcome_of(file));
+  if (error) return hooke_place_fail(file->file.path, "write the table of the comparison", error);
+  return is_short(file) ? shorten(file) : hooke_h5_file_close(&file->file);
 }
 
 int32_t hooke_comparison_file_close(hooke_comparison_file *file) {
   if (file == NULL) return HOOKE_OK;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
   hooke_comparison_on_frame(file->comparison, NULL, NULL);
-  int32_t status = finish(&guard, file);
+  const int32_t status = finish(file);
   release(file);
-  hooke_h5_guard_end(&guard);
   return status;
 }
 

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- errors ---- */
@@ -73,7 +74,7 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 static hid_t access_list(void) {
   hid_t list = H5Pcreate(H5P_FILE_ACCESS);
   if (list < 0) return list;
-  if (H5Pset_sieve_buf_size(list, 0) < 0 || H5Pset_alignment(list, 1, 8) < 0 ||
+  if (H5Pset_sieve_buf_size(list, 0) < 0 || H5Pset_alignment(list, 1, 16) < 0 ||
       H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) < 0) {
     H5Pclose(list);
     return -1;
@@ -98,7 +99,7 @@ static int32_t try_room(const char *path, const char *temporary, double bytes) {
 
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file) {
-  *file = (struct hooke_h5_file){.id = -1};
+  *file = (struct hooke_h5_file){.id = -1, .descriptor = -1};
   int32_t status = hooke_place_find(path, &file->path, &file->temporary);
   if (status != HOOKE_OK) return status;
   status = try_room(path, file->temporary, bytes);
@@ -110,32 +111,63 @@ int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, dou
   return status;
 }
 
-double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
-  hsize_t bytes = 0;
-  return H5Fget_filesize(file->id, &bytes) < 0 ? 0.0 : (double)bytes;
-}
-
 /* Room on the disk for all of it, and not only in the numbering of its bytes. */
 static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_file *file) {
   void *handle = NULL;
-  if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, &handle) < 0) return hooke_h5_fail(guard, file->path, "write");
-  const int error = posix_fallocate(*(const int *)handle, 0, (off_t)hooke_h5_file_bytes(file));
+  hsize_t bytes = 0;
+  if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, &handle) < 0 || H5Fget_filesize(file->id, &bytes) < 0)
+    return hooke_h5_fail(guard, file->path, "write");
+  const int error = posix_fallocate(*(const int *)handle, 0, (off_t)bytes);
   if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
   return hooke_place_fail(file->path, "make room for all frames", error);
 }
 
-int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   const int32_t status = take_room(guard, file);
   if (status != HOOKE_OK) return status;
   if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
+  if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
+  file->id = -1;
+  file->descriptor = open(file->temporary, O_RDWR | O_CLOEXEC);
+  return file->descriptor < 0 ? hooke_place_fail(file->path, "open the file again", errno) : HOOKE_OK;
+}
+
+int32_t hooke_h5_file_publish(struct hooke_h5_file *file) {
   return hooke_place_take(file->path, &file->temporary);
+}
+
+int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
+  int32_t status = hooke_place_is(file->path, file->descriptor);
+  if (status == HOOKE_OK && fsync(file->descriptor) != 0)
+    status = hooke_place_fail(file->path, "bring the data to the disk", errno);
+  if (close(file->descriptor) != 0 && status == HOOKE_OK)
+    status = hooke_place_fail(file->path, "close the file", errno);
+  file->descriptor = -1;
+  return status;
 }
 
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
   file->id = -1;
-  if (file->temporary) return hooke_place_take(file->path, &file->temporary);
-  return hooke_place_sync(file->path);
+  return hooke_place_take(file->path, &file->temporary);
+}
+
+int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {
+  void *handle = NULL;
+  *id = H5Fopen(file->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (*id < 0) return hooke_h5_fail(guard, file->path, "open the file as HDF5");
+  int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
+                       ? hooke_h5_fail(guard, file->path, "open the file as HDF5")
+                       : hooke_place_same(file->path, *(const int *)handle, file->descriptor);
+  if (status == HOOKE_OK) return status;
+  H5Fclose(*id);
+  *id = -1;
+  return status;
+}
+
+double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
+  struct stat now;
+  return fstat(file->descriptor, &now) == 0 ? (double)now.st_size : 0.0;
 }
 
 void hooke_h5_file_release(struct hooke_h5_file *file) {
@@ -145,10 +177,11 @@ void hooke_h5_file_release(struct hooke_h5_file *file) {
     (void)ignored;
   }
   if (file->id >= 0) H5Fclose(file->id);
+  if (file->descriptor >= 0) close(file->descriptor);
   if (file->temporary) unlink(file->temporary);
   hooke_free(file->temporary);
   hooke_free(file->path);
-  *file = (struct hooke_h5_file){.id = -1};
+  *file = (struct hooke_h5_file){.id = -1, .descriptor = -1};
 }
 
 #endif

@@ -22,24 +22,37 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 
 struct hooke_h5_file {
   hid_t id;
+  int descriptor;  /* ours, once HDF5 is done with the file; -1: none */
   char *path;      /* where it is going to be; links followed */
   char *temporary; /* where it is until then; NULL once published */
 };
 
 /* Creates a file that is going to have up to `bytes` under a temporary name beside `path`: default format, no
- * raw data held back in memory, everything aligned to 8 bytes so that no number lies across two pages.
+ * raw data held back in memory, everything aligned to 16 bytes so that no number lies across two pages.
  * HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hooke_h5_file_release() has to follow in any case. */
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file);
 
-/* Bytes that it has now. */
-double hooke_h5_file_bytes(const struct hooke_h5_file *file);
+/* Gives it room on the disk for all of it and closes it for HDF5, whose locks go with that; from here on there is the
+ * descriptor, by which bytes in it may be written. It is opened by name: a lock belongs to what a call of open() made, and
+ * so to its copies. HOOKE_IO_FAILED. */
+int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
 
-/* Brings everything to the disk and takes the place of an older file; ours stays open. */
-int32_t hooke_h5_file_publish(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
+/* Brings everything to the disk and takes the place of an older file; the descriptor stays. HOOKE_IO_FAILED. */
+int32_t hooke_h5_file_publish(struct hooke_h5_file *file);
 
-/* Brings everything to the disk and closes. HOOKE_IO_FAILED leaves the file open. */
+/* Brings everything to the disk, and closes. HOOKE_IO_FAILED, also if another file has taken the name meanwhile. */
+int32_t hooke_h5_file_close(struct hooke_h5_file *file);
+
+/* Closes for HDF5, brings everything to the disk and takes the place of an older file. HOOKE_IO_FAILED leaves it open. */
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
+
+/* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name meanwhile. The
+ * caller closes everything that it opens in it. */
+int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id);
+
+/* Bytes that it has now, by its descriptor. */
+double hooke_h5_file_bytes(const struct hooke_h5_file *file);
 
 /* Closes whatever is still open, removes a file that was not published, and releases the names. */
 void hooke_h5_file_release(struct hooke_h5_file *file);

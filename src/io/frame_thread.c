@@ -80,6 +80,13 @@ int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, co
   return error;
 }
 
+int hooke_frame_thread_wait(struct hooke_frame_thread *thread) {
+  wait_for_frame(thread);
+  const int error = thread->error;
+  pthread_mutex_unlock(&thread->mutex);
+  return error;
+}
+
 int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written) {
   wait_for_frame(thread);
   thread->ending = 1;

@@ -12,6 +12,9 @@ struct hooke_frame_thread *hooke_frame_thread_create(const struct hooke_frame_fi
 /* Hands the next frame over. The system's error of one before it, after which none is taken. */
 int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, const hooke_state *state);
 
+/* Waits for the frame on its way; the system's error, as above. */
+int hooke_frame_thread_wait(struct hooke_frame_thread *thread);
+
 /* Waits for the last frame and ends the thread: how many frames are there in all, and the error, if there was one. */
 int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written);
 

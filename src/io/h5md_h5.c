@@ -1,14 +1,19 @@
 /* The parts of an H5MD file that do not change with time. */
 #include "core/memory.h"
+#include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
 
+#include "io/bytes.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/random.h>
 
-enum { STATUS_LENGTH = 16 };
+enum { STATUS_LENGTH = 16 }; /* less than a page, and on a multiple of it: never torn */
 
 static const char units[] =
     "SI: position m, velocity m/s, time s, mass kg, energy J, power W, momentum kg m/s, "
@@ -76,8 +81,25 @@ herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *
   return result;
 }
 
+int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
+  unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
+  if (getentropy(random, sizeof random) != 0)
+    return hooke_fail(HOOKE_IO_FAILED, NULL, "the system has no random number for a run: %s",
+                      strerror(errno));
+  for (size_t k = 0; k < sizeof random; k++)
+    snprintf(run + 2 * k, 3, "%02x", random[k]);
+  return HOOKE_OK;
+}
+
+herr_t hooke_h5md_write_run(hid_t file, const char *run) {
+  hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
+  herr_t result = group < 0 ? -1 : hooke_h5_text_attribute(group, "run", run);
+  hooke_h5_drop(group);
+  return result;
+}
+
 /* Says which particles the numbers of the springs mean. */
-static herr_t refer(hid_t file, const char *group) {
+herr_t hooke_h5md_refer(hid_t file, const char *group) {
   hobj_ref_t reference;
   hid_t particles = H5Gopen2(file, "particles", H5P_DEFAULT);
   hid_t springs = H5Dopen2(file, "connectivity/springs", H5P_DEFAULT);
@@ -117,21 +139,20 @@ herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *gr
   herr_t result = connectivity < 0 || hooke_system_spring_ends(system, ends) != HOOKE_OK ? -1 : 0;
   if (result >= 0)
     result = hooke_h5_array_of(connectivity, "springs", H5T_STD_I32LE, H5T_NATIVE_INT64, 2, size, ends);
-  if (result >= 0) result = refer(file, group);
+  if (result >= 0) result = hooke_h5md_refer(file, group);
   hooke_h5_drop(connectivity);
   hooke_free(ends);
   return result < 0 ? result : write_rest_lengths(file, system);
 }
 
-herr_t hooke_h5md_copy(hid_t from, hid_t to, const char *group) {
+herr_t hooke_h5md_copy(hid_t from, hid_t to) {
   const char *const names[] = {"h5md", "hooke", "connectivity"};
   herr_t result = 0;
   for (int k = 0; result >= 0 && k < 3; k++) {
     result = H5Ocopy(from, names[k], to, names[k], H5P_DEFAULT, H5P_DEFAULT);
   }
   /* a reference does not survive a copy to another file */
-  if (result >= 0) result = H5Adelete_by_name(to, "connectivity/springs", "particles_group", H5P_DEFAULT);
-  return result < 0 ? result : refer(to, group);
+  return result < 0 ? result : H5Adelete_by_name(to, "connectivity/springs", "particles_group", H5P_DEFAULT);
 }
 
 static const char *outcome_word(int32_t outcome) {
@@ -146,12 +167,29 @@ static const char *outcome_word(int32_t outcome) {
     return "step-limit";
   case HOOKE_SOLVER_FAILED:
     return "solver-failed";
+  case HOOKE_H5MD_RUNNING:
+    return "running";
   default:
     return "failed";
   }
 }
 
-herr_t hooke_h5md_write_status(hid_t file, int32_t outcome) {
+herr_t hooke_h5md_find_status(hid_t file, int64_t *at) {
+  hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
+  const haddr_t first = dataset < 0 ? HADDR_UNDEF : H5Dget_offset(dataset);
+  const int fits = first != HADDR_UNDEF && H5Dget_storage_size(dataset) == STATUS_LENGTH;
+  hooke_h5_drop(dataset);
+  *at = fits ? (int64_t)first : -1;
+  return fits ? 0 : -1;
+}
+
+int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
+  char word[STATUS_LENGTH] = {0};
+  snprintf(word, sizeof word, "%s", outcome_word(outcome));
+  return hooke_bytes_write(descriptor, at, sizeof word, word);
+}
+
+herr_t hooke_h5md_set_status(hid_t file, int32_t outcome) {
   hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
   herr_t result = dataset < 0 ? -1 : hooke_h5_write_text(dataset, 0, outcome_word(outcome));
   hooke_h5_drop(dataset);

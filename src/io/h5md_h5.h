@@ -1,7 +1,8 @@
 /* What an H5MD file says of itself, and the springs. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
- *   /hooke                   attributes version, abi, units, method; `scene`: the text of the scene;
+ *   /hooke                   attributes version, abi, units, method, of a single run `run`, which no other run has;
+ * `scene`: the text of the scene;
  * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
  *   /hooke/rest_length       [springs]
  *   /particles/<group>       frames (recording_h5.h)
@@ -28,10 +29,23 @@ herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options);
 /* /connectivity/springs and /hooke/rest_length; the particles group has to be there. */
 herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
-/* Copies both to another file, in which the particles group has to be there. */
-herr_t hooke_h5md_copy(hid_t from, hid_t to, const char *group);
+/* The attribute `run` of /hooke: 32 random hexadecimal digits, and their end. */
+enum { HOOKE_RUN_SIZE = 33 };
+int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]);
+herr_t hooke_h5md_write_run(hid_t file, const char *run);
 
-/* Writes /hooke/status: a word for a status of hooke_integrator_run(). */
-herr_t hooke_h5md_write_status(hid_t file, int32_t outcome);
+/* Copies everything but particles and observables to another file; hooke_h5md_refer() has to follow when the particles
+ * group is there. */
+herr_t hooke_h5md_copy(hid_t from, hid_t to);
+herr_t hooke_h5md_refer(hid_t file, const char *group);
+
+/* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a
+ * status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's error. */
+enum { HOOKE_H5MD_RUNNING = 1000 };
+herr_t hooke_h5md_find_status(hid_t file, int64_t *at);
+int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
+
+/* The same while HDF5 has the file. */
+herr_t hooke_h5md_set_status(hid_t file, int32_t outcome);
 
 #endif

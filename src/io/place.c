@@ -62,9 +62,24 @@ static int sync_path(const char *path, int flags) {
   return result;
 }
 
-int32_t hooke_place_sync(const char *path) {
-  return sync_path(path, O_RDONLY) == 0 ? HOOKE_OK
-                                        : hooke_place_fail(path, "bring the data to the disk", errno);
+static int32_t compare(const char *path, const struct stat *there, int descriptor) {
+  struct stat ours;
+  if (fstat(descriptor, &ours) != 0) return hooke_place_fail(path, "look at the file", errno);
+  if (there->st_dev == ours.st_dev && there->st_ino == ours.st_ino) return HOOKE_OK;
+  return hooke_fail(HOOKE_IO_FAILED, NULL,
+                    "%s: another file has taken this name since it was written; it is left as it is", path);
+}
+
+int32_t hooke_place_same(const char *path, int descriptor, int other) {
+  struct stat there;
+  if (fstat(descriptor, &there) != 0) return hooke_place_fail(path, "look at the file", errno);
+  return compare(path, &there, other);
+}
+
+int32_t hooke_place_is(const char *path, int descriptor) {
+  struct stat there;
+  if (stat(path, &there) != 0) return hooke_place_fail(path, "find the file that was written", errno);
+  return compare(path, &there, descriptor);
 }
 
 /* The names of a folder's files are data of the folder. */

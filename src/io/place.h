@@ -19,7 +19,9 @@ int32_t hooke_place_take(const char *place, char **temporary);
 /* Writes a whole file, which takes its place when it is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hooke_place_write(const char *path, const char *bytes, int64_t length);
 
-/* Brings the data of a file to the disk. HOOKE_IO_FAILED. */
-int32_t hooke_place_sync(const char *path);
+/* Two descriptors of one file, or a name and a descriptor. HOOKE_IO_FAILED if another file has taken the name meanwhile, or
+ * none has it any more: what is written by the descriptor is then lost. */
+int32_t hooke_place_same(const char *path, int descriptor, int other);
+int32_t hooke_place_is(const char *path, int descriptor);
 
 #endif

@@ -8,7 +8,8 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/array_h5.h"
-#include "io/file_h5.h"
+#include "io/dataset_h5.h"
+#include "io/frame_check_h5.h"
 #include "io/object_h5.h"
 #include "io/record_h5.h"
 
@@ -44,17 +45,42 @@ static char *read_text(hid_t file, const char *name) {
   return text;
 }
 
-static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
+/* Of variable length; NULL if it cannot be read, else for H5free_memory(). */
+static char *attribute_text(hid_t attribute) {
   char *word = NULL;
   hid_t memory = H5Tcopy(H5T_C_S1);
-  int32_t status = HOOKE_OK;
   if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
-      H5Aread(attribute, memory, &word) >= 0 && word) {
-    status = hooke_options_set_text(options, name, word);
-  }
-  if (word) H5free_memory(word);
+      H5Aread(attribute, memory, &word) < 0)
+    word = NULL;
   hooke_h5_drop(memory);
+  return word;
+}
+
+static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
+  char *word = attribute_text(attribute);
+  const int32_t status = word ? hooke_options_set_text(options, name, word) : HOOKE_OK;
+  if (word) H5free_memory(word);
   return status;
+}
+
+static int is_text(hid_t attribute) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const int fits = type >= 0 && space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return fits;
+}
+
+/* A text attribute of /hooke; "" if there is none. NULL without memory. */
+static char *read_attribute(hid_t file, const char *name) {
+  const int there = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", name, H5P_DEFAULT) > 0;
+  hid_t attribute = there ? H5Aopen_by_name(file, "hooke", name, H5P_DEFAULT, H5P_DEFAULT) : -1;
+  char *word = attribute >= 0 && is_text(attribute) ? attribute_text(attribute) : NULL;
+  char *text = hooke_copy_text(word ? word : "");
+  if (word) H5free_memory(word);
+  hooke_h5_drop(attribute);
+  return text;
 }
 
 static int32_t read_option(hid_t attribute, hooke_options *options, const char *name) {
@@ -102,8 +128,9 @@ static int32_t read_hooke(struct hooke_record *record) {
   if (status == HOOKE_OK) {
     record->scene = read_text(file, "hooke/scene");
     record->status = read_text(file, "hooke/status");
+    record->run = read_attribute(file, "run");
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
-    status = read_options(file, record->options);
+    status = record->run ? read_options(file, record->options) : HOOKE_NO_MEMORY;
     hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);
@@ -145,6 +172,7 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->path);
   hooke_free(record->scene);
   hooke_free(record->status);
+  hooke_free(record->run);
   hooke_free(record->time);
   hooke_free(record->kept.value);
   hooke_free(record);
@@ -152,6 +180,7 @@ void hooke_record_close(hooke_record *record) {
 
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
+  if (strcmp(what, "run") == 0) return record->run;
   return strcmp(what, "status") == 0 ? record->status : NULL;
 }
 
@@ -171,11 +200,37 @@ int64_t hooke_record_frame_count(const hooke_record *record) {
   return record->frame_count;
 }
 
+static const char position[] = "/particles/all/position/value", velocity[] = "/particles/all/velocity/value";
+
+static int32_t find_frame(const hooke_record *record, int64_t frame, int64_t *at) {
+  *at = frame < 0 ? record->frame_count + frame : frame;
+  if (*at >= 0 && *at < record->frame_count) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
+                    record->path, (long long)record->frame_count);
+}
+
+int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
+  int64_t at;
+  int32_t status = find_frame(record, frame, &at);
+  if (status != HOOKE_OK) return status;
+  struct hooke_h5_guard guard;
+  hid_t file;
+  hooke_h5_guard_begin(&guard);
+  status = hooke_dataset_file(&guard, record->path, &file);
+  if (status == HOOKE_OK) status = hooke_frame_check(&guard, file, record->path, position, at, NULL);
+  if (file >= 0) H5Fclose(file);
+  hooke_h5_guard_end(&guard);
+  return status;
+}
+
+/* The first of a frame's arrays to be read is where the frame is checked. */
 static int32_t read_rows(const struct hooke_record *record, const char *dataset, int64_t frame, int64_t size,
                          double *to) {
   double *values = NULL;
   int64_t rows = 0, columns = 0;
-  int32_t status = hooke_array_read(record->path, dataset, frame, 1, &values, &rows, &columns);
+  int32_t status = dataset == position
+                       ? hooke_array_read(record->path, dataset, frame, 1, &values, &rows, &columns)
+                       : hooke_array_read_checked(record->path, dataset, frame, &values, &rows, &columns);
   if (status == HOOKE_OK && rows * columns != size) {
     status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
                         record->path, dataset, (long long)(rows * columns), (long long)size);
@@ -186,14 +241,12 @@ static int32_t read_rows(const struct hooke_record *record, const char *dataset,
 }
 
 int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
-  const int64_t at = frame < 0 ? record->frame_count + frame : frame, size = hooke_state_size(state);
-  if (at < 0 || at >= record->frame_count) {
-    return hooke_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
-                      record->path, (long long)record->frame_count);
-  }
-  int32_t status = read_rows(record, "/particles/all/position/value", at, size, hooke_state_position(state));
+  int64_t at;
+  const int64_t size = hooke_state_size(state);
+  int32_t status = find_frame(record, frame, &at);
+  if (status == HOOKE_OK) status = read_rows(record, position, at, size, hooke_state_position(state));
   if (status == HOOKE_OK && hooke_state_velocity(state))
-    status = read_rows(record, "/particles/all/velocity/value", at, size, hooke_state_velocity(state));
+    status = read_rows(record, velocity, at, size, hooke_state_velocity(state));
   if (status == HOOKE_OK) hooke_state_set_time(state, record->time[at]);
   return status;
 }
@@ -235,6 +288,12 @@ const hooke_options *hooke_record_options(const hooke_record *record) {
 int64_t hooke_record_frame_count(const hooke_record *record) {
   (void)record;
   return 0;
+}
+
+int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
+  (void)record, (void)frame;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "reading trajectories needs HDF5, which this build of the library is without");
 }
 
 int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {

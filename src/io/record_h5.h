@@ -9,7 +9,7 @@
 enum hooke_record_place { HOOKE_PLACE_POSITION, HOOKE_PLACE_VELOCITY, HOOKE_PLACE_COUNT };
 
 struct hooke_record {
-  char *path, *scene, *status;
+  char *path, *scene, *status, *run;
   hooke_options *options; /* of a run, as they were stored */
   int32_t is_run;
   int64_t frame_count;

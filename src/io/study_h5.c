@@ -212,7 +212,7 @@ int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const c
   if (status == HOOKE_OK) {
     herr_t result = hooke_h5md_describe(file.id, NULL, study->run, scene_text);
     if (result >= 0) result = write_study(file.id, study);
-    if (result >= 0) result = hooke_h5md_write_status(file.id, outcome);
+    if (result >= 0) result = hooke_h5md_set_status(file.id, outcome);
     status =
         result < 0 ? hooke_h5_fail(&guard, path, "write the study") : hooke_h5_file_finish(&guard, &file);
   }

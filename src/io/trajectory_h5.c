@@ -5,22 +5,13 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/file_h5.h"
-#include "io/frame_thread.h"
-#include "io/h5md_h5.h"
 #include "io/place.h"
-#include "io/recording_h5.h"
+#include "io/trajectory_h5.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-
-struct hooke_trajectory {
-  struct hooke_h5_file file;
-  struct hooke_recording recording;
-  struct hooke_frame_thread *thread; /* NULL: frames are written as they come */
-  int64_t taken;                     /* frames, the one on its way included */
-  char failure[512];                 /* of the write that made the file bad; "" while it is good */
-};
+#include <unistd.h>
 
 int32_t hooke_io_own_process(void) {
   if (H5dont_atexit() >= 0) return HOOKE_OK;
@@ -32,10 +23,25 @@ int32_t hooke_io_own_process(void) {
 /* A thread costs more than writing a smaller frame. */
 static const int64_t LEAST_BYTES = 65536;
 
-static void release(hooke_trajectory *trajectory) {
-  hooke_recording_release(&trajectory->recording);
+hooke_trajectory *hooke_trajectory_new(void) {
+  hooke_trajectory *trajectory = hooke_new(1, sizeof *trajectory);
+  if (trajectory == NULL) return NULL;
+  trajectory->file.id = trajectory->file.descriptor = trajectory->recording.file.descriptor = -1;
+  return trajectory;
+}
+
+void hooke_trajectory_release(hooke_trajectory *trajectory) {
   hooke_h5_file_release(&trajectory->file);
   hooke_free(trajectory);
+}
+
+/* Lets HDF5 go; from here on the file is bytes. */
+static int32_t settle(struct hooke_h5_guard *guard, hooke_trajectory *made) {
+  if (hooke_h5md_find_status(made->file.id, &made->status_at) < 0)
+    return hooke_h5_fail(guard, made->file.path, "make room for all frames");
+  const int32_t status = hooke_h5_file_settle(guard, &made->file);
+  made->recording.file.descriptor = made->file.descriptor;
+  return status;
 }
 
 static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
@@ -43,17 +49,18 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   const hooke_options *options = hooke_integrator_options(integrator);
   const int64_t frames = hooke_integrator_frame_count(integrator);
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
-  int32_t status =
-      hooke_h5_file_create(guard, path, text + hooke_recording_bytes(system, frames), &made->file);
+  int32_t status = hooke_h5md_new_run(made->run);
+  if (status == HOOKE_OK)
+    status = hooke_h5_file_create(guard, path, text + hooke_recording_bytes(system, frames), &made->file);
   if (status != HOOKE_OK) return status;
   herr_t result =
       hooke_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
-  if (result >= 0) {
-    result = hooke_recording_create(made->file.id, system, "all", frames, &made->recording);
-  }
+  if (result >= 0) result = hooke_h5md_write_run(made->file.id, made->run);
+  if (result >= 0) result = hooke_recording_create(made->file.id, system, "all", frames, &made->recording);
   if (result >= 0) result = hooke_h5md_connect(made->file.id, system, "all");
   if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");
-  return hooke_h5_file_publish(guard, &made->file);
+  status = settle(guard, made);
+  return status == HOOKE_OK ? hooke_h5_file_publish(&made->file) : status;
 }
 
 int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
@@ -68,16 +75,15 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
     return hooke_fail(HOOKE_BAD_VALUE, "duration",
                       "is missing: a trajectory needs to know how many frames come");
   }
-  hooke_trajectory *made = hooke_new(1, sizeof *made);
+  hooke_trajectory *made = hooke_trajectory_new();
   if (made == NULL) return HOOKE_NO_MEMORY;
-  hooke_recording_clear(&made->recording);
   struct hooke_h5_guard guard;
   hooke_h5_guard_begin(&guard);
   int32_t status = fill(&guard, path, system, integrator, scene_text, made);
   if (status == HOOKE_OK) {
     *trajectory = made;
   } else {
-    release(made);
+    hooke_trajectory_release(made);
   }
   hooke_h5_guard_end(&guard);
   return status;
@@ -87,19 +93,25 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
   return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
 }
 
-static void fail_frame(hooke_trajectory *trajectory, int64_t frame, int error) {
+/* The file is bad from here on. */
+static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
+  const int32_t status = hooke_place_fail(trajectory->file.path, what, error);
+  snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
+  return status;
+}
+
+static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error) {
   char what[64];
   snprintf(what, sizeof what, "write frame %lld", (long long)frame);
-  hooke_place_fail(trajectory->file.path, what, error);
-  snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
+  return fail(trajectory, what, error);
 }
 
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   struct hooke_recording *recording = &trajectory->recording;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  if (hooke_state_size(state) != 3 * recording->particle_count) {
+  if (hooke_state_size(state) != 3 * recording->file.particle_count) {
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
-                      (long long)hooke_state_size(state), (long long)(3 * recording->particle_count));
+                      (long long)hooke_state_size(state), (long long)(3 * recording->file.particle_count));
   }
   if (trajectory->taken == recording->frame_count) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
@@ -107,11 +119,8 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
   }
   const int error = trajectory->thread ? hooke_frame_thread_write(trajectory->thread, step, state)
                                        : hooke_recording_write(recording, step, state);
-  if (error) {
-    /* of the thread, that of the frame before */
-    fail_frame(trajectory, trajectory->thread ? trajectory->taken - 1 : trajectory->taken, error);
-    return HOOKE_IO_FAILED;
-  }
+  /* of the thread, that of the frame before */
+  if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
   trajectory->taken++;
   return HOOKE_OK;
 }
@@ -119,7 +128,7 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
 int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
   const struct hooke_recording *recording = &trajectory->recording;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  if (trajectory->thread || 48 * recording->particle_count < LEAST_BYTES) return HOOKE_OK;
+  if (trajectory->thread || 48 * recording->file.particle_count < LEAST_BYTES) return HOOKE_OK;
   trajectory->thread = hooke_frame_thread_create(&recording->file, recording->written);
   return trajectory->thread
              ? HOOKE_OK
@@ -135,46 +144,77 @@ static void end_thread(hooke_trajectory *trajectory) {
   if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, recording->written, error);
 }
 
-/* A new file with exactly the frames that are there takes the place of ours. */
-static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory, int32_t outcome) {
+const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
+  return trajectory->run;
+}
+
+int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int error = trajectory->thread ? hooke_frame_thread_wait(trajectory->thread) : 0;
+  if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
+  /* what a failed one did not bring to the disk a second one does not tell of */
+  return fsync(trajectory->file.descriptor) == 0 ? HOOKE_OK
+                                                 : fail(trajectory, "bring the data to the disk", errno);
+}
+
+/* ---- closing ---- */
+
+int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory,
+                                int64_t frame_count, int64_t copied, int32_t outcome,
+                                hooke_trajectory *made) {
+  const struct hooke_recording *recording = &trajectory->recording;
+  const char *path = trajectory->file.path, *what = "make it again for another number of frames";
+  hid_t old;
+  int32_t status = hooke_h5_file_open(guard, &trajectory->file, &old);
+  if (status != HOOKE_OK) return status;
   const double bytes =
-      hooke_h5_file_bytes(&trajectory->file) - hooke_recording_unused_bytes(&trajectory->recording);
-  struct hooke_h5_file shorter;
-  struct hooke_recording recording;
-  hooke_recording_clear(&recording);
-  int32_t status = hooke_h5_file_create(guard, trajectory->file.path, bytes, &shorter);
-  if (status == HOOKE_OK) {
-    herr_t result = hooke_recording_copy(&trajectory->recording, shorter.id, &recording);
-    if (result >= 0) result = hooke_h5md_copy(trajectory->file.id, shorter.id, "all");
-    if (result >= 0) result = hooke_h5md_write_status(shorter.id, outcome);
-    if (result < 0)
-      status = hooke_h5_fail(guard, trajectory->file.path, "shorten the file to the frames it has");
-  }
-  hooke_recording_release(&recording);
-  if (status == HOOKE_OK) status = hooke_h5_file_finish(guard, &shorter);
-  hooke_h5_file_release(&shorter);
+      hooke_h5_file_bytes(&trajectory->file) - hooke_recording_bytes_after(recording, frame_count);
+  status = hooke_h5_file_create(guard, path, bytes, &made->file);
+  herr_t result = status == HOOKE_OK ? hooke_h5md_copy(old, made->file.id) : 0;
+  if (status == HOOKE_OK && result >= 0)
+    result = hooke_recording_copy(recording, old, made->file.id, frame_count, &made->recording);
+  if (status == HOOKE_OK && result >= 0) result = hooke_h5md_refer(made->file.id, "all");
+  if (result < 0) status = hooke_h5_fail(guard, path, what);
+  H5Fclose(old);
+  if (status == HOOKE_OK) status = settle(guard, made);
+  if (status != HOOKE_OK) return status;
+  int error = hooke_frame_copy(&recording->file, &made->recording.file, copied);
+  if (error == 0) error = hooke_h5md_write_status(made->file.descriptor, made->status_at, outcome);
+  return error ? hooke_place_fail(path, what, error) : hooke_h5_file_publish(&made->file);
+}
+
+/* A new file with exactly the frames that are there takes the place of ours. */
+static int32_t shorten(hooke_trajectory *trajectory, int64_t frames, int32_t outcome) {
+  hooke_trajectory *made = hooke_trajectory_new();
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  struct hooke_h5_guard guard;
+  hooke_h5_guard_begin(&guard);
+  int32_t status = hooke_trajectory_remake(&guard, trajectory, frames, frames, outcome, made);
+  if (status == HOOKE_OK) status = hooke_h5_file_close(&made->file);
+  hooke_trajectory_release(made);
+  hooke_h5_guard_end(&guard);
   return status;
+}
+
+static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
+  const struct hooke_recording *recording = &trajectory->recording;
+  const int64_t frames = recording->written > trajectory->there ? recording->written : trajectory->there;
+  if (trajectory->failure[0]) {
+    /* whoever finds the file may be told, too */
+    hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
+    return refuse_bad(trajectory);
+  }
+  if (frames < recording->frame_count) return shorten(trajectory, frames, outcome);
+  const int error = hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at, outcome);
+  return error ? hooke_place_fail(trajectory->file.path, "write the outcome", error)
+               : hooke_h5_file_close(&trajectory->file);
 }
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   end_thread(trajectory);
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = HOOKE_OK;
-  if (trajectory->failure[0]) {
-    status = refuse_bad(trajectory);
-  } else if (trajectory->recording.written < trajectory->recording.frame_count) {
-    status = rewrite(&guard, trajectory, outcome);
-  } else {
-    if (hooke_h5md_write_status(trajectory->file.id, outcome) < 0) {
-      status = hooke_h5_fail(&guard, trajectory->file.path, "write the outcome");
-    }
-    hooke_recording_release(&trajectory->recording);
-    if (status == HOOKE_OK) status = hooke_h5_file_finish(&guard, &trajectory->file);
-  }
-  release(trajectory);
-  hooke_h5_guard_end(&guard);
+  const int32_t status = finish(trajectory, outcome);
+  hooke_trajectory_release(trajectory);
   return status;
 }
 
@@ -203,6 +243,16 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
 }
 
 int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return not_built();
+}
+
+const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return "";
+}
+
+int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   (void)trajectory;
   return not_built();
 }

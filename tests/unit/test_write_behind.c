@@ -1,4 +1,4 @@
-/* Frames that a thread writes: the same bytes in the file, as many, and failures told. */
+/* Frames that a thread writes: the same bytes in the file but for the name of the run, as many, and failures told. */
 #include "check.h"
 #include "file_limit.h"
 #include "core/memory.h"
@@ -84,6 +84,23 @@ static void write_file(const struct fixture *f, const char *path, int behind, in
   check_ok(hooke_trajectory_close(trajectory, frames == FRAMES ? HOOKE_OK : HOOKE_STOPPED));
 }
 
+/* Overwrites the random name of the run, which no two files share. */
+static void blank_run(const char *path, char *bytes, size_t count) {
+  hooke_record *record;
+  int found = 0;
+  check_ok(hooke_record_open(path, &record));
+  const char *run = hooke_record_text(record, "run");
+  const size_t length = strlen(run);
+  assert_int_equal(length, 32);
+  for (size_t k = 0; k + length <= count; k++) {
+    if (memcmp(bytes + k, run, length) != 0) continue;
+    memset(bytes + k, '0', length);
+    found++;
+  }
+  hooke_record_close(record);
+  assert_int_equal(found, 1);
+}
+
 static char *bytes_of(const char *path, size_t *count) {
   struct stat there;
   assert_int_equal(stat(path, &there), 0);
@@ -107,6 +124,8 @@ static void the_file_is_the_same(void **unused) {
     write_file(&f, f.other, 0, frames[k]);
     char *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
     assert_int_equal(size, other_size);
+    blank_run(f.path, bytes, size);
+    blank_run(f.other, other, size);
     assert_true(size > (size_t)(48 * N * frames[k]));
     assert_memory_equal(bytes, other, size);
     free(bytes);

@@ -84,6 +84,14 @@ module hooke_c_io
       import
       type(c_ptr), value :: trajectory
     end function
+    integer(c_int32_t) function c_trajectory_sync(trajectory) bind(c, name="hooke_trajectory_sync")
+      import
+      type(c_ptr), value :: trajectory
+    end function
+    type(c_ptr) function c_trajectory_run(trajectory) bind(c, name="hooke_trajectory_run")
+      import
+      type(c_ptr), value :: trajectory
+    end function
     integer(c_int32_t) function c_trajectory_close(trajectory, outcome) bind(c, name="hooke_trajectory_close")
       import
       type(c_ptr), value :: trajectory
@@ -114,6 +122,11 @@ module hooke_c_io
     integer(c_int32_t) function c_record_read(record, frame, state) bind(c, name="hooke_record_read")
       import
       type(c_ptr), value :: record, state
+      integer(c_int64_t), value :: frame
+    end function
+    integer(c_int32_t) function c_record_check(record, frame) bind(c, name="hooke_record_check")
+      import
+      type(c_ptr), value :: record
       integer(c_int64_t), value :: frame
     end function
     integer(c_int32_t) function c_record_size(record, what, rows, columns) bind(c, name="hooke_record_size")

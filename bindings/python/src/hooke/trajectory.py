@@ -150,8 +150,21 @@ class Trajectory(Closing):
         """Numbers of the particles that are moved as prescribed (k,)."""
         return np.flatnonzero(self._numbers("species") == 2)
 
+    @property
+    def run(self) -> str:
+        """Which run the file is of: 32 hexadecimal digits that no other run has."""
+        return text(lib.hooke_record_text(self._handle, b"run"))
+
+    def check(self, frame: int | None = None) -> None:
+        """Looks whether the numbers of a frame, or of all, are those that were written, by the check values beside them.
+        BadValue names a frame that is damaged. `state` looks by itself; what is mapped or read as a whole column, such
+        as `q` and `energy`, is handed out as it is."""
+        for k in range(self._count) if frame is None else [frame]:
+            lib.hooke_record_check(self._handle, k)
+
     def state(self, frame: int = -1) -> State:
-        """The state at a frame, of its own, to go on from or to ask the system about; needs the scene."""
+        """The state at a frame, of its own, to go on from or to ask the system about; needs the scene. BadValue if the
+        frame is damaged."""
         state = self.system.state()
         lib.hooke_record_read(self._handle, frame, state._handle)
         return state

@@ -434,6 +434,8 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
+HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
+HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 typedef struct hooke_record hooke_record;
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
@@ -442,6 +444,7 @@ HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
+HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);

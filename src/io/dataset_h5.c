@@ -1,0 +1,107 @@
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/dataset_h5.h"
+#include "io/object_h5.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is a
+ * trap. */
+enum { LARGEST_RATIO = 2048, LONGEST_PATH = 1024 };
+
+int32_t hooke_dataset_refuse(const char *path, const char *name, const char *what) {
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s %s", path, name, what);
+}
+
+int32_t hooke_dataset_file(struct hooke_h5_guard *guard, const char *path, hid_t *file) {
+  struct stat there;
+  *file = -1;
+  if (stat(path, &there) == 0 && !S_ISREG(there.st_mode)) {
+    return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: is not a regular file", path);
+  }
+  hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+  if (list >= 0 && H5Pset_metadata_read_attempts(list, 1) >= 0 &&
+      H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0) {
+    *file = H5Fopen(path, H5F_ACC_RDONLY, list);
+  }
+  const int32_t status = *file < 0 ? hooke_h5_fail(guard, path, "open the file as HDF5") : HOOKE_OK;
+  hooke_h5_drop(list);
+  return status;
+}
+
+static herr_t refuse_link(const char *from_file, const char *from, const char *to_file, const char *to,
+                          unsigned *flags, hid_t access, void *ctx) {
+  (void)from_file, (void)from, (void)to_file, (void)to, (void)flags, (void)access, (void)ctx;
+  return -1;
+}
+
+/* Numbers that are stored in this very file, and no more than it can hold. */
+static int32_t check_storage(const char *path, const char *name, hid_t data, double count) {
+  hid_t list = H5Dget_create_plist(data), type = H5Dget_type(data);
+  const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
+  const int external = list < 0 ? 0 : H5Pget_external_count(list);
+  const double bytes = type < 0 ? 0.0 : count * (double)H5Tget_size(type);
+  hooke_h5_drop(type);
+  hooke_h5_drop(list);
+  if (class != H5T_FLOAT && class != H5T_INTEGER)
+    return hooke_dataset_refuse(path, name, "is not an array of numbers");
+  if (layout == H5D_VIRTUAL || external != 0) {
+    return hooke_dataset_refuse(path, name,
+                                "keeps its numbers in another file; allowed: numbers in the file itself");
+  }
+  const double stored = (double)H5Dget_storage_size(data);
+  if (bytes > LARGEST_RATIO * stored) {
+    char text[160];
+    snprintf(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
+             stored);
+    return hooke_dataset_refuse(path, name, text);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
+                           struct hooke_dataset *data) {
+  *data = (struct hooke_dataset){.id = -1};
+  hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
+  if (list >= 0 && H5Pset_elink_cb(list, refuse_link, NULL) >= 0) data->id = H5Dopen2(file, name, list);
+  hooke_h5_drop(list);
+  if (data->id < 0) {
+    char what[256];
+    snprintf(what, sizeof what, "find the dataset %.200s", name);
+    return hooke_h5_fail(guard, path, what);
+  }
+  hid_t space = H5Dget_space(data->id);
+  data->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+  const int fits = data->rank >= 1 && data->rank <= 3;
+  if (fits) H5Sget_simple_extent_dims(space, data->size, NULL);
+  hooke_h5_drop(space);
+  if (!fits) {
+    return hooke_dataset_refuse(path, name,
+                                "has a wrong number of dimensions; allowed: [rows], [rows][columns] or "
+                                "[frames][rows][columns]");
+  }
+  double count = 1.0;
+  for (int k = 0; k < data->rank; k++)
+    count *= (double)data->size[k];
+  return check_storage(path, name, data->id, count);
+}
+
+int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
+                           struct hooke_dataset *data) {
+  char part[LONGEST_PATH];
+  *data = (struct hooke_dataset){.id = -1};
+  if (strlen(name) >= sizeof part) return HOOKE_OK;
+  for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
+    snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
+    if (H5Lexists(file, part, H5P_DEFAULT) <= 0) return HOOKE_OK;
+  }
+  if (H5Lexists(file, name, H5P_DEFAULT) <= 0) return HOOKE_OK;
+  return hooke_dataset_open(guard, file, path, name, data);
+}
+
+#endif
