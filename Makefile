@@ -25,8 +25,9 @@ docs: build/venv/done
 	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
 	@echo build/docs/index.html
 
-test: $(PRESETS:%=build-%)
+test: $(PRESETS:%=build-%) build/fuzz/packages
 	@failed=0; \
+	$(PYTHON) tests/fuzz/run.py --seconds 8 || failed=1; \
 	for preset in $(PRESETS); do \
 	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed=1; \
 	done; \
@@ -84,8 +85,9 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 
 # What is missing is installed as root or through sudo; without either, the line to type is printed.
 build/tidy/packages: private PACKAGES = clang-tidy-14
-build/tidy/packages: | build/packages
-build/packages build/tidy/packages: Makefile
+build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
+build/tidy/packages build/fuzz/packages: | build/packages
+build/packages build/tidy/packages build/fuzz/packages: Makefile
 	@mkdir -p $(@D)
 	@missing=$$(for package in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \

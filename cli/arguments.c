@@ -144,7 +144,7 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
                        const struct option *longs) {
   int code;
   opterr = 0;
-  optind = 1;
+  optind = 0; /* begins anew, whatever was parsed before */
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
     struct hooke_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
     if (!argument) {

@@ -45,23 +45,36 @@ static int32_t read_text(const char *text, int64_t length, hooke_options *option
   return status;
 }
 
-int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options) {
-  char shown[HOOKE_OPTION_SHOWN], *text = NULL;
-  int64_t length = 0, line = 0;
-  int32_t status = hooke_mesh_check_alone(options);
-  if (status != HOOKE_OK) return status;
-  status = hooke_scene_read_file(path, NULL, &text, &length);
-  if (status == HOOKE_OK) status = read_text(text, length, options, &line);
-  hooke_free(text);
-  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) {
-    if (status != HOOKE_OK) return status;
-    return hooke_options_unset(options, "file");
-  }
+/* Options that could not be made a mesh have none, and the message says which file is to blame. */
+static int32_t finish(int32_t status, int64_t line, const char *name, hooke_options *options) {
+  if (status == HOOKE_OK) return hooke_options_unset(options, "file");
+  if (status == HOOKE_NO_MEMORY) return status;
+  char shown[HOOKE_OPTION_SHOWN];
   hooke_options_unset(options, "vertices");
   hooke_options_unset(options, "triangles");
   hooke_option_show(name, (int64_t)strlen(name), shown);
   return line > 0 ? hooke_fail_before(status, "%s:%lld: ", shown, (long long)line)
                   : hooke_fail_before(status, "%s: ", shown);
+}
+
+int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, hooke_options *options) {
+  int64_t line = 0;
+  int32_t status = hooke_mesh_check_alone(options);
+  if (status != HOOKE_OK) return status;
+  status = read_text(text, length, options, &line);
+  return finish(status, line, name, options);
+}
+
+int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options) {
+  char *text = NULL;
+  int64_t length = 0;
+  int32_t status = hooke_mesh_check_alone(options);
+  if (status != HOOKE_OK) return status;
+  status = hooke_scene_read_file(path, NULL, &text, &length);
+  status =
+      status == HOOKE_OK ? hooke_mesh_parse(text, length, name, options) : finish(status, 0, name, options);
+  hooke_free(text);
+  return status;
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {

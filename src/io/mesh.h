@@ -10,4 +10,7 @@ int32_t hooke_mesh_check_alone(const hooke_options *options);
 /* hooke_mesh_read() of a file that messages call `name`. */
 int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options);
 
+/* The same from `length` bytes of text. */
+int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, hooke_options *options);
+
 #endif

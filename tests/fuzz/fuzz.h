@@ -1,0 +1,28 @@
+/* What the targets of fuzzing have in common: one function that takes an input, counts of how far inputs come, and checks
+ * of what may never happen. */
+#ifndef HOOKE_TESTS_FUZZ_H
+#define HOOKE_TESTS_FUZZ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* One input; returns 0. Called by libFuzzer and by replay.c. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, three numbers of 64 bits that the driver reads: they are
+ * there whatever ends the process. To be called first of all with each input; the other two count an input once. */
+void hooke_fuzz_begin(void);
+void hooke_fuzz_is_past_syntax(void);
+void hooke_fuzz_is_accepted(void);
+
+/* Ends the process, which is a finding, unless `holds`. */
+void hooke_fuzz_require(int holds, const char *what);
+
+/* Requires that a failure (a status < 0) has a message: not empty, of one line, without control characters and, where the
+ * caller's text was UTF-8, UTF-8. */
+void hooke_fuzz_require_message(int utf8);
+
+/* The same of any text; `what` is what it is called if it fails. */
+void hooke_fuzz_require_text(const char *text, int utf8, const char *what);
+
+#endif

@@ -1,0 +1,267 @@
+/* Options as text: tables set from words, numbers read and printed, units, and the words of a command line.
+ *
+ * The first byte chooses what is done, the second the table, the rest are lines. A line that begins with '=' is taken as it
+ * is, "name=value" or a word of a command line; in any other the first byte stands for a row of the table and the rest is
+ * its value. So most inputs come past the names.
+ *
+ * Lines of: src/core/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
+ * Longest input: 1024 */
+#include "fuzz.h"
+
+#include "arguments.h"
+#include "core/number.h"
+#include "describe.h"
+#include "hooke.h"
+#include "report.h"
+#include "unit.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_LINES = 24, LINE_SIZE = 1100 };
+
+/* ---- tables ---- */
+
+static int32_t create_table(uint8_t which, hooke_options **options) {
+  switch (which % 12) {
+  case 0:
+    return hooke_spring_options_create(options);
+  case 1:
+    return hooke_altitude_options_create(options);
+  case 2:
+    return hooke_run_options_create(options);
+  case 3:
+    return hooke_view_options_create(options);
+  case 4:
+    return hooke_scene_options_create("scene", options);
+  case 5:
+    return hooke_scene_options_create("particles", options);
+  case 6:
+    return hooke_scene_options_create("driven", options);
+  default:
+    return hooke_part_options_create(hooke_part_kind(which % 12 - 7), options);
+  }
+}
+
+static const char *row_name(const hooke_options *options, char byte) {
+  return hooke_options_row(options, (unsigned char)byte % hooke_options_row_count(options), "name");
+}
+
+/* ---- option tables ---- */
+
+/* What an option holds, said again by numbers, is the same to the bit. */
+static void set_again(hooke_options *options, const char *name) {
+  const int64_t count = hooke_options_number_count(options, name);
+  const double *numbers = hooke_options_numbers(options, name);
+  if (count == 0 || hooke_options_text(options, name)[0]) return;
+  double *copy = malloc((size_t)count * sizeof *copy);
+  if (copy == NULL) return;
+  memcpy(copy, numbers, (size_t)count * sizeof *copy);
+  hooke_fuzz_require(hooke_options_set_numbers(options, name, count, copy) == HOOKE_OK,
+                     "numbers that were read as text can be set");
+  hooke_fuzz_require(memcmp(copy, hooke_options_numbers(options, name), (size_t)count * sizeof *copy) == 0,
+                     "numbers that were set are held");
+  free(copy);
+}
+
+static void set_one(hooke_options *options, const char *name, const char *value) {
+  const int32_t was_set = hooke_options_is_set(options, name);
+  const int32_t status = hooke_options_set_text(options, name, value);
+  if (status == HOOKE_OK) {
+    hooke_fuzz_is_past_syntax();
+    hooke_fuzz_require(hooke_options_is_set(options, name), "what was set is set");
+    set_again(options, name);
+  } else {
+    hooke_fuzz_require(status == HOOKE_BAD_VALUE, "a text that is refused is a bad value");
+    hooke_fuzz_require_message(0);
+    hooke_fuzz_require(hooke_options_is_set(options, name) == was_set,
+                       "a failure leaves the option as it was");
+  }
+}
+
+static void require_copy(const hooke_options *options) {
+  hooke_options *copy = NULL;
+  hooke_fuzz_require(hooke_options_copy(options, &copy) == HOOKE_OK, "options can be copied");
+  for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
+    const char *name = hooke_options_row(options, row, "name");
+    const int64_t count = hooke_options_number_count(options, name);
+    hooke_fuzz_require(hooke_options_is_set(copy, name) == hooke_options_is_set(options, name) &&
+                           hooke_options_number_count(copy, name) == count &&
+                           strcmp(hooke_options_text(copy, name), hooke_options_text(options, name)) == 0,
+                       "a copy holds the same");
+  }
+  hooke_options_destroy(copy);
+}
+
+/* A value of "!" takes the option back. */
+static void set_lines(hooke_options *options, char **line, int32_t count) {
+  for (int32_t k = 0; k < count; k++) {
+    char *value = line[k] + 1;
+    const char *name = line[k][0] == '=' ? value : row_name(options, line[k][0]);
+    if (line[k][0] == '=') {
+      value = strchr(value, '=');
+      if (value) *value++ = '\0';
+    }
+    if (value && strcmp(value, "!") == 0)
+      hooke_options_unset(options, name);
+    else if (value)
+      set_one(options, name, value);
+  }
+  require_copy(options);
+}
+
+/* ---- numbers and units ---- */
+
+/* strtod() of the C locale takes all that is a number here, to the same bits. */
+static void read_number(const char *text) {
+  double value = 0, again = 0;
+  if (hooke_number_parse(text, (int64_t)strlen(text), &value) != HOOKE_NUMBER_FINE) return;
+  hooke_fuzz_is_past_syntax();
+  char *end, printed[HOOKE_NUMBER_SIZE];
+  const double wanted = strtod(text, &end);
+  hooke_fuzz_require(*end == '\0' && memcmp(&wanted, &value, sizeof value) == 0,
+                     "a number is what strtod() reads");
+  hooke_number_print(value, printed);
+  hooke_fuzz_require(hooke_number_parse(printed, (int64_t)strlen(printed), &again) == HOOKE_NUMBER_FINE &&
+                         memcmp(&again, &value, sizeof value) == 0,
+                     "a number that is printed reads back to the same bits");
+}
+
+static void read_units(const char *text, const char *base) {
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  char *read = hooke_unit_read(text, base, word);
+  hooke_fuzz_require(hooke_unit_has_others(base) && strlen(hooke_unit_list(base, list)) > 0,
+                     "there are units");
+  if (read == NULL)
+    hooke_fuzz_require(word[0] != '\0', "a unit that is refused is named");
+  else
+    read_number(read);
+  free(read);
+}
+
+/* ---- the command line ---- */
+
+static int32_t verb_options(hooke_options **options) {
+  return hooke_view_options_create(options);
+}
+
+static const struct hooke_verb_row rows[] = {{"output", 'o', "FILE", "where to"},
+                                             {"force", 'f', NULL, "even so"}};
+static const struct hooke_verb verbs[] = {
+    {.name = "run", HOOKE_VERB_ROWS(rows)},
+    {.name = "view", .input = "OUT.h5", HOOKE_VERB_ROWS(rows), .options = verb_options},
+    {.name = "study", HOOKE_VERB_ROWS(rows), .options = verb_options, .without = "method step"},
+    {.name = "make", HOOKE_VERB_ROWS(rows), .kind_options = hooke_part_options_create},
+};
+
+/* What the program prints is formed, and goes nowhere. */
+int hooke_report(const struct hooke_arguments *arguments, int code, const char *format, ...) {
+  char message[4096];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(message, sizeof message, format, args);
+  va_end(args);
+  hooke_fuzz_require(arguments->verb != NULL && message[0] != '\0' && code != HOOKE_EXIT_DONE,
+                     "what is refused has a message and an exit code");
+  return code;
+}
+
+int hooke_report_status(const struct hooke_arguments *arguments, int32_t status) {
+  return hooke_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
+                      hooke_last_error());
+}
+
+int hooke_report_unknown_method(const struct hooke_arguments *arguments, const char *flag, const char *word,
+                                size_t length) {
+  return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %.*s", flag, (int)length, word);
+}
+
+int hooke_refusal(const struct hooke_arguments *arguments) {
+  return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
+}
+
+const char *hooke_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx),
+                          const void *ctx) {
+  const char *candidate = NULL;
+  for (int64_t i = 0; (candidate = next(i, ctx)); i++)
+    if (candidate[0] == word[0]) break;
+  return candidate;
+}
+
+const char *hooke_describe_operand(const struct hooke_verb *verb) {
+  return verb->input ? verb->input : "SCENE";
+}
+
+static void parse_words(uint8_t which, const hooke_options *table, char **line, int32_t count) {
+  static char word[MOST_LINES][LINE_SIZE];
+  const struct hooke_verb *verb = &verbs[which % 4];
+  char *argv[MOST_LINES + 3] = {(char[]){"verb"}};
+  int argc = 1;
+  if (verb->kind_options && which < 128) argv[argc++] = (char[]){"cloth"};
+  for (int32_t k = 0; k < count; k++) {
+    char flag[HOOKE_FLAG_SIZE];
+    if (line[k][0] == '=')
+      snprintf(word[k], LINE_SIZE, "%s", line[k] + 1);
+    else
+      snprintf(word[k], LINE_SIZE, "--%s%s%s", hooke_arguments_flag(row_name(table, line[k][0]), flag),
+               line[k][1] ? "=" : "", line[k] + 1);
+    argv[argc++] = word[k];
+  }
+  struct hooke_arguments arguments;
+  const int answer = hooke_arguments_parse(verb, argc, argv, &arguments);
+  if (answer == HOOKE_EXIT_DONE && !arguments.help) {
+    hooke_fuzz_is_past_syntax();
+    hooke_fuzz_is_accepted();
+    hooke_options *run = NULL;
+    hooke_fuzz_require(hooke_run_options_create(&run) == HOOKE_OK &&
+                           hooke_arguments_apply(&arguments, run) == HOOKE_OK,
+                       "what was read from the command line can be set");
+    hooke_options_destroy(run);
+  }
+  hooke_arguments_destroy(&arguments);
+}
+
+/* ---- one input ---- */
+
+static void run_lines(uint8_t what, uint8_t which, char **line, int32_t count) {
+  hooke_options *options = NULL;
+  if (what % 4 == 2) {
+    for (int32_t k = 0; k < count; k++)
+      read_number(line[k]);
+    return;
+  }
+  if (what % 4 == 3) {
+    for (int32_t k = 0; k < count; k++)
+      read_units(line[k], which & 1 ? "m" : "s");
+    return;
+  }
+  hooke_fuzz_require((what % 4 == 0 ? create_table(which, &options)
+                                    : create_table(which % 4 == 3 ? 8 : 2, &options)) == HOOKE_OK,
+                     "there is a table of options");
+  if (what % 4 == 0)
+    set_lines(options, line, count);
+  else
+    parse_words(which, options, line, count);
+  hooke_options_destroy(options);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  hooke_fuzz_begin();
+  if (size < 3 || size >= LINE_SIZE) return 0;
+  char *text = malloc(size - 1), *line[MOST_LINES];
+  if (text == NULL) return 0;
+  memcpy(text, data + 2, size - 2);
+  text[size - 2] = '\0';
+  int32_t count = 0;
+  for (char *at = text; at && *at && count < MOST_LINES; count++) {
+    line[count] = at;
+    at = strchr(at, '\n');
+    if (at) *at++ = '\0';
+  }
+  run_lines(data[0], data[1], line, count);
+  free(text);
+  return 0;
+}

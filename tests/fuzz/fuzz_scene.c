@@ -1,0 +1,145 @@
+/* The parser of scenes: from text in memory to a committed system, and back to text and to an equal system.
+ *
+ * Lines of: src/io/scene*.c src/io/json_*.c src/io/mesh.c src/io/obj.c src/build/?*.c src/core/option*.c src/core/number.c
+ * Longest input: 4096 */
+#include "fuzz.h"
+
+#include "hooke/io.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A small machine, so that a scene that is too large for it is refused and not built: that is what is tested. */
+enum { PAGE = 4096, PAGES = 64 };
+
+long __wrap_sysconf(int name);
+long __real_sysconf(int name);
+long __wrap_sysconf(int name) {
+  return name == _SC_PHYS_PAGES ? PAGES : name == _SC_PAGESIZE ? PAGE : __real_sysconf(name);
+}
+
+/* The first thing that is done with a text that is JSON. */
+int32_t __wrap_hooke_system_create(hooke_system **system);
+int32_t __real_hooke_system_create(hooke_system **system);
+int32_t __wrap_hooke_system_create(hooke_system **system) {
+  hooke_fuzz_is_past_syntax();
+  return __real_hooke_system_create(system);
+}
+
+/* ---- failures ---- */
+
+/* "scene:LINE:COLUMN: " in front of the message is a place in the text, or the one after its last character. */
+static void require_place(const char *text, size_t size) {
+  const char *message = hooke_last_error();
+  char *after;
+  hooke_fuzz_require(strncmp(message, "scene:", 6) == 0, "a message begins with the name of the scene");
+  const long line = strtol(message + 6, &after, 10);
+  hooke_fuzz_require(line >= 1 && *after == ':', "a message has a line");
+  const long column = strtol(after + 1, &after, 10);
+  hooke_fuzz_require(column >= 1 && strncmp(after, ": ", 2) == 0, "a message has a column");
+  const char *end = text + size, *at = text;
+  for (long k = 1; k < line; k++) {
+    at = at < end ? memchr(at, '\n', (size_t)(end - at)) : NULL;
+    hooke_fuzz_require(at != NULL, "the line of a message is one of the text");
+    at++;
+  }
+  long columns = 1;
+  for (; at < end && *at != '\n'; at++)
+    columns += ((unsigned char)*at & 0xC0) != 0x80;
+  hooke_fuzz_require(column <= columns, "the column of a message is one of its line");
+}
+
+static void require_failure(int32_t status, const char *text, size_t size) {
+  hooke_fuzz_require(status == HOOKE_BAD_VALUE || status == HOOKE_NO_MEMORY || status == HOOKE_NOT_BUILT,
+                     "a scene that is refused is a bad value, or too large");
+  hooke_fuzz_require_message(1);
+  if (status == HOOKE_BAD_VALUE) require_place(text, size);
+}
+
+/* ---- systems ---- */
+
+static void require_equal_bits(const double *a, const double *b, int64_t count, const char *what) {
+  hooke_fuzz_require(count == 0 || memcmp(a, b, (size_t)count * sizeof *a) == 0, what);
+}
+
+static void require_equal_springs(const hooke_system *a, const hooke_system *b) {
+  const int64_t count = hooke_system_spring_count(a);
+  hooke_fuzz_require(hooke_system_spring_count(b) == count, "written and read again: the number of springs");
+  int64_t *ends = calloc((size_t)(4 * count + 1), sizeof *ends);
+  double *value = calloc((size_t)(6 * count + 1), sizeof *value);
+  if (ends && value) {
+    hooke_system_spring_ends(a, ends);
+    hooke_system_spring_ends(b, ends + 2 * count);
+    hooke_fuzz_require(memcmp(ends, ends + 2 * count, (size_t)(2 * count) * sizeof *ends) == 0,
+                       "written and read again: ends of springs");
+    hooke_system_spring_material(a, value, value + count, value + 2 * count);
+    hooke_system_spring_material(b, value + 3 * count, value + 4 * count, value + 5 * count);
+    require_equal_bits(value, value + 3 * count, 3 * count, "written and read again: material of springs");
+  }
+  free(ends);
+  free(value);
+}
+
+static void require_equal_forces(const hooke_system *a, const hooke_system *b) {
+  hooke_state *state[2] = {NULL, NULL};
+  const int64_t count = 3 * hooke_system_particle_count(a);
+  double *f = calloc((size_t)(2 * count + 1), sizeof *f);
+  if (f && hooke_state_create(a, &state[0]) == HOOKE_OK && hooke_state_create(b, &state[1]) == HOOKE_OK) {
+    const double *q = hooke_state_position(state[0]), *v = hooke_state_velocity(state[0]);
+    require_equal_bits(q, hooke_state_position(state[1]), count, "written and read again: positions");
+    require_equal_bits(v, hooke_state_velocity(state[1]), count, "written and read again: velocities");
+    const int32_t status = hooke_system_force(a, 0.25, q, v, f);
+    hooke_fuzz_require(hooke_system_force(b, 0.25, q, v, f + count) == status,
+                       "written and read again: whether there are forces");
+    require_equal_bits(f, f + count, count, "written and read again: forces");
+  }
+  hooke_state_destroy(state[0]);
+  hooke_state_destroy(state[1]);
+  free(f);
+}
+
+static void require_equal(const hooke_system *a, const hooke_system *b) {
+  const int64_t count = hooke_system_particle_count(a);
+  hooke_fuzz_require(hooke_system_particle_count(b) == count,
+                     "written and read again: the number of particles");
+  require_equal_bits(hooke_system_mass(a), hooke_system_mass(b), count, "written and read again: masses");
+  require_equal_bits(hooke_system_inverse_mass(a), hooke_system_inverse_mass(b), count,
+                     "written and read again: what is free");
+  hooke_fuzz_require(hooke_system_bending_count(a) == hooke_system_bending_count(b) &&
+                         hooke_system_altitude_count(a) == hooke_system_altitude_count(b),
+                     "written and read again: the number of triples and tetrahedra");
+  require_equal_springs(a, b);
+  require_equal_forces(a, b);
+}
+
+static void go_around(hooke_scene *scene) {
+  hooke_scene *again = NULL;
+  const hooke_system *system = hooke_scene_system(scene);
+  hooke_fuzz_require(hooke_scene_of_system(system, hooke_scene_title(scene), hooke_scene_run_options(scene),
+                                           "again", NULL, &again) == HOOKE_OK,
+                     "what was read can be written and read again");
+  hooke_fuzz_require(hooke_scene_commit(again) == HOOKE_OK, "what was committed can be committed again");
+  hooke_fuzz_require(strcmp(hooke_scene_title(scene), hooke_scene_title(again)) == 0,
+                     "written and read again: the title");
+  require_equal(system, hooke_scene_system(again));
+  hooke_scene_destroy(again);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  static const char folder[] = HOOKE_SOURCE_DIR "/tests/fuzz/files";
+  const char *text = size ? (const char *)data : "";
+  hooke_scene *scene = NULL;
+  hooke_fuzz_begin();
+  int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", folder, &scene);
+  hooke_fuzz_require((status == HOOKE_OK) == (scene != NULL), "a scene comes with success alone");
+  if (status == HOOKE_OK) status = hooke_scene_commit(scene);
+  if (status == HOOKE_OK) {
+    hooke_fuzz_is_accepted();
+    go_around(scene);
+  } else {
+    require_failure(status, text, size);
+  }
+  hooke_scene_destroy(scene);
+  return 0;
+}

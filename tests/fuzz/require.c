@@ -1,0 +1,43 @@
+#include "fuzz.h"
+
+#include "hooke/base.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void hooke_fuzz_require(int holds, const char *what) {
+  if (holds) return;
+  fprintf(stderr, "does not hold: %s\nlast message: %s\n", what, hooke_last_error());
+  abort();
+}
+
+/* Bytes of the character that begins here; 0 if it is none (RFC 3629). */
+static size_t character(const unsigned char *at) {
+  if (at[0] < 0x80) return 1;
+  const size_t length = at[0] >= 0xC2 && at[0] <= 0xDF   ? 2
+                        : at[0] >= 0xE0 && at[0] <= 0xEF ? 3
+                        : at[0] >= 0xF0 && at[0] <= 0xF4 ? 4
+                                                         : 0;
+  for (size_t k = 1; k < length; k++)
+    if ((at[k] & 0xC0) != 0x80) return 0;
+  if ((at[0] == 0xE0 && at[1] < 0xA0) || (at[0] == 0xED && at[1] > 0x9F) || (at[0] == 0xF0 && at[1] < 0x90) ||
+      (at[0] == 0xF4 && at[1] > 0x8F))
+    return 0;
+  return length;
+}
+
+void hooke_fuzz_require_text(const char *text, int utf8, const char *what) {
+  const unsigned char *at = (const unsigned char *)text;
+  hooke_fuzz_require(*at != '\0', what);
+  while (*at) {
+    hooke_fuzz_require(*at >= 32 && *at != 127, what);
+    const size_t length = utf8 ? character(at) : 1;
+    hooke_fuzz_require(length > 0, what);
+    at += length;
+  }
+}
+
+void hooke_fuzz_require_message(int utf8) {
+  hooke_fuzz_require_text(hooke_last_error(), utf8, "a failure has a message of one line of text");
+}

@@ -1,0 +1,394 @@
+"""Fuzzing, driven.
+
+    run.py --seconds 8 [TARGET...]         each target for so long, two side by side: the part of `make test`
+    run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was
+    run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach
+    run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
+
+A target is tests/fuzz/fuzz_<name>.c. Its comment says which files are its own and how long inputs are at most. Committed are
+corpus/<name>, inputs to begin with, found/<name>, inputs that were findings once, and <name>.dict, words of its inputs.
+
+A campaign works in build/fuzz: inputs in <name>/corpus, findings in <name>/found, and state.json. Two programs take turns:
+one with all sanitizers, and one that is faster, without the one for addresses.
+"""
+
+import argparse
+import glob
+import itertools
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = ROOT / "tests" / "fuzz"
+BUILD = ROOT / "build" / "fuzz"
+STATE = BUILD / "state.json"
+FIGURES = BUILD / "figures.json"
+WARNINGS = "-Wno-pass-failed"
+# Another folder of the preset with other flags; the preset's own has all sanitizers.
+FLAGS = {
+    "fuzz": None,
+    "fuzz-fast": "-O2 -gline-tables-only -fsanitize=fuzzer-no-link,undefined,float-cast-overflow "
+    f"-fno-sanitize-recover=all {WARNINGS}",
+    "fuzz-coverage": f"-O1 -fprofile-instr-generate -fcoverage-mapping {WARNINGS}",
+}
+CHUNK = 120  # seconds between two turns
+SANITIZERS = {
+    "ASAN_OPTIONS": "allocator_may_return_null=1:malloc_context_size=5:quarantine_size_mb=8:detect_stack_use_after_return=0",
+    "UBSAN_OPTIONS": "print_stacktrace=1",
+}
+
+
+def build(folder):
+    """The programs of a preset's folder; the compiler says what it minds."""
+    if shutil.which("clang") is None:
+        sys.exit("fuzzing is left out: there is no clang. On Debian:\n  apt-get install clang libclang-rt-14-dev")
+    configure = ["cmake", "--preset", "fuzz", "-B", ROOT / "build" / folder]
+    if FLAGS[folder]:
+        configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", "-DHOOKE_KERNEL_OPTIMISATION=-O2"]
+    for command in configure, ["cmake", "--build", ROOT / "build" / folder, "--target", "hooke_fuzz"]:
+        done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode:
+            sys.exit(done.stdout[-8000:])
+
+
+def all_targets():
+    return sorted(path.stem.removeprefix("fuzz_") for path in HERE.glob("fuzz_*.c"))
+
+
+class Target:
+    def __init__(self, name):
+        self.name = name
+        source = HERE / f"fuzz_{name}.c"
+        text = re.sub(r"\n \*", " ", source.read_text(encoding="utf-8"))
+        lines, longest = re.search(r"Lines of:([^:]*?)(?:Longest|\*/)", text), re.search(r"Longest input: (\d+)", text)
+        self.files = sorted({f for p in (lines.group(1).split() if lines else []) for f in glob.glob(p, root_dir=ROOT)})
+        self.longest = int(longest.group(1)) if longest else 4096
+        self.corpus, self.found, self.words = HERE / "corpus" / name, HERE / "found" / name, HERE / f"{name}.dict"
+        self.work = BUILD / name
+
+    def inputs(self):
+        return [str(folder) for folder in (self.corpus, self.found) if folder.is_dir()]
+
+    def program(self, folder):
+        kind = "replay" if folder == "fuzz-coverage" else "fuzz"
+        return str(ROOT / "build" / folder / "tests" / "fuzz" / f"{kind}_{self.name}")
+
+    def command(self, folder, *more):
+        (self.work / "found").mkdir(parents=True, exist_ok=True)
+        words = [f"-dict={self.words}"] if self.words.exists() else []
+        return [self.program(folder), f"-max_len={self.longest}", "-timeout=20", "-rss_limit_mb=2048", "-verbosity=1",
+                f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
+
+
+class Tally:
+    """Three counts that a program keeps in a file: executions, those past the syntax, those that are accepted."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def take(self):
+        """What was counted since the last time; nothing is lost if this is interrupted in between."""
+        try:
+            numbers = struct.unpack("3Q", self.path.read_bytes())
+            self.path.unlink()
+        except (OSError, struct.error):
+            return [0, 0, 0]
+        return list(numbers)
+
+
+def start(command, tally):
+    environment = {**os.environ, **SANITIZERS, "HOOKE_FUZZ_TALLY": str(tally.path)}
+    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                            errors="replace", preexec_fn=lambda: os.nice(5))
+
+
+def findings(target):
+    return sorted(str(p) for p in (target.work / "found").glob("*") if not p.name.startswith("slow-unit"))
+
+
+# ---- a short run ----
+
+
+def run_short(target, seconds, results):
+    target.work.mkdir(parents=True, exist_ok=True)
+    tally = Tally(target.work / "tally-short")
+    tally.take()
+    began = time.monotonic()
+    scratch = target.work / "short"
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    process = start(target.command("fuzz", f"-max_total_time={seconds}", str(scratch), *target.inputs()), tally)
+    _, log = process.communicate()
+    counts, took = tally.take(), time.monotonic() - began
+    edges = [int(m) for m in re.findall(r" cov: (\d+)", log)]
+    results[target.name] = (process.returncode, log)
+    share = 100 * counts[1] / max(counts[0], 1)
+    print(f"fuzz/{target.name:10} {counts[0]:9} executions in {took:4.1f} s, {share:3.0f} % past the syntax, "
+          f"{edges[-1] if edges else 0} edges: {'finding' if process.returncode else 'nothing found'}", flush=True)
+
+
+def short(targets, seconds):
+    build("fuzz")
+    results, waiting, lock = {}, list(targets), threading.Lock()
+
+    def work():
+        while True:
+            with lock:
+                if not waiting:
+                    return
+                target = waiting.pop(0)
+            run_short(target, seconds, results)
+
+    workers = [threading.Thread(target=work) for _ in range(2)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    failed = {name: log for name, (code, log) in results.items() if code}
+    for name, log in failed.items():
+        print(f"\n== fuzz/{name}: a finding; keep its input in tests/fuzz/found/{name}\n{log[-6000:]}")
+    return 1 if failed else 0
+
+
+# ---- a counted campaign ----
+
+
+def load_state():
+    try:
+        return json.loads(STATE.read_text())
+    except (OSError, ValueError):
+        return {}
+
+
+class Campaign:
+    def __init__(self, targets, executions, workers, limit):
+        self.targets, self.wanted, self.workers = targets, executions, workers
+        self.until = time.monotonic() + limit if limit else None
+        self.state, self.lock, self.stop = load_state(), threading.Lock(), False
+        self.processes, self.turn = set(), itertools.count()
+        for target in targets:
+            self.of(target)
+            for left in target.work.glob("tally-*"):  # of a campaign that was interrupted
+                self.add(target, "fuzz-fast" if "fast" in left.name else "fuzz", Tally(left).take(), 0.0)
+
+    def of(self, target):
+        return self.state.setdefault(target.name, {
+            "executions": 0, "past_syntax": 0, "accepted": 0, "seconds": 0.0, "findings": [],
+            "edges": {}, "last_edge": {"executions": 0, "seconds": 0.0},
+            "by_build": {b: {"executions": 0, "seconds": 0.0} for b in ("fuzz", "fuzz-fast")}})
+
+    def save(self):
+        new = STATE.with_suffix(".new")
+        new.write_text(json.dumps(self.state, indent=1))
+        new.replace(STATE)
+
+    def add(self, target, folder, counts, seconds):
+        state = self.of(target)
+        for name, count in zip(("executions", "past_syntax", "accepted"), counts):
+            state[name] += count
+        state["seconds"] += seconds
+        state["by_build"][folder]["executions"] += counts[0]
+        state["by_build"][folder]["seconds"] += seconds
+        state["findings"] = findings(target)
+
+    def see_edges(self, target, folder, edges, executions, seconds):
+        state = self.of(target)
+        if edges > state["edges"].get(folder, 0):
+            state["edges"][folder] = edges
+            state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds}
+
+    def next(self):
+        """The target that is furthest behind."""
+        late = self.until is not None and time.monotonic() > self.until
+        ahead = [t for t in self.targets if self.of(t)["executions"] < self.wanted(t) and not self.of(t)["findings"]]
+        if self.stop or late or not ahead:
+            return None
+        return min(ahead, key=lambda t: self.of(t)["executions"] / self.wanted(t))
+
+    def follow(self, target, folder, process, began):
+        """Reads what libFuzzer says; returns the end of it."""
+        tail = []
+        for line in process.stderr:
+            tail = [*tail[-200:], line]
+            match = re.match(r"#(\d+)\s.*? cov: (\d+)", line)
+            if match:
+                with self.lock:
+                    self.see_edges(target, folder, int(match.group(2)), int(match.group(1)), time.monotonic() - began)
+        return "".join(tail)
+
+    def work(self, number):
+        while True:
+            with self.lock:
+                target = self.next()
+                if target is None:
+                    return
+                turn = next(self.turn)
+                folder = "fuzz" if turn % 3 == 0 else "fuzz-fast"
+                corpus = target.work / "corpus"
+                corpus.mkdir(parents=True, exist_ok=True)
+                left = max(1, int(self.wanted(target) - self.of(target)["executions"]))
+                tally, began = Tally(target.work / f"tally-{folder}-{number}"), time.monotonic()
+                process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left + 100000}",
+                                               str(corpus), *target.inputs()), tally)
+                self.processes.add(process)
+            log = self.follow(target, folder, process, began)
+            code = process.wait()
+            with self.lock:
+                self.processes.discard(process)
+                self.add(target, folder, tally.take(), time.monotonic() - began)
+                self.save()
+                if code and not self.stop:
+                    print(f"== fuzz/{target.name}: a finding, or it broke off ({code})\n{log[-6000:]}", flush=True)
+                    self.of(target)["findings"] = findings(target) or [f"exit code {code}"]
+                    self.save()
+                self.say(target)
+
+    def say(self, target):
+        state = self.of(target)
+        print(f"{target.name:10} {state['executions']:>12} executions, {share(state):3.0f} % past the syntax, "
+              f"{max(state['edges'].values(), default=0)} edges, the last new one "
+              f"{state['seconds'] - state['last_edge']['seconds']:.0f} s ago", flush=True)
+
+    def run(self):
+        def interrupt(*_):
+            self.stop = True
+            for process in list(self.processes):
+                process.terminate()
+
+        signal.signal(signal.SIGINT, interrupt)
+        signal.signal(signal.SIGTERM, interrupt)
+        threads = [threading.Thread(target=self.work, args=(k,)) for k in range(self.workers)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.save()
+
+
+def share(state):
+    return 100 * state["past_syntax"] / max(state["executions"], 1)
+
+
+def campaign(targets, executions, workers, limit):
+    BUILD.mkdir(parents=True, exist_ok=True)
+    for folder in "fuzz", "fuzz-fast":
+        build(folder)
+    many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), workers, limit)
+    many.run()
+    for target in targets:  # everything that came up on the way, with every sanitizer
+        once = subprocess.run(target.command("fuzz", "-runs=0", str(target.work / "corpus"), *target.inputs()),
+                              env={**os.environ, **SANITIZERS}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        if once.returncode and not many.stop:
+            many.of(target)["findings"] = findings(target) or ["the inputs gathered do not replay"]
+    done = all(many.of(t)["executions"] >= many.wanted(t) for t in targets)
+    found = [f for t in targets for f in many.of(t)["findings"]]
+    write_figures(targets, many.state, {} if many.stop else coverage(targets))
+    return 1 if found else 0 if done else 3
+
+
+def write_figures(targets, state, lines):
+    """What docs/reliability.md says of it."""
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    figures = {"date": time.strftime("%Y-%m-%d"), "commit": commit, "targets": {}}
+    for target in targets:
+        of = state[target.name]
+        rates = {b: round(v["executions"] / v["seconds"]) for b, v in of["by_build"].items() if v["seconds"]}
+        figures["targets"][target.name] = {
+            "executions": of["executions"], "past_syntax_percent": round(share(of), 1),
+            "accepted_percent": round(100 * of["accepted"] / max(of["executions"], 1), 1), "edges": of["edges"],
+            "processor_seconds": round(of["seconds"]), "executions_per_second": rates,
+            "seconds_since_last_edge": round(of["seconds"] - of["last_edge"]["seconds"]),
+            "executions_since_last_edge": of["executions"] - of["last_edge"]["executions"],
+            "findings": len(of["findings"]), "lines": lines.get(target.name, {})}
+    FIGURES.write_text(json.dumps(figures, indent=1))
+    print(FIGURES)
+
+
+# ---- lines reached ----
+
+
+def coverage(targets):
+    """Lines of each target's own files: {target: {"covered": n, "count": n, "percent": p, "files": {...}}}."""
+    build("fuzz-coverage")
+    result = {}
+    for target in targets:
+        target.work.mkdir(parents=True, exist_ok=True)
+        raw, data = target.work / "lines.profraw", target.work / "lines.profdata"
+        inputs = [*target.inputs(), str(target.work / "corpus")]
+        subprocess.run([target.program("fuzz-coverage"), *inputs], env={**os.environ, "LLVM_PROFILE_FILE": str(raw)},
+                       check=True, stdout=subprocess.DEVNULL)
+        tools = [shutil.which(f"{tool}-14") or tool for tool in ("llvm-profdata", "llvm-cov")]
+        subprocess.run([tools[0], "merge", "-sparse", str(raw), "-o", str(data)], check=True)
+        told = subprocess.run([tools[1], "export", "-summary-only", f"-instr-profile={data}", target.program("fuzz-coverage")],
+                              check=True, capture_output=True, text=True).stdout
+        summary = {str(pathlib.Path(f["filename"]).relative_to(ROOT)): f["summary"]["lines"]
+                   for f in json.loads(told)["data"][0]["files"] if f["filename"].startswith(str(ROOT))}
+        files = {f: summary[f] for f in target.files if f in summary}
+        covered, count = (sum(f[key] for f in files.values()) for key in ("covered", "count"))
+        result[target.name] = {"covered": covered, "count": count, "percent": round(100 * covered / max(count, 1), 1),
+                               "files": {f: round(s["percent"], 1) for f, s in files.items()}}
+    return result
+
+
+def tell_coverage(targets):
+    for name, lines in coverage(targets).items():
+        print(f"{name}: {lines['covered']} of {lines['count']} lines, {lines['percent']} %")
+        for file, percent in lines["files"].items():
+            print(f"  {percent:6.1f} %  {file}")
+    return 0
+
+
+# ---- the committed inputs ----
+
+
+def minimise(targets):
+    """The fewest inputs that reach as much; small ones come first."""
+    build("fuzz")
+    for target in targets:
+        new = target.work / "minimised"
+        shutil.rmtree(new, ignore_errors=True)
+        new.mkdir(parents=True)
+        old = [str(f) for f in (target.corpus, target.work / "corpus") if f.is_dir()]
+        subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        shutil.rmtree(target.corpus, ignore_errors=True)
+        shutil.copytree(new, target.corpus)
+        files = list(target.corpus.iterdir())
+        print(f"{target.name}: {len(files)} inputs, {sum(f.stat().st_size for f in files)} bytes")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    parser.add_argument("--seconds", type=int)
+    parser.add_argument("--executions", type=float, help="of each target, ten times as many of scene")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--minutes", type=float, help="stop a campaign after so long, to go on another time")
+    parser.add_argument("--coverage", action="store_true")
+    parser.add_argument("--minimise", action="store_true")
+    asked = parser.parse_args()
+    unknown = set(asked.targets) - set(all_targets())
+    if unknown:
+        parser.error(f"no such target: {', '.join(sorted(unknown))}; there are {', '.join(all_targets())}")
+    targets = [Target(name) for name in asked.targets or all_targets()]
+    if asked.coverage:
+        return tell_coverage(targets)
+    if asked.minimise:
+        return minimise(targets)
+    if asked.executions:
+        return campaign(targets, asked.executions, asked.workers, asked.minutes and 60 * asked.minutes)
+    return short(targets, asked.seconds or 8)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,44 @@
+"""Inputs to begin with, for tests/fuzz/corpus: every scene of the repository, made small; what is wrong in it stays.
+
+    seeds.py FOLDER     writes FOLDER/scene and FOLDER/obj; run.py --minimise then keeps those that reach more
+
+A scene that is too large for an input is cut off, which is one more that is wrong.
+"""
+
+import json
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ["examples/scenes", "tests/cli/scenes"]
+LONGEST = 4096
+
+
+def smaller(value):
+    """The same scene with fewer particles, where it can be read."""
+    if isinstance(value, dict):
+        few = {"segments": 5, "size": [4, 3, 3]}
+        return {k: few[k][: len(v)] if k == "size" and isinstance(v, list) else few[k]
+                if k == "segments" and isinstance(v, int) else smaller(v) for k, v in value.items()}
+    return [smaller(v) for v in value] if isinstance(value, list) else value
+
+
+def main(folder):
+    for kind in "scene", "obj":
+        (folder / kind).mkdir(parents=True, exist_ok=True)
+    paths = [p for place in SCENES for p in sorted((ROOT / place).rglob("*.json"))]
+    for path in paths:
+        text = path.read_bytes()
+        name = f"{path.parent.name}-{path.stem}"
+        (folder / "scene" / name).write_bytes(text[:LONGEST])
+        try:
+            small = json.dumps(smaller(json.loads(text)), separators=(",", ":"), allow_nan=False).encode()
+        except ValueError:
+            continue
+        (folder / "scene" / f"{name}-small").write_bytes(small[:LONGEST])
+    for path in sorted((ROOT / "examples/scenes").glob("*.obj")):
+        (folder / "obj" / path.stem).write_bytes(b"\0\0" + path.read_bytes())
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
