@@ -11,7 +11,8 @@
  *   limit.h       the largest stable step of each method, and what it hangs on
  *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
- *   io.h          scene files and trajectories */
+ *   io.h          scene files and trajectories
+ *   checkpoint.h  places from which a run goes on */
 #ifndef HOOKE_H
 #define HOOKE_H
 
@@ -28,5 +29,6 @@
 #include "hooke/why.h"
 #include "hooke/needs.h"
 #include "hooke/io.h"
+#include "hooke/checkpoint.h"
 
 #endif

@@ -3,7 +3,7 @@
  * An integrator is a method with its options and its scratch, made for one system (or one first-order
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
- * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], newton, rtol, atol [m],
+ * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], checkpoint [s], newton, rtol, atol [m],
  * atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
@@ -70,6 +70,11 @@ HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_
 /* Called every `stride` >= 1 steps. */
 HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
                                            hooke_observer *observer, void *ctx);
+/* Called at the checkpoints of the option `checkpoint`, after the frame of that time: every so many steps as come nearest to
+ * it, at least one; with error control at t0 + k checkpoint, where the method starts anew, whether or not anyone watches.
+ * There hooke_checkpoint_write() has everything that the run can go on from. */
+HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
+                                                 void *ctx);
 
 /* ---- running ---- */
 
@@ -85,11 +90,17 @@ HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrato
  * one that does not change the time of an error-controlled method, or a state with numbers that are not finite. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
+/* Goes on to the end of a run from where hooke_checkpoint_read() placed the integrator and the state, or where an observer or
+ * callback stopped a run with a fixed step, as if it had never stopped: the same bits, and the same counts. Frames
+ * that were reported are not reported again. Outcomes are those of hooke_integrator_run(); HOOKE_BAD_CALL if there is
+ * nothing to go on with. */
+HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
+
 /* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
  * For time loops of the caller's own; the same statuses. */
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
 
-/* ---- what it did, since it was made ---- */
+/* ---- what it did, since it was made; after hooke_checkpoint_read() since the run began ---- */
 
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
  * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last

@@ -107,6 +107,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_motion_destroy(it->motion);
   hooke_crew_destroy(it->crew);
   hooke_recent_release(&it->recent);
+  hooke_state_destroy(it->restart.state);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hooke_free(it->x);
@@ -119,6 +120,11 @@ const hooke_options *hooke_integrator_options(const hooke_integrator *integrator
 
 int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
   integrator->on_frame = (struct hooke_watch){observer, ctx, 1};
+  return HOOKE_OK;
+}
+
+int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
+  integrator->on_checkpoint = (struct hooke_watch){observer, ctx, 1};
   return HOOKE_OK;
 }
 
@@ -173,8 +179,9 @@ int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
 
 static int64_t memory_of(const hooke_integrator *it) {
   const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
+  const int64_t restart = it->restart.state ? 1 + (it->system ? 2 : 1) * it->size : 0;
   return (int64_t)sizeof *it + it->own_memory + (it->motion ? it->motion->memory : 0) +
-         own * (int64_t)sizeof(double) + hooke_recent_memory(&it->recent);
+         (own + restart) * (int64_t)sizeof(double) + hooke_recent_memory(&it->recent);
 }
 
 int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {

@@ -15,10 +15,26 @@ struct hooke_counts {
 
 /* The schedule of a run: whole numbers of steps for a fixed-step method, times for an adaptive one. */
 struct hooke_schedule {
-  double step, duration, every; /* NaN where not given */
-  int64_t steps, frame_steps;   /* fixed step: in all, and between frames */
-  int64_t frames;               /* the initial one included; 0 without a duration */
-  int32_t every_given;          /* 0: `every` was chosen here */
+  double step, duration, every, checkpoint; /* NaN where not given */
+  int64_t steps, frame_steps;               /* fixed step: in all, and between frames */
+  int64_t checkpoint_steps;                 /* fixed step: between checkpoints; 0: none */
+  int64_t frames;                           /* the initial one included; 0 without a duration */
+  int32_t every_given;                      /* 0: `every` was chosen here */
+};
+
+/* Where a run stands beside its state: all that going on from there takes, and what it counted. */
+struct hooke_standing {
+  double t0, t;
+  int64_t k, frames;                               /* steps since t0, frames reported */
+  double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
+  struct hooke_counts count;
+  double wall_seconds;
+};
+
+/* Where an error-controlled run last started anew. */
+struct hooke_restart {
+  hooke_state *state; /* NULL: none is kept */
+  struct hooke_standing standing;
 };
 
 struct hooke_watch {
@@ -52,15 +68,20 @@ struct hooke_integrator {
   void *own;    /* the method's scratch */
   int64_t own_memory;
 
-  double t0, t; /* where the run began, and where it is */
-  double goal;  /* the time that the run loop wants next; a method that does not interpolate stops there */
-  int64_t k;    /* steps since t0 */
+  double t0, t;   /* where the run began, and where it is */
+  double goal;    /* the time that the run loop wants next; a method that does not interpolate stops there */
+  int64_t k;      /* steps since t0 */
+  int64_t frames; /* reported since t0 */
+  int64_t point;  /* number of the next checkpoint, with error control */
+  struct hooke_restart restart;                    /* with error control and the option `checkpoint` */
+  int32_t begun;                                   /* 1: the numbers above are those of a run */
+  int32_t placed;                                  /* 1: at the place of a checkpoint that was read */
   struct hooke_recent recent;                      /* the newest is the last state that passed the check */
   double good_time;                                /* of it, where recent has no room: see divergence.c */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
 
-  struct hooke_watch on_frame, on_step;
+  struct hooke_watch on_frame, on_step, on_checkpoint;
   struct hooke_checker checker;
   int32_t thorough; /* 1: every check looks at the energy, too */
   struct hooke_counts count;
@@ -97,6 +118,12 @@ int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const doub
 /* `begin` and `store` of every fixed-step method. */
 int32_t hooke_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
+
+/* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself. Its first state is then
+ * unknown to it. The failures of a run's beginning. */
+struct hooke_standing hooke_integrator_standing(const hooke_integrator *integrator);
+int32_t hooke_integrator_stand(hooke_integrator *integrator, const struct hooke_standing *standing,
+                               hooke_state *state);
 
 /* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that run did from
  * there, to the bit. An error-controlled method starts anew. */

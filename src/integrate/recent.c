@@ -14,7 +14,7 @@ int32_t hooke_recent_create(int64_t size, int32_t has_v, int32_t least, struct h
   *recent = (struct hooke_recent){.room = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
                                           : fit > 2               ? (int32_t)(fit - 1)
                                                                   : least};
-  int32_t status = fit >= 2 ? hooke_state_create_sized(size, has_v, &recent->first) : HOOKE_OK;
+  int32_t status = fit >= 2 ? hooke_state_create_sized(size, has_v, &recent->room_of_first) : HOOKE_OK;
   for (int32_t k = 0; k < recent->room && status == HOOKE_OK; k++)
     status = hooke_state_create_sized(size, has_v, &recent->state[k]);
   if (status != HOOKE_OK) hooke_recent_release(recent);
@@ -30,18 +30,23 @@ int32_t hooke_recent_make_room(int64_t size, int32_t has_v, struct hooke_recent 
 void hooke_recent_release(struct hooke_recent *recent) {
   for (int32_t k = 0; k < HOOKE_MOST_RECENT; k++)
     hooke_state_destroy(recent->state[k]);
-  hooke_state_destroy(recent->first);
+  hooke_state_destroy(recent->room_of_first);
   memset(recent, 0, sizeof *recent);
 }
 
 int64_t hooke_recent_memory(const struct hooke_recent *recent) {
   const hooke_state *one = recent->state[0];
-  return one ? (recent->room + (recent->first != NULL)) * state_bytes(one->size, one->has_v) : 0;
+  return one ? (recent->room + (recent->room_of_first != NULL)) * state_bytes(one->size, one->has_v) : 0;
+}
+
+void hooke_recent_set_first(struct hooke_recent *recent, const hooke_state *first) {
+  recent->first = first ? recent->room_of_first : NULL;
+  if (recent->first) hooke_state_copy(first, recent->first);
 }
 
 void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state) {
   recent->count = 0;
-  if (recent->first) hooke_state_copy(state, recent->first);
+  hooke_recent_set_first(recent, state);
   hooke_recent_keep(recent, state, 0);
 }
 

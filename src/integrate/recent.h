@@ -10,7 +10,8 @@ enum { HOOKE_MOST_RECENT = 8 };
 struct hooke_recent {
   hooke_state *state[HOOKE_MOST_RECENT];
   int64_t step[HOOKE_MOST_RECENT]; /* steps since the run began */
-  hooke_state *first;              /* the run began with; NULL where there is no room for it */
+  hooke_state *first; /* the run began with; NULL where it is not known, or there is no room for it */
+  hooke_state *room_of_first;
   int32_t room, count, newest;
 };
 
@@ -23,6 +24,8 @@ int64_t hooke_recent_memory(const struct hooke_recent *recent);
 
 /* Forgets all, and begins with `state`. */
 void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state);
+/* The state that the run began with, for a run that goes on from elsewhere; NULL: it is not known. */
+void hooke_recent_set_first(struct hooke_recent *recent, const hooke_state *first);
 /* A second state after the same step takes the place of the first. */
 void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, int64_t step);
 

@@ -1,5 +1,5 @@
 /* The run loop, one for all methods: steps, frames, observers, checks. */
-#include "integrate/integrator.h"
+#include "integrate/run_loop.h"
 
 #include "core/clock.h"
 #include "core/status.h"
@@ -8,17 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHECK_STEPS = 1000 };
-
-static int32_t check_state(const hooke_integrator *it, const hooke_state *state) {
+int32_t hooke_run_check_state(const hooke_integrator *it, const hooke_state *state) {
   if (state->size == it->size && state->has_v == (it->system != NULL)) return HOOKE_OK;
   return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
                     (long long)state->size, (long long)it->size);
 }
 
-/* Driven particles go where their motion has them at the time of the state, whatever the caller wrote there.
- */
-static int32_t place_driven(hooke_integrator *it, hooke_state *state) {
+int32_t hooke_run_place_driven(hooke_integrator *it, hooke_state *state) {
   if (it->system == NULL || it->system->drive_count == 0) return HOOKE_OK;
   hooke_motion_load(it->system, it->motion, state->q, state->v);
   const int32_t status = hooke_integrator_hold(it, *state->t);
@@ -42,17 +38,22 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
   return HOOKE_OK;
 }
 
-static int32_t begin(hooke_integrator *it, hooke_state *state) {
+int32_t hooke_run_begin(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
-  it->k = 0;
+  it->k = it->frames = 0;
+  it->begun = it->placed = 0;
+  it->point = 1;
   it->stop_value = 0;
-  int32_t status = place_driven(it, state);
+  int32_t status = hooke_run_place_driven(it, state);
   if (status == HOOKE_OK) status = check_numbers(it, state);
   if (status == HOOKE_OK) status = hooke_divergence_begin(it, state);
-  return status == HOOKE_OK ? it->method->begin(it, state) : status;
+  if (status == HOOKE_OK) status = it->method->begin(it, state);
+  if (status == HOOKE_OK) status = hooke_run_keep_restart(it, state);
+  it->begun = status == HOOKE_OK;
+  return status;
 }
 
-static int32_t observe(hooke_integrator *it, const struct hooke_watch *watch, const hooke_state *state) {
+int32_t hooke_run_observe(hooke_integrator *it, const struct hooke_watch *watch, const hooke_state *state) {
   if (watch->observer == NULL) return HOOKE_OK;
   const int32_t value = watch->observer(it->k, state, watch->ctx);
   if (value == 0) return HOOKE_OK;
@@ -60,9 +61,12 @@ static int32_t observe(hooke_integrator *it, const struct hooke_watch *watch, co
   return hooke_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.17g s", (int)value, *state->t);
 }
 
-/* Stores the solution at time t, the bits of a frame's time being t itself; `checked` where hooke_divergence_check() is
- * next. */
-static int32_t store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
+int32_t hooke_run_report(hooke_integrator *it, const hooke_state *state) {
+  it->frames++;
+  return hooke_run_observe(it, &it->on_frame, state);
+}
+
+int32_t hooke_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
   const int32_t status = checked ? hooke_divergence_store(it, t, state) : it->method->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* nobody has the last good state any more */
   *state->t = t;
@@ -88,104 +92,39 @@ static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
   return status;
 }
 
-/* One internal step; if it fails, the state is the one before it. */
-static int32_t take_adaptive_step(hooke_integrator *it, hooke_state *state) {
-  const double begun = hooke_clock_seconds();
-  const int32_t status = it->method->step(it);
-  it->wall_seconds += hooke_clock_seconds() - begun;
-  if (status == HOOKE_OK)
-    it->k++;
-  else if (it->k > 0)
-    it->method->store(it, it->t, state);
-  return status;
-}
-
 static int64_t until_multiple(int64_t k, int64_t stride) {
   return stride - k % stride;
 }
 
-/* On to step `last` with checks and step observers, and frames every `frame_steps` (0: none). */
+/* On to step `last` with checks and step observers, frames every `frame_steps` (0: none), and checkpoints. */
 static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int64_t frame_steps) {
+  const int64_t point_steps = it->on_checkpoint.observer ? it->schedule.checkpoint_steps : 0;
   int32_t status = HOOKE_OK;
   while (it->k < last && status == HOOKE_OK) {
-    int64_t count = last - it->k, next = until_multiple(it->k, CHECK_STEPS);
+    int64_t count = last - it->k, next = until_multiple(it->k, HOOKE_CHECK_STEPS);
     if (next < count) count = next;
     if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
+    if (point_steps && (next = until_multiple(it->k, point_steps)) < count) count = next;
     if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
     status = take_fixed_steps(it, count);
     const int frame = frame_steps && it->k % frame_steps == 0;
-    const int thorough = frame || it->thorough || it->k % CHECK_STEPS == 0;
-    const int checked = status == HOOKE_OK && (thorough || it->k == last);
-    const int32_t stored = store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
+    const int point = point_steps && it->k % point_steps == 0 && it->k < last;
+    const int thorough = frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
+    const int checked = status == HOOKE_OK && (thorough || point || it->k == last);
+    const int32_t stored = hooke_run_store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
     if (status == HOOKE_OK) status = stored;
     if (checked && status == HOOKE_OK) status = hooke_divergence_check(it, state, thorough);
     if (status == HOOKE_OK && it->on_step.observer && it->k % it->on_step.stride == 0) {
-      status = observe(it, &it->on_step, state);
+      status = hooke_run_observe(it, &it->on_step, state);
     }
-    if (status == HOOKE_OK && frame) status = observe(it, &it->on_frame, state);
+    if (status == HOOKE_OK && frame) status = hooke_run_report(it, state);
+    if (status == HOOKE_OK && point) status = hooke_run_observe(it, &it->on_checkpoint, state);
   }
   return status;
-}
-
-/* Checks and observers of an internal step. */
-static int32_t report_step(hooke_integrator *it, hooke_state *state, int64_t limit) {
-  int32_t status = HOOKE_OK;
-  const int watched = it->on_step.observer && it->k % it->on_step.stride == 0;
-  const int checked = it->k % CHECK_STEPS == 0;
-  if (watched || checked || it->k >= limit) status = store(it, it->t, state, 0);
-  if (status == HOOKE_OK && checked) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK && watched) status = observe(it, &it->on_step, state);
-  if (status == HOOKE_OK && it->k >= limit) {
-    status = hooke_fail(
-        HOOKE_STEP_LIMIT, NULL,
-        "the run used up max_steps = %lld at t = %.17g s; give it more steps, or try looser tolerances",
-        (long long)limit, it->t);
-  }
-  return status;
-}
-
-static int32_t report_frame(hooke_integrator *it, hooke_state *state, double t) {
-  int32_t status = store(it, t, state, 0);
-  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-  return status == HOOKE_OK ? observe(it, &it->on_frame, state) : status;
-}
-
-static double next_goal(const hooke_integrator *it, const struct hooke_schedule *schedule, int64_t frame,
-                        double end) {
-  return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
-}
-
-static int32_t refuse_duration(const hooke_integrator *it, const struct hooke_schedule *schedule) {
-  return hooke_fail(HOOKE_BAD_VALUE, "duration",
-                    "%.17g s does not change the time t = %.17g s; take a longer one, or a fixed-step method",
-                    schedule->duration, it->t0);
-}
-
-/* Internal steps to the end of the run; frames 1, 2, ... are asked of the step that reaches or passes them. */
-static int32_t run_adaptive(hooke_integrator *it, hooke_state *state, const struct hooke_schedule *schedule) {
-  const double end = it->t0 + schedule->duration, steps = hooke_options_number(it->options, "max_steps");
-  const int64_t limit = isnan(steps) ? INT64_MAX : (int64_t)steps;
-  int32_t status = end > it->t0 ? HOOKE_OK : refuse_duration(it, schedule);
-  int64_t frame = 1;
-  while (frame < schedule->frames && next_goal(it, schedule, frame, end) <= it->t)
-    frame++;
-  while (it->t < end && status == HOOKE_OK) {
-    it->goal = next_goal(it, schedule, frame, end);
-    status = take_adaptive_step(it, state);
-    while (status == HOOKE_OK && frame < schedule->frames) {
-      const double t = next_goal(it, schedule, frame, end);
-      if (t > it->t) break;
-      status = report_frame(it, state, t);
-      frame++;
-    }
-    if (status == HOOKE_OK && it->t < end) status = report_step(it, state, limit);
-  }
-  if (status == HOOKE_OK) status = store(it, end, state, 0);
-  return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
 }
 
 /* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. */
-static int32_t end(hooke_integrator *it, hooke_state *state, int32_t status) {
+int32_t hooke_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   it->outcome = status;
   snprintf(it->message, sizeof it->message, "%s", status == HOOKE_OK ? "" : hooke_last_error());
   const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
@@ -197,59 +136,27 @@ static int32_t end(hooke_integrator *it, hooke_state *state, int32_t status) {
   return status;
 }
 
-static int32_t check_duration(const hooke_integrator *it) {
+int32_t hooke_run_check_duration(const hooke_integrator *it) {
   if (it->schedule.frames > 0) return HOOKE_OK;
   return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
 }
 
-static int32_t run_to_end(hooke_integrator *it, hooke_state *state) {
+int32_t hooke_run_to_end(hooke_integrator *it, hooke_state *state) {
   const struct hooke_schedule *s = &it->schedule;
   if (!it->method->adaptive) return run_fixed(it, state, s->steps, s->frame_steps);
-  return run_adaptive(it, state, s);
+  return hooke_run_adaptive(it, state);
 }
 
 int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
-  int32_t status = check_state(it, state);
-  if (status == HOOKE_OK) status = check_duration(it);
+  int32_t status = hooke_run_check_state(it, state);
+  if (status == HOOKE_OK) status = hooke_run_check_duration(it);
   if (status != HOOKE_OK) return status;
-  status = begin(it, state);
+  status = hooke_run_begin(it, state);
   if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK) status = observe(it, &it->on_frame, state);
-  if (status == HOOKE_OK) status = run_to_end(it, state);
-  return end(it, state, status);
-}
-
-int32_t hooke_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
-                               hooke_state *state) {
-  const int32_t status = begin(to, state);
-  to->t0 = from->t0;
-  to->k = to->recent.step[to->recent.newest] = step;
-  to->energy0 = from->energy0;
-  to->scale0 = from->scale0;
-  to->gravity0 = from->gravity0;
-  to->gravity_swing = from->gravity_swing;
-  return status;
-}
-
-int32_t hooke_integrator_run_on(hooke_integrator *it, const hooke_state *first, hooke_state *state) {
-  int32_t status = check_state(it, state);
-  if (status == HOOKE_OK) status = check_state(it, first);
-  if (status == HOOKE_OK) status = check_duration(it);
-  if (status != HOOKE_OK) return status;
-  hooke_state *start = NULL;
-  status = hooke_state_create_sized(first->size, first->has_v, &start);
-  if (status == HOOKE_OK) status = hooke_state_copy(first, start);
-  if (status == HOOKE_OK) status = begin(it, start);
-  if (status == HOOKE_OK) {
-    const int fixed = !it->method->adaptive;
-    const int64_t step = fixed ? (int64_t)llround((*state->t - *start->t) / it->schedule.step) : 0;
-    const hooke_integrator begun = *it;
-    status = hooke_integrator_place(it, &begun, step, state);
-    if (it->recent.first) hooke_state_copy(start, it->recent.first);
-  }
-  hooke_state_destroy(start);
-  if (status == HOOKE_OK) status = run_to_end(it, state);
-  return end(it, state, status);
+  if (status == HOOKE_OK) it->restart.standing.frames = 1;
+  if (status == HOOKE_OK) status = hooke_run_report(it, state);
+  if (status == HOOKE_OK) status = hooke_run_to_end(it, state);
+  return hooke_run_end(it, state, status);
 }
 
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
@@ -263,25 +170,16 @@ static int goes_on(const hooke_integrator *it, const hooke_state *state) {
   return last && memcmp(last->t, state->t, bytes) == 0;
 }
 
-static int32_t take_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
-  int32_t status = HOOKE_OK;
-  if (!it->method->adaptive) return run_fixed(it, state, it->k + steps, 0);
-  it->goal = INFINITY;
-  for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
-    status = take_adaptive_step(it, state);
-    if (status == HOOKE_OK) status = report_step(it, state, INT64_MAX);
-  }
-  if (status == HOOKE_OK) status = store(it, it->t, state, 0);
-  return status == HOOKE_OK ? hooke_divergence_check(it, state, it->thorough) : status;
-}
-
 int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
-  int32_t status = check_state(it, state);
+  int32_t status = hooke_run_check_state(it, state);
   if (status == HOOKE_OK && steps < 0) {
     status = hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
   }
   if (status != HOOKE_OK) return status;
-  if (!goes_on(it, state)) status = begin(it, state);
-  if (status == HOOKE_OK) status = take_steps(it, state, steps);
-  return end(it, state, status);
+  if (!goes_on(it, state)) status = hooke_run_begin(it, state);
+  it->placed = 0;
+  if (status == HOOKE_OK)
+    status = it->method->adaptive ? hooke_run_internal_steps(it, state, steps)
+                                  : run_fixed(it, state, it->k + steps, 0);
+  return hooke_run_end(it, state, status);
 }

@@ -31,6 +31,14 @@ static const struct hooke_option_row run_rows[] = {
      .above_low = 1,
      .high = 1e300,
      .doc = "time between frames, a whole multiple of step; about duration/100 if not given"},
+    {.name = "checkpoint",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc =
+         "time between checkpoints, from which a run can go on; error-controlled methods start anew at each"},
     {.name = "newton",
      .type = HOOKE_OPTION_CHOICE,
      .words = "converged one-iteration",
@@ -150,11 +158,14 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
   const double step = hooke_options_number(options, "step");
   *s = (struct hooke_schedule){.step = step,
                                .duration = hooke_options_number(options, "duration"),
-                               .every = hooke_options_number(options, "every")};
+                               .every = hooke_options_number(options, "every"),
+                               .checkpoint = hooke_options_number(options, "checkpoint")};
   s->every_given = !isnan(s->every);
   if (!method->adaptive) {
     const int32_t status = read_fixed(s, step);
     if (status != HOOKE_OK) return status;
+    if (!isnan(s->checkpoint))
+      s->checkpoint_steps = (int64_t)fmin(fmax(1.0, round(s->checkpoint / step)), 9e15);
   }
   if (isnan(s->duration)) return HOOKE_OK;
   if (isnan(s->every)) {

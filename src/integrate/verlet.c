@@ -65,6 +65,7 @@ static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
   if (own->damped || own->callback) return hooke_integrator_forces(it, it->t);
   const int32_t status = own->kept ? HOOKE_OK : hooke_integrator_forces_without(it, it->t, &hooke_force_drag);
+  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as the run counted it that came here */
   own->kept = 0;
   if (status != HOOKE_OK || it->system->drag == 0.0) return status;
   return hooke_force_drag.add(it->system, it->motion, it->t);

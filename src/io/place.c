@@ -97,9 +97,23 @@ static int sync_folder_of(const char *path) {
   return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
 }
 
+int32_t hooke_place_beside(const char *path, const char *ending, char **beside) {
+  const size_t room = strlen(path) + strlen(ending) + 1;
+  *beside = hooke_new((int64_t)room, 1);
+  if (*beside == NULL) return HOOKE_NO_MEMORY;
+  snprintf(*beside, room, "%s%s", path, ending);
+  return HOOKE_OK;
+}
+
 int32_t hooke_place_take(const char *place, char **temporary) {
+  return hooke_place_take_and_keep(place, NULL, temporary);
+}
+
+int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary) {
   if (sync_path(*temporary, O_RDONLY) != 0)
     return hooke_place_fail(place, "bring the data to the disk", errno);
+  if (previous && rename(place, previous) != 0 && errno != ENOENT)
+    return hooke_place_fail(place, "keep the file that was there", errno);
   if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);
   hooke_free(*temporary);
   *temporary = NULL;

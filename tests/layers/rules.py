@@ -28,6 +28,7 @@ PUBLIC = {
     "hooke/cost.h": "measure",
     "hooke/why.h": "measure",
     "hooke/io.h": "io",
+    "hooke/checkpoint.h": "io",
 }
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.

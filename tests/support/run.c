@@ -19,6 +19,7 @@ hooke_options *run_options(struct run run) {
   set_number(options, "step", run.step);
   set_number(options, "duration", run.duration);
   set_number(options, "every", run.every);
+  set_number(options, "checkpoint", run.checkpoint);
   set_number(options, "rtol", run.rtol);
   set_number(options, "atol", run.atol);
   set_number(options, "threads", run.threads);

@@ -7,7 +7,7 @@
 /* Options of a run; numbers that are 0 are left at their defaults. */
 struct run {
   const char *method;
-  double step, duration, every;
+  double step, duration, every, checkpoint;
   double rtol, atol;
   int32_t threads;
   const char *newton, *linear_solver; /* NULL: the default */

@@ -1,0 +1,212 @@
+/* Checkpoints: written as a whole, read as a whole or not at all. */
+#include "hooke/checkpoint.h"
+
+#include "core/crc32.h"
+#include "core/memory.h"
+#include "core/status.h"
+#include "io/checkpoint_form.h"
+#include "io/place.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { CHUNK = 1024 };
+
+/* ---- writing ---- */
+
+static int32_t find_place(const hooke_integrator *it, const hooke_state *state,
+                          struct hooke_standing *standing, const hooke_state **from) {
+  if (!it->begun)
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "there is no run to write a checkpoint of: it has not begun");
+  if (it->method->adaptive && it->restart.state == NULL) {
+    return hooke_fail(HOOKE_UNSUITED, "checkpoint",
+                      "is missing: %s goes on from the times of this option alone; give one [s]",
+                      it->method->name);
+  }
+  *standing = it->method->adaptive ? it->restart.standing : hooke_integrator_standing(it);
+  *from = it->method->adaptive ? it->restart.state : state;
+  const double t = standing->t;
+  if ((*from)->size != it->size || (*from)->has_v != (it->system != NULL) ||
+      memcmp(&t, (*from)->t, sizeof t) != 0) {
+    return hooke_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.17g s", t);
+  }
+  if (hooke_all_finite(((*from)->has_v ? 2 : 1) * (*from)->size, (*from)->q)) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
+}
+
+static int write_some(FILE *file, uint32_t *check, const void *bytes, int64_t count) {
+  *check = hooke_crc32(*check, bytes, count);
+  return fwrite(bytes, 1, (size_t)count, file) == (size_t)count;
+}
+
+static int write_numbers(FILE *file, uint32_t *check, int64_t count, const double *value) {
+  unsigned char bytes[8 * CHUNK];
+  int fine = 1;
+  for (int64_t done = 0; done < count && fine; done += CHUNK) {
+    const int64_t some = count - done < CHUNK ? count - done : CHUNK;
+    hooke_checkpoint_pack_numbers(some, value + done, bytes);
+    fine = write_some(file, check, bytes, 8 * some);
+  }
+  return fine;
+}
+
+static int write_all(FILE *file, const struct hooke_checkpoint_header *header, const hooke_state *state) {
+  unsigned char bytes[HOOKE_CHECKPOINT_HEADER], end[HOOKE_CHECKPOINT_END];
+  uint32_t check = 0;
+  hooke_checkpoint_pack(header, bytes);
+  if (!write_some(file, &check, bytes, sizeof bytes)) return 0;
+  if (!write_numbers(file, &check, (state->has_v ? 2 : 1) * state->size, state->q)) return 0;
+  for (int k = 0; k < HOOKE_CHECKPOINT_END; k++)
+    end[k] = (unsigned char)(check >> 8 * k);
+  return fwrite(end, 1, sizeof end, file) == sizeof end && fflush(file) == 0;
+}
+
+static int32_t write_file(const char *path, const char *temporary,
+                          const struct hooke_checkpoint_header *header, const hooke_state *state) {
+  unlink(temporary);
+  FILE *file = fopen(temporary, "wx");
+  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
+  int error = write_all(file, header, state) ? 0 : errno;
+  if (fclose(file) != 0 && error == 0) error = errno;
+  return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
+}
+
+int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, const hooke_state *state,
+                               const char *run) {
+  struct hooke_standing standing;
+  const hooke_state *from = NULL;
+  int32_t status = find_place(it, state, &standing, &from);
+  if (status == HOOKE_OK && run && strlen(run) >= HOOKE_CHECKPOINT_RUN)
+    status = hooke_fail(HOOKE_BAD_VALUE, "run", "is longer than %d bytes", HOOKE_CHECKPOINT_RUN - 1);
+  if (status != HOOKE_OK) return status;
+  struct hooke_checkpoint_header header;
+  hooke_checkpoint_describe(it, &standing, run, &header);
+  char *place = NULL, *temporary = NULL, *previous = NULL;
+  status = hooke_place_find(path, &place, &temporary);
+  if (status == HOOKE_OK) status = hooke_place_beside(place, ".previous", &previous);
+  if (status == HOOKE_OK) status = write_file(path, temporary, &header, from);
+  if (status == HOOKE_OK) status = hooke_place_take_and_keep(place, previous, &temporary);
+  if (temporary) unlink(temporary);
+  hooke_free(temporary);
+  hooke_free(previous);
+  hooke_free(place);
+  return status;
+}
+
+/* ---- reading ---- */
+
+/* One file that was read: its label, and a state of the right size with its numbers. */
+struct found {
+  struct hooke_checkpoint_header header;
+  hooke_state *state;
+  int32_t intact; /* 1: if it is refused all the same, it is of something else */
+};
+
+static int32_t damaged(const char *path, const char *what) {
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", path, what);
+}
+
+static int read_some(FILE *file, uint32_t *check, void *bytes, int64_t count) {
+  if (fread(bytes, 1, (size_t)count, file) != (size_t)count) return 0;
+  *check = hooke_crc32(*check, bytes, count);
+  return 1;
+}
+
+static int read_numbers(FILE *file, uint32_t *check, int64_t count, double *value) {
+  unsigned char bytes[8 * CHUNK];
+  for (int64_t done = 0; done < count; done += CHUNK) {
+    const int64_t some = count - done < CHUNK ? count - done : CHUNK;
+    if (!read_some(file, check, bytes, 8 * some)) return 0;
+    hooke_checkpoint_unpack_numbers(some, bytes, value + done);
+  }
+  return 1;
+}
+
+static int32_t read_end(const char *path, FILE *file, uint32_t check) {
+  unsigned char end[HOOKE_CHECKPOINT_END];
+  if (fread(end, 1, sizeof end, file) != sizeof end) return damaged(path, "is cut off");
+  for (int k = 0; k < HOOKE_CHECKPOINT_END; k++) {
+    if (end[k] != (unsigned char)(check >> 8 * k))
+      return damaged(path, "is damaged: its check value is not that of its bytes");
+  }
+  return HOOKE_OK;
+}
+
+/* Nothing is made before the length of the file and the size of the problem are known to agree. */
+static int32_t read_open(const char *path, FILE *file, const hooke_integrator *it, struct found *found) {
+  unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
+  struct stat there;
+  uint32_t check = 0;
+  if (fstat(fileno(file), &there) != 0) return hooke_place_fail(path, "read the file", errno);
+  if (!S_ISREG(there.st_mode)) return damaged(path, "is not a regular file");
+  if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
+  hooke_checkpoint_unpack(bytes, &found->header);
+  const char *damage = hooke_checkpoint_damage(&found->header, there.st_size);
+  if (damage) return damaged(path, damage);
+  const int64_t size = found->header.size;
+  if (size != it->size || found->header.has_v != (it->system != NULL)) {
+    found->intact = 1;
+    return damaged(path, "is of another scene");
+  }
+  int32_t status = hooke_state_create_sized(size, it->system != NULL, &found->state);
+  if (status != HOOKE_OK) return status;
+  if (!read_numbers(file, &check, (found->state->has_v ? 2 : 1) * size, found->state->q))
+    return damaged(path, "is cut off");
+  *found->state->t = found->header.standing.t;
+  status = read_end(path, file, check);
+  found->intact = status == HOOKE_OK;
+  return status;
+}
+
+static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
+  FILE *file = fopen(path, "rb");
+  if (file == NULL) return hooke_place_fail(path, "open the checkpoint", errno);
+  int32_t status = read_open(path, file, it, found);
+  fclose(file);
+  return status == HOOKE_OK ? hooke_checkpoint_check(path, &found->header, run, it) : status;
+}
+
+static void drop(struct found *found) {
+  hooke_state_destroy(found->state);
+  *found = (struct found){.state = NULL};
+}
+
+/* The newest, or where that is missing or damaged the one before it. */
+static int32_t find(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
+  char *previous = NULL, first[512];
+  int32_t status = read_file(path, run, it, found);
+  if (status == HOOKE_OK || found->intact || status == HOOKE_NO_MEMORY) return status;
+  snprintf(first, sizeof first, "%s", hooke_last_error());
+  drop(found);
+  const int32_t second = hooke_place_beside(path, ".previous", &previous);
+  const int there = second == HOOKE_OK && access(previous, F_OK) == 0;
+  if (there) {
+    status = read_file(previous, run, it, found);
+    if (status != HOOKE_OK) hooke_fail_before(status, "%s; ", first);
+  } else {
+    hooke_fail(status, NULL, "%s", first);
+  }
+  hooke_free(previous);
+  return second == HOOKE_OK ? status : second;
+}
+
+int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *it, hooke_state *state) {
+  if (state->size != it->size || state->has_v != (it->system != NULL))
+    return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
+                      (long long)state->size, (long long)it->size);
+  struct found found = {.state = NULL};
+  int32_t status = find(path, run, it, &found);
+  if (status == HOOKE_OK) {
+    status = hooke_integrator_stand(it, &found.header.standing, found.state);
+    if (status != HOOKE_OK) hooke_fail_before(status, "%s: ", path);
+  }
+  if (status == HOOKE_OK) {
+    it->placed = 1;
+    hooke_state_copy(found.state, state);
+  }
+  drop(&found);
+  return status;
+}

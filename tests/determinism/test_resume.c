@@ -1,0 +1,225 @@
+/* Runs that are stopped anywhere and go on elsewhere end in the same bits, with the same frames and counts, as the run that
+ * was never stopped; for every method, the references as well. */
+#include "check.h"
+#include "hash.h"
+#include "moving_scene.h"
+#include "random.h"
+#include "run.h"
+#include "sanitized.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { STEPS = 60, FRAME_STEPS = 7, MOST_STOPS = 3, MOST_FRAMES = 64 };
+
+static const char *const counts[] = {"steps",
+                                     "force_evaluations",
+                                     "derivative_products",
+                                     "nonlinear_iterations",
+                                     "nonlinear_failures",
+                                     "linear_iterations",
+                                     "error_test_failures"};
+enum { COUNTS = sizeof counts / sizeof counts[0] };
+
+/* What came of a run: each frame, the end last, is t, step, q, v. */
+struct trace {
+  int64_t size, frames;
+  double *row;
+  int64_t count[COUNTS];
+};
+
+/* A run on its way. */
+struct course {
+  struct trace *trace;
+  hooke_integrator *integrator;
+  char path[64];
+  int64_t calls, stop_at; /* step observers so far, and the one that stops; 0: none */
+  int32_t at_points;      /* 1: checkpoints are written where they fall due, else where the run stops */
+};
+
+static struct trace trace_create(const hooke_system *system) {
+  struct trace trace = {.size = 2 + 6 * hooke_system_particle_count(system)};
+  trace.row = new_doubles(MOST_FRAMES * trace.size);
+  return trace;
+}
+
+static void keep(struct trace *trace, int64_t step, const hooke_state *state) {
+  assert_true(trace->frames < MOST_FRAMES);
+  double *row = trace->row + trace->frames++ * trace->size;
+  const size_t bytes = (size_t)hooke_state_size(state) * sizeof(double);
+  row[0] = hooke_state_time(state);
+  row[1] = (double)step;
+  memcpy(row + 2, hooke_state_position(state), bytes);
+  memcpy(row + 2 + hooke_state_size(state), hooke_state_velocity(state), bytes);
+}
+
+static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
+  keep(((struct course *)ctx)->trace, step, state);
+  return 0;
+}
+
+static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
+  struct course *course = ctx;
+  (void)step, (void)state;
+  return ++course->calls == course->stop_at;
+}
+
+static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
+  struct course *course = ctx;
+  (void)step;
+  if (course->at_points) check_ok(hooke_checkpoint_write(course->path, course->integrator, state, "a run"));
+  return 0;
+}
+
+static void start(const hooke_system *system, struct run run, struct course *course) {
+  course->integrator = start_run(system, run);
+  check_ok(hooke_integrator_on_frame(course->integrator, see_frame, course));
+  check_ok(hooke_integrator_on_step(course->integrator, 1, see_step, course));
+  check_ok(hooke_integrator_on_checkpoint(course->integrator, see_checkpoint, course));
+}
+
+static void finish(struct course *course, const hooke_state *state) {
+  keep(course->trace, hooke_integrator_count(course->integrator, "steps"), state);
+  for (int k = 0; k < COUNTS; k++)
+    course->trace->count[k] = hooke_integrator_count(course->integrator, counts[k]);
+}
+
+static int64_t run_whole(const hooke_system *system, struct run run, struct trace *trace) {
+  struct course course = {.trace = trace};
+  hooke_state *state = start_state(system);
+  start(system, run, &course);
+  check_ok(hooke_integrator_run(course.integrator, state));
+  finish(&course, state);
+  hooke_integrator_destroy(course.integrator);
+  hooke_state_destroy(state);
+  return course.calls;
+}
+
+/* Frames after the checkpoint are reported again. */
+static void forget_after(struct trace *trace, double t) {
+  while (trace->frames > 0 && trace->row[(trace->frames - 1) * trace->size] > t)
+    trace->frames--;
+}
+
+/* 1 if it was stopped, with a checkpoint behind it. */
+static int run_stopped(const hooke_system *system, struct run run, struct course *course, int resume) {
+  hooke_state *state = start_state(system);
+  course->calls = 0;
+  start(system, run, course);
+  int32_t status;
+  if (resume) {
+    check_ok(hooke_checkpoint_read(course->path, "a run", course->integrator, state));
+    forget_after(course->trace, hooke_state_time(state));
+    status = hooke_integrator_resume(course->integrator, state);
+  } else {
+    status = hooke_integrator_run(course->integrator, state);
+  }
+  const int stopped = status == HOOKE_STOPPED;
+  if (!stopped) {
+    check_status(status, HOOKE_OK);
+    finish(course, state);
+  } else if (!course->at_points || access(course->path, F_OK) != 0) {
+    check_ok(hooke_checkpoint_write(course->path, course->integrator, state, "a run"));
+  }
+  hooke_integrator_destroy(course->integrator);
+  hooke_state_destroy(state);
+  return stopped;
+}
+
+static void check_same(const char *what, const struct trace *found, const struct trace *whole) {
+  if (found->frames != whole->frames)
+    check_failed("%s: %lld frames in place of %lld", what, (long long)found->frames,
+                 (long long)whole->frames);
+  const int64_t at = first_difference(whole->frames * whole->size, found->row, whole->row);
+  if (at >= 0)
+    check_failed("%s: number %lld of frame %lld is %.17g in place of %.17g", what,
+                 (long long)(at % whole->size), (long long)(at / whole->size), found->row[at],
+                 whole->row[at]);
+  for (int k = 0; k < COUNTS; k++) {
+    if (found->count[k] != whole->count[k])
+      check_failed("%s: %s is %lld in place of %lld", what, counts[k], (long long)found->count[k],
+                   (long long)whole->count[k]);
+  }
+}
+
+static void remove_files(const char *path) {
+  char previous[96];
+  snprintf(previous, sizeof previous, "%s.previous", path);
+  remove(path);
+  remove(previous);
+}
+
+/* Stopped up to MOST_STOPS times at random steps. */
+static void check_stops(const hooke_system *system, struct run run, const struct trace *whole, int64_t calls,
+                        struct random_source *random, const char *what) {
+  struct trace trace = trace_create(system);
+  struct course course = {.trace = &trace, .at_points = (int32_t)random_whole(random, 0, 1)};
+  /* in memory if possible: what a checkpoint takes is fsync */
+  snprintf(course.path, sizeof course.path, "%s/hooke-resume-%ld.checkpoint",
+           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".", (long)getpid());
+  int stopped = 1;
+  for (int stop = 0; stopped; stop++) {
+    course.stop_at = stop < MOST_STOPS ? random_whole(random, 1, stop == 0 ? calls : 1 + calls / 3) : 0;
+    if (random_whole(random, 0, 1)) run.threads = 3 - run.threads;
+    stopped = run_stopped(system, run, &course, stop > 0);
+  }
+  remove_files(course.path);
+  check_same(what, &trace, whole);
+  free(trace.row);
+}
+
+static struct run run_of(const struct moving_scene *scene, const char *method, int variant) {
+  const double step = scene->step, rtol[] = {1e-4, 1e-7};
+  struct run run = {.method = method, .duration = STEPS * step, .every = FRAME_STEPS * step, .threads = 1};
+  run.duration = FRAME_STEPS * 8 * step;
+  run.checkpoint = (variant ? 3.3 : 14.0) * step; /* between frames, or at every other one */
+  run.step = step;
+  run.rtol = rtol[variant];
+  run.newton = variant ? "one-iteration" : NULL;
+  return run;
+}
+
+static void check_method(const struct moving_scene *scene, const hooke_system *system, const char *method,
+                         int64_t tries, struct random_source *random) {
+  for (int variant = 0; variant < 2; variant++) {
+    char what[128];
+    snprintf(what, sizeof what, "%s, %s, variant %d", scene->name, method, variant);
+    const struct run run = run_of(scene, method, variant);
+    struct trace whole = trace_create(system);
+    const int64_t calls = run_whole(system, run, &whole);
+    for (int64_t k = 0; k < tries; k++)
+      check_stops(system, run, &whole, calls, random, what);
+    free(whole.row);
+  }
+}
+
+static const char *const references[] = {"rk8pd", "arkode-esdirk"};
+
+static void check_scene(const struct moving_scene *scene, int64_t tries) {
+  struct random_source random = {(uint64_t)(scene - moving_scenes) + 1};
+  hooke_system *system = moving_system(scene);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    if (hooke_method_is_built(hooke_method_name(m)))
+      check_method(scene, system, hooke_method_name(m), tries, &random);
+  }
+  for (int m = 0; m < 2; m++) {
+    if (hooke_method_is_built(references[m])) check_method(scene, system, references[m], tries, &random);
+  }
+  hooke_system_destroy(system);
+}
+
+static void resumed_runs_end_in_the_same_bits(void **state) {
+  (void)state;
+  for (int k = 0; k < MOVING_SCENES; k++) {
+    if (!left_out(k, 3)) check_scene(&moving_scenes[k], getenv("HOOKE_LONG") ? 100 : 4);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(resumed_runs_end_in_the_same_bits),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
