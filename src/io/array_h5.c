@@ -55,7 +55,7 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   snprintf(name, (size_t)room, "%.*stime", folder, source->dataset);
   struct hooke_dataset time = {.id = -1};
   int32_t status = HOOKE_OK;
-  if (H5Lexists(source->file, name, H5P_DEFAULT) > 0)
+  if (hooke_dataset_is_there(source->file, name))
     status = hooke_dataset_open(source->guard, source->file, source->path, name, &time);
   hooke_free(name);
   const int each = time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0];

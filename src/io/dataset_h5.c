@@ -40,6 +40,16 @@ static herr_t refuse_link(const char *from_file, const char *from, const char *t
   return -1;
 }
 
+/* An array may claim more bytes than its file has. */
+static double stored_bytes(hid_t data) {
+  hid_t file = H5Iget_file_id(data);
+  hsize_t whole = 0;
+  const double stored = (double)H5Dget_storage_size(data);
+  if (file >= 0 && H5Fget_filesize(file, &whole) < 0) whole = 0;
+  hooke_h5_drop(file);
+  return stored < (double)whole ? stored : (double)whole;
+}
+
 /* Numbers that are stored in this very file, and no more than it can hold. */
 static int32_t check_storage(const char *path, const char *name, hid_t data, double count) {
   hid_t list = H5Dget_create_plist(data), type = H5Dget_type(data);
@@ -55,7 +65,7 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
     return hooke_dataset_refuse(path, name,
                                 "keeps its numbers in another file; allowed: numbers in the file itself");
   }
-  const double stored = (double)H5Dget_storage_size(data);
+  const double stored = stored_bytes(data);
   if (bytes > LARGEST_RATIO * stored) {
     char text[160];
     hooke_print(text, sizeof text, "claims %.0f numbers, but only %.0f bytes are stored for them", count,
@@ -65,11 +75,26 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
   return HOOKE_OK;
 }
 
+/* An access list that refuses links to other files; negative without memory. */
+static hid_t own_links(hid_t class) {
+  hid_t list = H5Pcreate(class);
+  if (list >= 0 && H5Pset_elink_cb(list, refuse_link, NULL) >= 0) return list;
+  hooke_h5_drop(list);
+  return -1;
+}
+
+int32_t hooke_dataset_is_there(hid_t file, const char *name) {
+  hid_t list = own_links(H5P_LINK_ACCESS);
+  const int32_t there = list >= 0 && H5Lexists(file, name, list) > 0;
+  hooke_h5_drop(list);
+  return there;
+}
+
 int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
   *data = (struct hooke_dataset){.id = -1};
-  hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
-  if (list >= 0 && H5Pset_elink_cb(list, refuse_link, NULL) >= 0) data->id = H5Dopen2(file, name, list);
+  hid_t list = own_links(H5P_DATASET_ACCESS);
+  if (list >= 0) data->id = H5Dopen2(file, name, list);
   hooke_h5_drop(list);
   if (data->id < 0) {
     char what[256];
@@ -99,9 +124,9 @@ int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char 
   if (strlen(name) >= sizeof part) return HOOKE_OK;
   for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
     snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
-    if (H5Lexists(file, part, H5P_DEFAULT) <= 0) return HOOKE_OK;
+    if (!hooke_dataset_is_there(file, part)) return HOOKE_OK;
   }
-  if (H5Lexists(file, name, H5P_DEFAULT) <= 0) return HOOKE_OK;
+  if (!hooke_dataset_is_there(file, name)) return HOOKE_OK;
   return hooke_dataset_open(guard, file, path, name, data);
 }
 

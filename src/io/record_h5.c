@@ -31,17 +31,29 @@ static int is_here(hid_t file, const char *name) {
          link.type == H5L_TYPE_HARD;
 }
 
+/* 1 for one text of fixed length, whose bytes are in this very file. */
+static int is_text_here(hid_t data) {
+  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
+  const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
+  const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
+                   H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT) && H5Pget_external_count(list) == 0;
+  hooke_h5_drop(list);
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return fits;
+}
+
 /* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
 static int32_t read_text(hid_t file, const char *name, char **out) {
   int32_t status = HOOKE_OK;
   *out = NULL;
   if (!is_here(file, "hooke") || !is_here(file, name)) return status;
   hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
-  hid_t type = data < 0 ? -1 : H5Dget_type(data);
-  const int fixed = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
-  const hsize_t length = fixed ? H5Tget_size(type) : 0, stored = fixed ? H5Dget_storage_size(data) : 0;
+  hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
+  const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
   char *text = NULL;
-  if (fixed && length == stored && length < LONGEST_TEXT) {
+  if (type >= 0 && length == stored && length < LONGEST_TEXT) {
     text = hooke_new((int64_t)length + 1, 1);
     if (text == NULL) status = HOOKE_NO_MEMORY;
   }
@@ -66,9 +78,14 @@ static char *attribute_text(hid_t attribute) {
   return word;
 }
 
+/* To leave it out would be to tell of another run. */
+static int32_t refuse_option(const char *name) {
+  return hooke_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
+}
+
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
   char *word = attribute_text(attribute);
-  const int32_t status = word ? hooke_options_set_text(options, name, word) : HOOKE_OK;
+  const int32_t status = word ? hooke_options_set_text(options, name, word) : refuse_option(name);
   if (word) H5free_memory(word);
   return status;
 }
@@ -97,14 +114,15 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
   hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
   const int single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
   const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  const int is_number = class == H5T_FLOAT || class == H5T_INTEGER;
   double number = NAN;
-  int32_t status = HOOKE_OK;
-  if (single && (class == H5T_FLOAT || class == H5T_INTEGER)) {
-    if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0)
-      status = hooke_options_set_number(options, name, number);
-  } else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0) {
+  int32_t status;
+  if (single && is_number && H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0)
+    status = hooke_options_set_number(options, name, number);
+  else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0)
     status = read_word(attribute, options, name);
-  }
+  else
+    status = refuse_option(name);
   hooke_h5_drop(space);
   hooke_h5_drop(type);
   return status;
@@ -118,7 +136,7 @@ static int32_t read_options(hid_t file, hooke_options *options) {
     const char *name = hooke_options_row(options, k, "name");
     if (H5Aexists(group, name) <= 0) continue;
     hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
-    if (attribute >= 0) status = read_option(attribute, options, name);
+    status = attribute >= 0 ? read_option(attribute, options, name) : refuse_option(name);
     hooke_h5_drop(attribute);
   }
   hooke_h5_drop(group);
@@ -140,11 +158,8 @@ static int32_t read_hooke(struct hooke_record *record) {
   struct hooke_h5_guard guard;
   if (require_regular(record->path) != HOOKE_OK) return HOOKE_IO_FAILED;
   hooke_h5_guard_begin(&guard);
-  int32_t status = HOOKE_OK;
-  hid_t list = H5Pcreate(H5P_FILE_ACCESS), file = -1;
-  if (list >= 0 && H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0)
-    file = H5Fopen(record->path, H5F_ACC_RDONLY, list);
-  if (file < 0) status = hooke_h5_fail(&guard, record->path, "open the file as HDF5");
+  hid_t file;
+  int32_t status = hooke_dataset_file(&guard, record->path, &file);
   if (status == HOOKE_OK) {
     status = read_text(file, "hooke/scene", &record->scene);
     if (status == HOOKE_OK) status = read_text(file, "hooke/status", &record->status);
@@ -155,15 +170,16 @@ static int32_t read_hooke(struct hooke_record *record) {
     hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);
-  hooke_h5_drop(list);
   hooke_h5_guard_end(&guard);
-  return status;
+  return status == HOOKE_BAD_VALUE ? hooke_fail_before(status, "%s: ", record->path) : status;
 }
 
 static int32_t read_times(struct hooke_record *record) {
   int64_t rows = 0, columns = 0;
   const int32_t status =
       hooke_array_read(record->path, "/particles/all/position/time", 0, 0, &record->time, &rows, &columns);
+  if (status == HOOKE_OK && columns != 1)
+    return hooke_dataset_refuse(record->path, "/particles/all/position/time", "is no column");
   while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
     record->frame_count++;
   return status;

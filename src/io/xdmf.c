@@ -200,6 +200,8 @@ static int32_t read_sizes(struct companion *c) {
   long long lengths;
   int32_t status = hooke_array_read(path, "/particles/all/position/time", 0, 0, &c->time, &planned, &wide);
   c->planned = planned;
+  if (status == HOOKE_OK && planned < hooke_record_frame_count(c->record))
+    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
   if (status == HOOKE_OK) status = read_size(path, "/particles/all/mass", &c->particles);
   if (status == HOOKE_OK) status = read_size(path, "/connectivity/springs", &c->springs);
   if (status == HOOKE_OK) c->has_rest_length = read_size(path, "/hooke/rest_length", &lengths) == HOOKE_OK;

@@ -1,0 +1,88 @@
+"""Trajectory files that somebody tampered with, by h5py: an error, and nothing that is not in the file."""
+
+import h5py
+import numpy as np
+import pytest
+from conftest import SIX_PARTICLES
+
+import hooke
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "out.h5"
+    hooke.run(hooke.Scene.parse(SIX_PARTICLES), output=path)
+    return path
+
+
+def put_text(group, name, length, **storage):
+    """A text of fixed length; h5py's high-level interface cannot lay it out in every way."""
+    kind = h5py.h5t.C_S1.copy()
+    kind.set_size(length)
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    space = h5py.h5s.create(h5py.h5s.SCALAR)
+    if "external" in storage:
+        properties.set_external(str(storage["external"]).encode(), 0, length)
+    if "count" in storage:
+        space = h5py.h5s.create_simple((storage["count"],))
+        properties.set_chunk((1,))
+    del group[name]
+    return h5py.Dataset(h5py.h5d.create(group.id, name.encode(), kind, space, dcpl=properties))
+
+
+@pytest.mark.parametrize("name", ["scene", "status"])
+def test_a_text_is_not_taken_from_another_file(path, tmp_path, name):
+    other = tmp_path / "other.txt"
+    other.write_text("secret " * 10)
+    with h5py.File(path, "r+") as file:
+        put_text(file["hooke"], name, 40, external=other)
+    if name == "status":
+        with pytest.raises(hooke.HookeError, match="no trajectory of hooke"):
+            hooke.open(path)
+    else:
+        with pytest.raises(hooke.HookeError, match="no scene"):
+            _ = hooke.open(path).scene
+
+
+def test_a_text_of_many_pieces_is_none(path):
+    """One piece of a thousand is stored: as many bytes as a piece has, and a thousandth of what would be read."""
+    with h5py.File(path, "r+") as file:
+        text = put_text(file["hooke"], "status", 64, count=1000)
+        text[0] = b"finished"
+        assert text.id.get_storage_size() == 64
+    with pytest.raises(hooke.HookeError, match="no trajectory of hooke"):
+        hooke.open(path)
+
+
+@pytest.mark.parametrize("shape", [(5000, 0), (5, 2), (0, 5)])
+def test_times_are_a_column(path, shape):
+    with h5py.File(path, "r+") as file:
+        del file["particles/all/position/time"]
+        file["particles/all/position/time"] = np.zeros(shape)
+    with pytest.raises(hooke.HookeError, match="position/time is no column"):
+        hooke.open(path)
+
+
+@pytest.mark.parametrize("value", [[1e-3, 2e-3], np.bytes_(b"0.001"), np.array([], "f8"), h5py.Empty("f8")])
+def test_an_option_that_cannot_be_read_is_not_left_out(path, value):
+    with h5py.File(path, "r+") as file:
+        file["hooke/options"].attrs["step"] = value
+    with pytest.raises(hooke.HookeError, match=r"out.h5: step: is neither a single number nor a text"):
+        hooke.open(path)
+
+
+def test_a_small_file_cannot_claim_much_memory(path):
+    """The extent of an array and the room that it claims are patched, beyond the end of the file."""
+    with h5py.File(path, "r+") as file:
+        file["hooke/rest_length"].id.get_storage_size()
+        size, data = file["hooke/rest_length"].shape[0], file["particles/all/mass"]
+        assert data.shape[0] == 6 and size != 6
+        where, room = h5py.h5o.get_info(data.id).addr, data.id.get_storage_size()
+    whole = bytearray(path.read_bytes())
+    header = whole[where : where + 512]
+    for old, new in ((6, 6 << 26), (room, room << 26)):
+        header = header.replace(old.to_bytes(8, "little"), new.to_bytes(8, "little"))
+    whole[where : where + 512] = header
+    path.write_bytes(whole)
+    with pytest.raises(hooke.HookeError, match="only|could not|claims"):
+        _ = hooke.open(path).mass
