@@ -52,11 +52,21 @@ static int32_t wave(int64_t count, double t, double *q, double *v, void *ctx) {
 
 /* ---- particles ---- */
 
+/* By Newton's method, as the last digit of cbrt() differs from one C library to the next. */
+static double cube_root(double x) {
+  double root = 1.0;
+  while (root * root * root < x)
+    root *= 2.0;
+  for (int k = 0; k < 60; k++)
+    root -= (root * root * root - x) / (3.0 * root * root);
+  return root;
+}
+
 static void add_particles(struct random_source *source, struct random_scene_request request, double *position,
                           hooke_system *system) {
   const int64_t n = request.particles;
   double *velocity = new_doubles(3 * n), *mass = new_doubles(n);
-  const double side = 0.5 * cbrt((double)n) + 0.5;
+  const double side = 0.5 * cube_root((double)n) + 0.5;
   for (int64_t p = 0; p < n; p++) {
     const int copy = (request.features & SCENE_COINCIDENT) && p > 0 && random_whole(source, 0, 7) == 0;
     for (int a = 0; a < 3; a++) {

@@ -1,0 +1,9 @@
+# Compiles for AArch64 with Debian's gcc-aarch64-linux-gnu; programs run under qemu-aarch64-static. Libraries are those of
+# that architecture (dpkg --add-architecture arm64), never this machine's.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_C_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static)
+set(CMAKE_SYSTEM_IGNORE_PATH /lib/x86_64-linux-gnu /usr/lib/x86_64-linux-gnu)

@@ -1,0 +1,218 @@
+"""Runs the steps of a part of `make test-long` one after the other and keeps what is done in build/long/<part>.json.
+
+A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step that failed
+is run again. Then its figures go into docs/reliability.md, with what is missing.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+KEPT = ROOT / "build/long"
+PAGE = ROOT / "docs/reliability.md"
+SOURCES = ("src", "include", "cli", "bindings", "cmake", "examples", "tests", "CMakeLists.txt", "CMakePresets.json")
+TELL_EVERY = 60  # [s] a line while a step takes its time
+LIMIT = 150 * 60  # [s] a part has
+
+
+@dataclass
+class Step:
+    """A line for the shell, run in the root, and what its output says."""
+
+    name: str
+    command: str
+    seconds: float  # that it takes on two processors; the next time, what it took
+    figures: Callable[[str], dict[str, Any]] = lambda text: {}  # from the output; raises where it is not as it should be
+    environment: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class Part:
+    name: str
+    packages: list[str]
+    steps: list[Step]
+    rows: Callable[[dict[str, dict[str, Any]]], list[tuple[str, str]]]  # what and figure, from the figures of steps done
+    shared: str = ""  # steps see it as $WORK: a folder that stays from one start to the next
+
+
+def git(*arguments: str) -> str:
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False).stdout
+
+
+def sources() -> tuple[str, str]:
+    """A digest of the sources as they are, and what to call them: the commit that they are of."""
+    digest = hashlib.sha256()
+    for name in sorted(set(git("ls-files", "-co", "--exclude-standard", "--", *SOURCES).split("\n")) - {""}):
+        if (ROOT / name).is_file():
+            digest.update(name.encode() + b"\0" + (ROOT / name).read_bytes())
+    commit = git("log", "-1", "--format=%h", "--", *SOURCES).strip() or "unknown"
+    changed = git("status", "--porcelain", "--", *SOURCES).strip()
+    return digest.hexdigest(), commit + (" with changes" if changed else "")
+
+
+def write_whole(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    other = path.with_name(path.name + ".new")
+    other.write_text(text)
+    os.replace(other, path)
+
+
+# ---- state ----
+
+
+def load(part: Part) -> dict[str, Any]:
+    """What is done for the sources as they are; of others the times alone."""
+    digest, commit = sources()
+    state: dict[str, Any] = {"sources": digest, "commit": commit, "done": {}, "took": {}}
+    try:
+        old = json.loads((KEPT / f"{part.name}.json").read_text())
+        state["took"] = old["took"]
+        if old["sources"] == digest:
+            state["done"] = {step.name: old["done"][step.name] for step in part.steps if step.name in old["done"]}
+    except (OSError, ValueError, KeyError):
+        pass
+    return state
+
+
+def save(part: Part, state: dict[str, Any]) -> None:
+    write_whole(KEPT / f"{part.name}.json", json.dumps(state, indent=1))
+
+
+# ---- running ----
+
+
+def words(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def die_with_parent() -> None:
+    ctypes.CDLL(None).prctl(1, signal.SIGTERM)
+
+
+def last_line(log: Path) -> str:
+    lines = log.read_text(errors="replace").strip().splitlines()
+    return lines[-1][:100] if lines else ""
+
+
+def run(step: Step, log: Path, folder: Path, told: Callable[[str], None]) -> int:
+    environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "OPENBLAS_NUM_THREADS": "1"} | step.environment
+    with log.open("w") as output:
+        process = subprocess.Popen(
+            ["bash", "-e", "-u", "-o", "pipefail", "-c", step.command],
+            cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+            preexec_fn=die_with_parent,
+        )  # fmt: skip
+        while True:
+            try:
+                return process.wait(timeout=TELL_EVERY)
+            except subprocess.TimeoutExpired:
+                told(last_line(log))
+            except KeyboardInterrupt:
+                process.terminate()
+                process.wait()
+                raise
+
+
+def run_part(part: Part) -> int:
+    """Runs what is left; the number of steps that failed."""
+    state, failed = load(part), 0
+    folder = KEPT / part.name
+    folder.mkdir(parents=True, exist_ok=True)
+    print(f"== {part.name} of {state['commit']}: {len(state['done'])} of {len(part.steps)} steps are done", flush=True)
+    try:
+        for k, step in enumerate(part.steps, 1):
+            if step.name in state["done"]:
+                continue
+            failed += not run_step(part, state, k, step, folder)
+    except KeyboardInterrupt:
+        print(f"\ninterrupted; start it again, and it goes on: make test-long PART={part.name}")
+        failed += 1
+    write_figures(part, state)
+    return failed
+
+
+def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path) -> bool:
+    left = sum(state["took"].get(s.name, s.seconds) for s in part.steps[k - 1 :] if s.name not in state["done"])
+    began, log = time.monotonic(), folder / (re.sub(r"[^a-zA-Z0-9.-]+", "_", step.name) + ".log")
+    print(f"[{k}/{len(part.steps)}] {step.name} (about {words(left)} left)", flush=True)
+
+    def tell(line: str) -> None:
+        spent = time.monotonic() - began
+        print(f"    {words(spent)}, about {words(max(left - spent, 0))} left: {line}", flush=True)
+
+    status = run(step, log, folder, tell)
+    took = time.monotonic() - began
+    try:
+        if status != 0:
+            raise ValueError(f"ended with status {status}")
+        figures = step.figures(log.read_text(errors="replace"))
+    except (ValueError, LookupError, OSError) as error:
+        print(f"    FAILED after {words(took)}: {error}; {log.relative_to(ROOT)} ends with")
+        print("\n".join("    | " + line for line in log.read_text(errors="replace").splitlines()[-15:]), flush=True)
+        return False
+    state["took"][step.name] = round(took, 1)
+    state["done"][step.name] = {"date": time.strftime("%Y-%m-%d"), "seconds": round(took, 1), "figures": figures}
+    save(part, state)
+    return True
+
+
+# ---- figures ----
+
+
+def write_figures(part: Part, state: dict[str, Any]) -> None:
+    """Between the marks of this part in the page, if it is done for these sources in part at least."""
+    done = state["done"]
+    if not done:
+        return
+    dates = sorted({step["date"] for step in done.values()})
+    spent = sum(step["seconds"] for step in done.values())
+    missing = [step.name for step in part.steps if step.name not in done]
+    lines = [f"{dates[0] if len(dates) == 1 else f'{dates[0]} to {dates[-1]}'}, commit {state['commit']}, "
+             f"{len(done)} of {len(part.steps)} steps, {spent / 60:.0f} minutes."]  # fmt: skip
+    if missing:
+        lines.append("Not run yet, or failed: " + ", ".join(missing) + ".")
+    lines += ["", "| what | figure |", "| --- | --- |"]
+    lines += [f"| {what} | {figure} |" for what, figure in part.rows({name: done[name]["figures"] for name in done})]
+    marks = re.compile(rf"(<!-- figures of {part.name} -->\n).*?(<!-- end -->)", re.DOTALL)
+    text, count = marks.subn(lambda found: found[1] + "\n".join(lines) + "\n" + found[2], PAGE.read_text())
+    if count != 1:
+        raise SystemExit(f"{PAGE.relative_to(ROOT)} has no place for the figures of {part.name}")
+    write_whole(PAGE, text)
+    print(f"figures of {part.name}: {PAGE.relative_to(ROOT)}", flush=True)
+
+
+def number(pattern: str, text: str) -> int:
+    """The whole number that the pattern's group finds, in its last place; an error where there is none."""
+    found = re.findall(pattern, text)
+    if not found:
+        raise ValueError(f"the output has nothing like {pattern}")
+    return int(found[-1])
+
+
+def tests_passed(text: str) -> dict[str, Any]:
+    """Of the output of one or more runs of CTest: how many tests passed."""
+    passed = re.findall(r"100% tests passed, 0 tests failed out of (\d+)", text)
+    if not passed:
+        raise ValueError("not all tests passed")
+    return {"tests": sum(map(int, passed))}
+
+
+def main(parts: dict[str, Part], asked: list[str]) -> None:
+    unknown = [name for name in asked if name not in parts]
+    if unknown:
+        sys.exit(f"no part is called {' '.join(unknown)}; there are {', '.join(parts)}")
+    failed = sum(run_part(parts[name]) for name in asked or parts)
+    sys.exit(f"{failed} steps failed" if failed else 0)
