@@ -129,6 +129,9 @@ static int32_t require_regular(const char *path) {
   return HOOKE_OK;
 }
 
+static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
+                                                      "machine"};
+
 static int32_t read_hooke(struct hooke_record *record) {
   struct hooke_h5_guard guard;
   if (require_regular(record->path) != HOOKE_OK) return HOOKE_IO_FAILED;
@@ -142,6 +145,8 @@ static int32_t read_hooke(struct hooke_record *record) {
     record->scene = read_text(file, "hooke/scene");
     record->status = read_text(file, "hooke/status");
     record->run = read_attribute(file, "run");
+    for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+      record->fact[k] = read_attribute(file, facts[k]);
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     status = record->run ? read_options(file, record->options) : HOOKE_NO_MEMORY;
     hooke_record_find_places(record, file);
@@ -186,6 +191,8 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->scene);
   hooke_free(record->status);
   hooke_free(record->run);
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    hooke_free(record->fact[k]);
   hooke_free(record->time);
   hooke_free(record->kept.value);
   hooke_free(record);
@@ -194,6 +201,8 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
 }
 
