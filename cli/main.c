@@ -10,9 +10,17 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct hooke_verb *const verbs[] = {
-    &hooke_verb_make, &hooke_verb_run,   &hooke_verb_compare, &hooke_verb_study, &hooke_verb_limit,
-    &hooke_verb_why,  &hooke_verb_needs, &hooke_verb_check,   &hooke_verb_view,  NULL};
+static const struct hooke_verb *const verbs[] = {&hooke_verb_make,
+                                                 &hooke_verb_run,
+                                                 &hooke_verb_compare,
+                                                 &hooke_verb_study,
+                                                 &hooke_verb_limit,
+                                                 &hooke_verb_why,
+                                                 &hooke_verb_needs,
+                                                 &hooke_verb_check,
+                                                 &hooke_verb_view,
+                                                 &hooke_verb_verify,
+                                                 NULL};
 
 static void print_version(const struct hooke_program *program) {
   (void)program;

@@ -57,5 +57,6 @@ extern const struct hooke_verb hooke_verb_why;
 extern const struct hooke_verb hooke_verb_needs;
 extern const struct hooke_verb hooke_verb_make;
 extern const struct hooke_verb hooke_verb_view;
+extern const struct hooke_verb hooke_verb_verify;
 
 #endif

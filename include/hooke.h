@@ -12,7 +12,8 @@
  *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories
- *   checkpoint.h  places from which a run goes on */
+ *   checkpoint.h  places from which a run goes on
+ *   verify.h  whether a trajectory is what its scene gives */
 #ifndef HOOKE_H
 #define HOOKE_H
 
@@ -30,5 +31,6 @@
 #include "hooke/needs.h"
 #include "hooke/io.h"
 #include "hooke/checkpoint.h"
+#include "hooke/verify.h"
 
 #endif

@@ -53,6 +53,7 @@ HOOKE_API int32_t hooke_abi(void);
 /* One fact about this build, as text that lives as long as the process. `what` is one of
  *   "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson",
  *   "chartjs", "threejs"                    the version in use, or "" when the build is without it
+ *   "machine"                               the kind of processor that it was built for, "x86-64", "aarch64" or "other"
  *   "instructions"                          the instruction set that the force loops use on this machine
  *   "licence"                               the licence that this build falls under
  * NULL for any other word. */

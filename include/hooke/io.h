@@ -134,7 +134,8 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped", "diverged",
  * "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run() says, "" if an earlier version
- * wrote it. NULL for another word. */
+ * wrote it; "version", "sundials", "cholmod", "instructions", "machine": what made the file, as hooke_build_fact() has it, "" where
+ * it does not say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, as it ran; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);

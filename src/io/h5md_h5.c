@@ -66,6 +66,15 @@ static herr_t write_text(hid_t where, const char *name, int64_t length, const ch
   return result;
 }
 
+/* What the bits of error-controlled methods hang on. */
+static herr_t write_facts(hid_t group) {
+  static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
+  herr_t result = 0;
+  for (int k = 0; k < 4 && result >= 0; k++)
+    result = hooke_h5_text_attribute(group, facts[k], hooke_build_fact(facts[k]));
+  return result;
+}
+
 herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
                            const char *scene_text) {
   const int32_t abi = hooke_abi();
@@ -75,6 +84,7 @@ herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *
   result = hooke_h5_text_attribute(group, "version", hooke_version());
   if (result >= 0) result = hooke_h5_integer_attribute(group, "abi", 1, &abi);
   if (result >= 0) result = hooke_h5_text_attribute(group, "units", units);
+  if (result >= 0) result = write_facts(group);
   if (result >= 0 && method) result = hooke_h5_text_attribute(group, "method", method);
   if (result >= 0 && options) result = hooke_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);

@@ -1,7 +1,7 @@
 /* What an H5MD file says of itself, and the springs. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
- *   /hooke                   attributes version, abi, units, method, of a single run `run`, which no other run has;
+ *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units, method, of a single run `run`, which no other run has;
  * `scene`: the text of the scene;
  * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
  *   /hooke/rest_length       [springs]

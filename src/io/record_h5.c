@@ -154,6 +154,9 @@ static int32_t require_regular(const char *path) {
   return HOOKE_OK;
 }
 
+static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
+                                                      "machine"};
+
 static int32_t read_hooke(struct hooke_record *record) {
   struct hooke_h5_guard guard;
   if (require_regular(record->path) != HOOKE_OK) return HOOKE_IO_FAILED;
@@ -165,6 +168,10 @@ static int32_t read_hooke(struct hooke_record *record) {
     if (status == HOOKE_OK) status = read_text(file, "hooke/status", &record->status);
     record->run = read_attribute(file, "run");
     if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
+    for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
+      record->fact[k] = read_attribute(file, facts[k]);
+      if (record->fact[k] == NULL) status = HOOKE_NO_MEMORY;
+    }
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     if (status == HOOKE_OK) status = read_options(file, record->options);
     hooke_record_find_places(record, file);
@@ -210,6 +217,8 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->scene);
   hooke_free(record->status);
   hooke_free(record->run);
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    hooke_free(record->fact[k]);
   hooke_free(record->time);
   hooke_free(record->kept.value);
   hooke_handle_free(record);
@@ -218,6 +227,8 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
 }
 

@@ -8,7 +8,10 @@
 
 enum hooke_record_place { HOOKE_PLACE_POSITION, HOOKE_PLACE_VELOCITY, HOOKE_PLACE_COUNT };
 
+enum { HOOKE_RECORD_FACTS = 5 };
+
 struct hooke_record {
+  char *fact[HOOKE_RECORD_FACTS]; /* what made the file: "" where it does not say */
   char *path, *scene, *status, *run;
   hooke_options *options; /* of a run, as they were stored */
   int32_t is_run;

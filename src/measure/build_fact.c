@@ -21,6 +21,17 @@ static const char *licence(void) {
   return "MIT";
 }
 
+/* The kind of processor that it was built for. */
+static const char *machine(void) {
+#if defined(__x86_64__)
+  return "x86-64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "other";
+#endif
+}
+
 const char *hooke_build_fact(const char *what) {
   if (!what) return NULL;
   if (!strcmp(what, "sundials")) return HOOKE_SUNDIALS_VERSION;
@@ -34,5 +45,6 @@ const char *hooke_build_fact(const char *what) {
   if (!strcmp(what, "threejs")) return HOOKE_THREEJS_VERSION;
   if (!strcmp(what, "instructions")) return hooke_kernel_instructions();
   if (!strcmp(what, "licence")) return licence();
+  if (!strcmp(what, "machine")) return machine();
   return NULL;
 }

@@ -29,6 +29,7 @@ PUBLIC = {
     "hooke/why.h": "measure",
     "hooke/io.h": "io",
     "hooke/checkpoint.h": "io",
+    "hooke/verify.h": "io",
 }
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.

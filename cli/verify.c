@@ -1,0 +1,146 @@
+/* hooke verify: runs a slice of a result again and says whether it is what its scene gives. */
+#include "print.h"
+#include "report.h"
+#include "watch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static double number(const hooke_verify *verify, const char *what) {
+  return hooke_verify_number(verify, what);
+}
+
+static const char *text(const hooke_verify *verify, const char *what) {
+  const char *found = hooke_verify_text(verify, what);
+  return found ? found : "";
+}
+
+/* ---- the certificate ---- */
+
+static void print_makers(const hooke_verify *verify, const char *head, const char *suffix) {
+  static const char *const facts[][2] = {{"version", "hooke"},
+                                         {"sundials", "SUNDIALS"},
+                                         {"cholmod", "CHOLMOD"},
+                                         {"instructions", ""},
+                                         {"machine", ""}};
+  printf("%-13s", head);
+  const char *joint = " ";
+  for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
+    char what[32];
+    snprintf(what, sizeof what, "%s%s", facts[k][0], suffix);
+    if (text(verify, what)[0] == '\0') continue;
+    printf("%s%s%s", joint, facts[k][1], facts[k][1][0] ? " " : "");
+    hooke_print_text(stdout, text(verify, what));
+    joint = ", ";
+  }
+  printf("\n");
+}
+
+static void print_step(const hooke_verify *verify) {
+  printf("%-13s %s", "method", text(verify, "method"));
+  if (isnan(number(verify, "step"))) {
+    printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
+    return;
+  }
+  printf(", step %g s", number(verify, "step"));
+  if (isinf(number(verify, "step_limit")))
+    printf(", which nothing limits");
+  else if (!isnan(number(verify, "step_share")))
+    printf(", %.3g %% of the longest stable one, %.4g s", 100.0 * number(verify, "step_share"),
+           number(verify, "step_limit"));
+  printf("\n");
+}
+
+static void print_balance(const hooke_verify *verify) {
+  if (strcmp(text(verify, "balance"), "not-checked") == 0) return;
+  printf("%-13s %s: work in %.6g J = change %.6g J + heat %.6g J\n", "energy", text(verify, "balance"),
+         number(verify, "work"), number(verify, "energy_change"), number(verify, "heat"));
+  printf("%-13s up to %.3g J are left over, %.3g J at the end with half the step%s; bound %.3g J\n", "",
+         number(verify, "residual"), number(verify, "residual_refined"),
+         isnan(number(verify, "step")) ? " (tolerances a hundredth)" : "", number(verify, "residual_bound"));
+  printf("%-13s about %.2g m in a coordinate, over the slice\n", "error", number(verify, "error_estimate"));
+}
+
+static void print_words(const struct hooke_arguments *arguments, const hooke_verify *verify) {
+  printf("%-13s ", "file");
+  hooke_print_text(stdout, arguments->scene);
+  printf("\n%-13s ", "run");
+  hooke_print_text(stdout, text(verify, "run"));
+  printf("\n");
+  print_makers(verify, "made by", "");
+  print_makers(verify, "verified by", "_here");
+  print_step(verify);
+  printf("%-13s %.0f of %.0f by their check values; %08lx is that of the scene\n", "frames",
+         number(verify, "frames_checked"), number(verify, "frames"),
+         (unsigned long)number(verify, "check_scene"));
+  printf("%-13s frames 0 and %.0f to %.0f, %g to %g s, %.0f steps\n", "run again",
+         number(verify, "frame_first"), number(verify, "frame_last"), number(verify, "time_first"),
+         number(verify, "time_last"), number(verify, "steps"));
+  print_balance(verify);
+  printf("%-13s %s%s\n", "verdict", text(verify, "verdict"),
+         strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
+}
+
+static void print_json(const struct hooke_arguments *arguments, const hooke_verify *verify) {
+  static const char *const texts[] = {"verdict",      "difference",        "run",          "method",
+                                      "balance",      "version",           "sundials",     "cholmod",
+                                      "instructions", "machine",           "version_here", "sundials_here",
+                                      "cholmod_here", "instructions_here", "machine_here"};
+  static const char *const counts[] = {"frames", "frames_checked", "frame_first", "frame_last",
+                                       "check_scene"};
+  static const char *const numbers[] = {
+      "check_last",    "steps", "time_first", "time_last",        "step",
+      "rtol",          "atol",  "step_limit", "step_share",       "work",
+      "energy_change", "heat",  "residual",   "residual_refined", "residual_bound",
+      "error_estimate"};
+  struct hooke_json json;
+  hooke_json_begin(&json, stdout);
+  hooke_json_text(&json, "file", arguments->scene);
+  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++)
+    hooke_json_text(&json, texts[k], hooke_verify_text(verify, texts[k]));
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
+    hooke_json_count(&json, counts[k], (int64_t)number(verify, counts[k]));
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    hooke_json_number(&json, numbers[k], number(verify, numbers[k]));
+  hooke_json_end(&json);
+}
+
+/* ---- the verb ---- */
+
+static int do_verify(const struct hooke_arguments *arguments) {
+  hooke_verify *verify = NULL;
+  struct hooke_watch watch;
+  int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  hooke_watch_start(&watch, arguments);
+  hooke_verify_on_progress(verify, hooke_watch_progress, &watch);
+  status = hooke_verify_run(verify);
+  hooke_watch_end(&watch);
+  const char *verdict = hooke_verify_text(verify, "verdict");
+  const int code = status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+  if (verdict && arguments->json)
+    print_json(arguments, verify);
+  else if (verdict && status != HOOKE_STOPPED)
+    print_words(arguments, verify);
+  hooke_verify_destroy(verify);
+  return code;
+}
+
+const struct hooke_verb hooke_verb_verify = {
+    .name = "verify",
+    .input = "OUT.h5",
+    .summary = "runs a slice of a result again and compares bits",
+    .text =
+        "Holds a trajectory of 'hooke run -o' against the scene that it holds: every frame has to have its "
+        "check "
+        "value, the first one has to be the scene's, and a slice, run again from the frame before it, has to "
+        "come to the "
+        "same bits. Takes the balance of energy along the slice, runs it once more with half the step for "
+        "an estimate of the error, and prints a certificate. An error-controlled method is run from the "
+        "start. Exit code 3 says "
+        "that the file is not what its scene gives.",
+    .example = "hooke verify cloth.h5",
+    .options = hooke_verify_options_create,
+    .function = do_verify,
+};
