@@ -45,10 +45,11 @@ static herr_t on_error(hid_t stack, void *ctx) {
 
 /* HDF5 keeps its open files, and more, in variables of its own, one set for the process. */
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
+static _Thread_local int32_t guards; /* of this thread, one inside the other */
 
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
   *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno, .failures = hooke_fail_count()};
-  pthread_mutex_lock(&alone);
+  if (guards++ == 0) pthread_mutex_lock(&alone);
   H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
   if (guard->second_version) {
     H5E_auto2_t handler = NULL;
@@ -69,7 +70,7 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
   } else {
     H5Eset_auto1((H5E_auto1_t)guard->handler, guard->data);
   }
-  pthread_mutex_unlock(&alone);
+  if (--guards == 0) pthread_mutex_unlock(&alone);
   errno = guard->error;
 }
 
