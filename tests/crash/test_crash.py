@@ -229,7 +229,7 @@ def test_every_failing_write(place, case, more):
         done = place.start_over(at=at, error=errno.ENOSPC if more else errno.EIO, **{"from": more})
         assert done.returncode in (5, whole.code), (at, done.returncode, done.stderr)
         failed = done.returncode == 5
-        assert not failed or "Input/output error" in done.stderr or "No space left" in done.stderr, (at, done.stderr)
+        assert not failed or ("could not" in done.stderr and "out." in done.stderr), (at, done.stderr)
         harmless += not failed
         reported, _ = place.told()
         if place.out.read_bytes() == OLD:
