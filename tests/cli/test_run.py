@@ -214,7 +214,7 @@ def wait_for_frames(path, process, count):
         assert process.poll() is None, process.communicate()
         if path.exists():
             try:
-                with h5py.File(path, locking=False) as file:
+                with h5py.File(path) as file:
                     if not math.isnan(file["/particles/all/position/time"][count - 1]):
                         return
             except (OSError, KeyError):
