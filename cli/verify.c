@@ -118,11 +118,13 @@ static int do_verify(const struct hooke_arguments *arguments) {
   status = hooke_verify_run(verify);
   hooke_watch_end(&watch);
   const char *verdict = hooke_verify_text(verify, "verdict");
-  const int code = status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
-  if (verdict && arguments->json)
+  int code = hooke_exit_code(status);
+  if (verdict && arguments->json) { /* which holds the message, too */
     print_json(arguments, verify);
-  else if (verdict && status != HOOKE_STOPPED)
-    print_words(arguments, verify);
+  } else {
+    if (status != HOOKE_OK) code = hooke_report_status(arguments, status);
+    if (verdict && status != HOOKE_STOPPED) print_words(arguments, verify);
+  }
   hooke_verify_destroy(verify);
   return code;
 }

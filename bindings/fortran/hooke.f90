@@ -33,6 +33,7 @@ module hooke
   use hooke_studies, only: hooke_study, hooke_study_pick => study_pick
   use hooke_systems, only: hooke_system
   use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
+  use hooke_verifications, only: hooke_verify
   use hooke_views, only: hooke_view
   implicit none
   public

@@ -47,8 +47,8 @@ HOOKE_API int32_t hooke_verify_run(hooke_verify *verify);
  * "machine", and of what verified it "version_here" and so on; "" where it is not known. NULL for another word. */
 HOOKE_API const char *hooke_verify_text(const hooke_verify *verify, const char *what);
 /* "frames" in the file; "frames_checked" by check value; "frame_first", "frame_last" that were compared, "time_first",
- * "time_last" [s], "steps" taken for it; "step" [s], "rtol", "atol" [m]; "step_limit" [s] that is predicted at the first frame
- * of the slice and "step_share" of it that is used; "energy_change", "work", "heat", "residual" [J] of the balance over the slice,
+ * "time_last" [s], "steps" taken for it; "step" [s], "rtol", "atol" [m]; "step_limit" [s] that is predicted at the first
+ * frame and "step_share" of it that is used; "energy_change", "work", "heat", "residual" [J] of the balance over the slice,
  * "residual_refined" with half the step, and "residual_bound"; "error_estimate" [m], of any coordinate over the slice;
  * "check_scene" and "check_last": CRC-32 of the text of the scene, and of positions and velocities of the last frame
  * compared. NaN where it does not apply, and for another word. */

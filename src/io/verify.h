@@ -24,7 +24,7 @@ struct hooke_verify {
   const char *verdict, *balance;
   char difference[512];
   int64_t checked;
-  double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error;
+  double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
   double check_scene, check_last;
 };
 
@@ -34,7 +34,11 @@ struct hooke_verify_pass {
   int64_t count;    /* frames after the first */
   double *residual; /* one a frame */
   struct hooke_balance balance;
-  double steps, apart; /* the largest distance of a coordinate from the file's [m] */
+  double steps;
+  double apart[2]; /* the largest distance of a coordinate [m] and a velocity [m/s] from the file's */
+  double error[2]; /* of a refined pass, the same from the first pass */
+  double *
+      own; /* q and v of each frame of the first pass, where the file's may be others; NULL: they are the file's */
 };
 
 /* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the like only of

@@ -19,8 +19,7 @@ static double largest_energy(const hooke_system *system, const double *q, const 
 static int32_t find_powers(const struct hooke_balance *balance, const hooke_state *state, double *in,
                            double *out) {
   const hooke_system *system = balance->system;
-  const double *q = hooke_state_position((hooke_state *)state),
-               *v = hooke_state_velocity((hooke_state *)state);
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   *out = balance->dissipated_power(system, q, v);
   *in = 0.0;
   if (balance->force == NULL) return HOOKE_OK;
@@ -40,8 +39,7 @@ int32_t hooke_balance_begin(struct hooke_balance *balance, const hooke_system *s
     balance->force = hooke_new(3 * system->particle_count, sizeof(double));
     if (balance->force == NULL) return HOOKE_NO_MEMORY;
   }
-  const double *q = hooke_state_position((hooke_state *)state),
-               *v = hooke_state_velocity((hooke_state *)state);
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   balance->energy = hooke_system_energy(system, q, v);
   balance->scale = largest_energy(system, q, v);
   balance->time = hooke_state_time(state);
@@ -63,8 +61,7 @@ int32_t hooke_balance_step(struct hooke_balance *balance, const hooke_state *sta
 }
 
 void hooke_balance_close(struct hooke_balance *balance, const hooke_state *state) {
-  const double *q = hooke_state_position((hooke_state *)state),
-               *v = hooke_state_velocity((hooke_state *)state);
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double energy = hooke_system_energy(balance->system, q, v);
   balance->residual = ((energy - balance->energy) - balance->work) + balance->heat;
   balance->scale = fmax(balance->scale, largest_energy(balance->system, q, v));

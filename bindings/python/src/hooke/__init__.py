@@ -12,7 +12,7 @@ A scene is built (`Scene`, `System`) or comes from a file (`Scene.load`) or from
 it, `open` reads what a run wrote, `compare` sets several methods against a tight reference, `study` measures error
 against cost and recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs`
 finds what a scene can do without, `why` explains a run that blew up, `view` makes a page that plays a
-trajectory, `Integrator` gives you the loop. Units are SI,
+trajectory, `verify` holds one against its scene, `Integrator` gives you the loop. Units are SI,
 positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
@@ -37,6 +37,7 @@ from .state import State
 from .study import Study, study
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
+from .verify import Verification, verify
 from .view import view, write_xdmf
 from .why import Why, why
 
@@ -76,6 +77,7 @@ __all__ = [
     "Trajectory",
     "Transform",
     "Unsuited",
+    "Verification",
     "Why",
     "animation",
     "build_facts",
@@ -93,6 +95,7 @@ __all__ = [
     "resume",
     "run",
     "study",
+    "verify",
     "view",
     "why",
     "write_xdmf",

@@ -36,6 +36,7 @@ STUDY = _handle("hooke_study")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 VIEW = _handle("hooke_view")
+VERIFY = _handle("hooke_verify")
 LIMIT = _handle("hooke_limit")
 COST = _handle("hooke_cost")
 NEEDS = _handle("hooke_needs")
@@ -335,4 +336,12 @@ PROTOTYPES = {
     "hooke_trajectory_checkpoint": (STATUS, TRAJECTORY, INTEGRATOR, STATE),
     "hooke_trajectory_resume": (STATUS, TEXT, SYSTEM, INTEGRATOR, STATE, POINTER(TRAJECTORY)),
     "hooke_trajectory_origin": (TEXT, TRAJECTORY),
+    # verify.h
+    "hooke_verify_options_create": (STATUS, POINTER(OPTIONS)),
+    "hooke_verify_create": (STATUS, TEXT, OPTIONS, OPTIONS, POINTER(VERIFY)),
+    "hooke_verify_destroy": (None, VERIFY),
+    "hooke_verify_on_progress": (None, VERIFY, PROGRESS, ADDRESS),
+    "hooke_verify_run": (OUTCOME, VERIFY),
+    "hooke_verify_text": (TEXT, VERIFY, TEXT),
+    "hooke_verify_number": (DOUBLE, VERIFY, TEXT),
 }

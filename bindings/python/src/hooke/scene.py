@@ -87,7 +87,7 @@ class Scene(Parts):
         BadValue says what is wrong where; IOFailed if it cannot be read.
         """
         pointer = SCENE()
-        limits = _limits(memory, outside)
+        limits = limits_of(memory, outside)
         lib.hooke_scene_load_within(os.fsencode(path), limits._handle, ctypes.byref(pointer))
         return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
 
@@ -111,7 +111,7 @@ class Scene(Parts):
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         where = None if folder is None else os.fsencode(folder)
         pointer = SCENE()
-        limits = _limits(memory, outside)
+        limits = limits_of(memory, outside)
         lib.hooke_scene_parse_within(
             data, len(data), name.encode(), where, limits._handle, ctypes.byref(pointer)
         )
@@ -350,7 +350,8 @@ class Scene(Parts):
         self._parts = ranges
 
 
-def _limits(memory: float | None, outside: bool) -> Options:
+def limits_of(memory: float | None, outside: bool) -> Options:
+    """Options of hooke_scene_load_within()."""
     limits = Options.for_scene("limits")
     limits["memory"] = memory
     limits["outside"] = outside

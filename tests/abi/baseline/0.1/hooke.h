@@ -501,4 +501,22 @@ HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory
 }
 #endif
 #endif
+#ifndef HOOKE_VERIFY_H
+#define HOOKE_VERIFY_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_verify hooke_verify;
+HOOKE_API int32_t hooke_verify_options_create(hooke_options **options);
+HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
+                                      const hooke_options *limits, hooke_verify **verify);
+HOOKE_API void hooke_verify_destroy(hooke_verify *verify);
+HOOKE_API void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_verify_run(hooke_verify *verify);
+HOOKE_API const char *hooke_verify_text(const hooke_verify *verify, const char *what);
+HOOKE_API double hooke_verify_number(const hooke_verify *verify, const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
 #endif

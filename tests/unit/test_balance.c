@@ -1,0 +1,173 @@
+/* The balance of energy: what is left over is the error of the method, gets less with the step as its order says, and does not
+ * where power is wrong. */
+#include "hooke.h"
+#include "check.h"
+
+#include "measure/balance.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { FRAMES = 8 };
+
+static hooke_system *damped_chain(int driven) {
+  hooke_system *system;
+  hooke_options *options;
+  const double place[] = {0, 0, 0, 1.1, 0.1, 0, 2, 0.3, 0, 3.2, 0, 0.2}, mass = 0.5;
+  const int64_t ends[] = {0, 1, 1, 2, 2, 3}, first = 0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
+  check_ok(hooke_options_set_number(options, "damping", 0.3));
+  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  check_ok(hooke_system_add_springs(system, "", 3, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
+  check_ok(hooke_system_set_drag(system, 0.2));
+  if (driven)
+    check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0.2, 0.1, 0}, 1.5, 0.3));
+  else
+    check_ok(hooke_system_pin(system, 1, &first));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+struct watch {
+  const hooke_system *system;
+  struct hooke_balance balance;
+  double (*power)(const hooke_system *system, const double *q, const double *v);
+  int64_t count;
+  double residual[FRAMES + 1];
+};
+
+static int32_t on_step(int64_t step, const hooke_state *state, void *ctx) {
+  struct watch *watch = ctx;
+  (void)step;
+  return hooke_balance_step(&watch->balance, state);
+}
+
+static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct watch *watch = ctx;
+  if (step == 0) {
+    check_ok(hooke_balance_begin(&watch->balance, watch->system, state));
+    if (watch->power == NULL) return 0;
+    watch->balance.dissipated_power = watch->power;
+    watch->balance.power_out =
+        watch->power(watch->system, hooke_state_position(state), hooke_state_velocity(state));
+    return 0;
+  }
+  check_ok(hooke_balance_step(&watch->balance, state));
+  hooke_balance_close(&watch->balance, state);
+  watch->residual[watch->count++] = watch->balance.residual;
+  return 0;
+}
+
+static void run(struct watch *watch, const char *method, double step) {
+  hooke_options *options;
+  hooke_integrator *integrator;
+  hooke_state *state;
+  watch->count = 0;
+  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_set_text(options, "method", method));
+  check_ok(hooke_options_set_number(options, "step", step));
+  check_ok(hooke_options_set_number(options, "duration", 0.8));
+  check_ok(hooke_options_set_number(options, "every", 0.1));
+  check_ok(hooke_integrator_create(watch->system, options, &integrator));
+  check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
+  check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));
+  check_ok(hooke_state_create(watch->system, &state));
+  check_ok(hooke_integrator_run(integrator, state));
+  assert_int_equal(watch->count, FRAMES);
+  hooke_balance_release(&watch->balance);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+}
+
+static int32_t holds(const char *method, int driven,
+                     double (*power)(const hooke_system *system, const double *q, const double *v),
+                     double *ratio) {
+  hooke_system *system = damped_chain(driven);
+  struct watch coarse = {.system = system, .power = power}, fine = coarse;
+  double largest, bound, smaller, other;
+  run(&coarse, method, 1e-3);
+  run(&fine, method, 5e-4);
+  const double floor = hooke_balance_floor(&fine.balance);
+  const int32_t kept = hooke_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
+  hooke_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
+  *ratio = largest / smaller;
+  hooke_system_destroy(system);
+  return kept;
+}
+
+static const struct {
+  const char *method;
+  double low, high; /* how much less at half the step */
+} methods[] = {{"forward-euler", 1.8, 2.2},
+               {"symplectic-euler", 1.8, 2.2},
+               {"backward-euler", 1.8, 2.2},
+               {"verlet", 3.6, 4.4},
+               {"rk4", 3.6, 4.4}}; /* the trapezoidal rule is of second order */
+
+static void what_is_left_over_is_the_error_of_the_method(void **unused) {
+  (void)unused;
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    for (int driven = 0; driven < 2; driven++) {
+      double ratio;
+      if (!holds(methods[k].method, driven, NULL, &ratio))
+        check_failed("%s, driven %d: does not hold", methods[k].method, driven);
+      check_between(ratio, methods[k].low, methods[k].high);
+    }
+  }
+}
+
+static double a_fiftieth_too_much(const hooke_system *system, const double *q, const double *v) {
+  return 1.02 * hooke_system_dissipated_power(system, q, v);
+}
+
+static double none(const hooke_system *system, const double *q, const double *v) {
+  (void)system, (void)q, (void)v;
+  return 0.0;
+}
+
+static void wrong_heat_is_seen(void **unused) {
+  (void)unused;
+  double ratio;
+  for (int driven = 0; driven < 2; driven++) {
+    assert_false(holds("verlet", driven, a_fiftieth_too_much, &ratio));
+    assert_false(holds("rk4", driven, a_fiftieth_too_much, &ratio));
+    assert_false(holds("rk4", driven, none, &ratio));
+    assert_false(holds("symplectic-euler", driven, none, &ratio));
+  }
+}
+
+/* Work left out is seen, too. */
+static void wrong_work_is_seen(void **unused) {
+  (void)unused;
+  hooke_system *system = damped_chain(1);
+  struct watch coarse = {.system = system}, fine = coarse;
+  double largest, bound;
+  run(&coarse, "verlet", 1e-3);
+  run(&fine, "verlet", 5e-4);
+  assert_true(fabs(coarse.balance.work) > 0.1);
+  for (int k = 0; k < FRAMES; k++) {
+    coarse.residual[k] += 0.05 * coarse.balance.work;
+    fine.residual[k] += 0.05 * fine.balance.work;
+  }
+  assert_false(hooke_balance_holds(FRAMES, coarse.residual, fine.residual, hooke_balance_floor(&fine.balance),
+                                   &largest, &bound));
+  check_between(largest, bound, INFINITY);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_left_over_is_the_error_of_the_method),
+      cmocka_unit_test(wrong_heat_is_seen),
+      cmocka_unit_test(wrong_work_is_seen),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
