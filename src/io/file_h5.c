@@ -4,6 +4,7 @@
 
 #if HOOKE_HAVE_HDF5
 
+#include "io/driver_h5.h"
 #include "io/file_h5.h"
 #include "io/object_h5.h"
 #include "io/place.h"
@@ -76,27 +77,14 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
 
 int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
   const int ours = hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY;
-  if (guard->no_memory || (guard->reason[0] == '\0' && ours))
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
+  if (guard->no_memory || ours) return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
   return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
                     guard->reason);
 }
 
 /* ---- a file ---- */
 
-static hid_t access_list(void) {
-  hid_t list = H5Pcreate(H5P_FILE_ACCESS);
-  if (list < 0) return list;
-  if (H5Pset_sieve_buf_size(list, 0) < 0 || H5Pset_alignment(list, 1, 16) < 0 ||
-      H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) < 0) {
-    H5Pclose(list);
-    return -1;
-  }
-  return list;
-}
-
-/* Whether `bytes` fit is found out before HDF5 comes into play: it holds back metadata, and a file that it
- * cannot close for want of room crashes the process at exit in some versions. */
+/* Whether `bytes` fit is found out before anything is written. */
 static int32_t try_room(const char *path, const char *temporary, double bytes) {
   char what[64];
   hooke_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
@@ -117,9 +105,11 @@ int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, dou
   if (status != HOOKE_OK) return status;
   status = try_room(path, file->temporary, bytes);
   if (status != HOOKE_OK) return status;
-  hid_t list = access_list();
-  file->id = H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, list);
-  if (file->id < 0) status = hooke_h5_fail(guard, path, "create the file");
+  hid_t list = hooke_h5_access_list(&file->error);
+  file->id = list < 0 ? -1 : H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, list);
+  if (file->id < 0)
+    status = file->error ? hooke_place_fail(path, "create the file", file->error)
+                         : hooke_h5_fail(guard, path, "create the file");
   hooke_h5_drop(list);
   return status;
 }
@@ -135,18 +125,19 @@ static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_fil
   return hooke_place_fail(file->path, "make room for all frames", error);
 }
 
-/* What could not be closed must not be closed again, which crashes some versions: it is lost. */
-static int32_t close_for_good(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
-  const herr_t result = H5Fclose(file->id);
+/* Whatever comes of it, HDF5 has no part in the file afterwards. */
+static int32_t let_go(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const hid_t id = file->id;
   file->id = -1;
+  const herr_t result = H5Fclose(id);
+  if (file->error) return hooke_place_fail(file->path, "write", file->error);
   return result < 0 ? hooke_h5_fail(guard, file->path, "close the file") : HOOKE_OK;
 }
 
 int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   int32_t status = take_room(guard, file);
   if (status != HOOKE_OK) return status;
-  if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
-  status = close_for_good(guard, file);
+  status = let_go(guard, file);
   if (status != HOOKE_OK) return status;
   file->descriptor = open(file->temporary, O_RDWR | O_CLOEXEC);
   return file->descriptor < 0 ? hooke_place_fail(file->path, "open the file again", errno) : HOOKE_OK;
@@ -167,8 +158,8 @@ int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
 }
 
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
-  const int32_t status = close_for_good(guard, file);
-  return status != HOOKE_OK ? status : hooke_place_take(file->path, &file->temporary);
+  const int32_t status = let_go(guard, file);
+  return status == HOOKE_OK ? hooke_place_take(file->path, &file->temporary) : status;
 }
 
 int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {
@@ -190,12 +181,10 @@ double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
 }
 
 void hooke_h5_file_release(struct hooke_h5_file *file) {
-  /* closing has to write what is left, and can on a full disk when the abandoned data give their room back */
-  if (file->id >= 0 && file->temporary) {
-    int ignored = truncate(file->temporary, 0);
-    (void)ignored;
+  if (file->id >= 0) {
+    file->error = ECANCELED; /* nobody wants what HDF5 has not written yet */
+    H5Fclose(file->id);
   }
-  if (file->id >= 0) H5Fclose(file->id);
   if (file->descriptor >= 0) close(file->descriptor);
   if (file->temporary) unlink(file->temporary);
   hooke_free(file->temporary);

@@ -220,7 +220,11 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
     return refuse_bad(trajectory);
   }
   if (frames < recording->frame_count) return shorten(trajectory, frames, outcome);
-  const int error = hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at, outcome);
+  /* the outcome is told when what it is of has come to the disk */
+  const int32_t synced = hooke_trajectory_sync(trajectory);
+  const int error = hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at,
+                                            synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
+  if (synced != HOOKE_OK) return refuse_bad(trajectory);
   return error ? hooke_place_fail(trajectory->file.path, "write the outcome", error)
                : hooke_h5_file_close(&trajectory->file);
 }

@@ -100,10 +100,11 @@ static int32_t read_columns(struct hooke_view *view) {
 
 /* Files of before there were rest lengths in them have those of their first frame. */
 static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
-  if (hooke_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length) == HOOKE_OK)
-    return HOOKE_OK;
+  int32_t status =
+      hooke_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
+  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   double *q = NULL;
-  int32_t status = hooke_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
+  status = hooke_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
   view->rest_length = hooke_new(view->springs_there, sizeof(double));
   if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {

@@ -24,7 +24,10 @@ static void add_scene(struct hooke_text *data, const struct hooke_view *view, co
   hooke_scene *scene = NULL;
   const char *path = hooke_record_path(view->record), *slash = strrchr(path, '/');
   const double *gravity = NULL;
-  if (hooke_record_text(view->record, "scene")[0] && hooke_scene_load(path, &scene) == HOOKE_OK) {
+  const int32_t status =
+      hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, &scene) : HOOKE_BAD_VALUE;
+  if (status == HOOKE_NO_MEMORY) data->status = status;
+  if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;
     if (title == NULL && hooke_scene_title(scene)[0]) title = hooke_scene_title(scene);
   }

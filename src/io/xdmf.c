@@ -204,8 +204,10 @@ static int32_t read_sizes(struct companion *c) {
     status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
   if (status == HOOKE_OK) status = read_size(path, "/particles/all/mass", &c->particles);
   if (status == HOOKE_OK) status = read_size(path, "/connectivity/springs", &c->springs);
-  if (status == HOOKE_OK) c->has_rest_length = read_size(path, "/hooke/rest_length", &lengths) == HOOKE_OK;
-  return status;
+  if (status != HOOKE_OK) return status;
+  status = read_size(path, "/hooke/rest_length", &lengths);
+  c->has_rest_length = status == HOOKE_OK;
+  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
 int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {

@@ -24,7 +24,8 @@ static int32_t is_apt(const struct attempt *a, int32_t status) {
 
 int32_t attempt_failed(struct attempt *a, int32_t status, int32_t expected, const char *call) {
   const int64_t failures = fault_failures(), new_ones = failures - a->seen;
-  a->seen = failures;
+  /* a write by a thread is told of later */
+  if (status != expected || !a->on_file) a->seen = failures;
   if (status == expected) return 0;
   if (new_ones == 0 || !is_apt(a, status)) {
     attempt_wrong(a, "%s%.200s returned %d (%s), message: %.300s", new_ones ? "after a fault " : "", call,
@@ -32,7 +33,7 @@ int32_t attempt_failed(struct attempt *a, int32_t status, int32_t expected, cons
     return 1;
   }
   if (hooke_last_error()[0] == '\0') attempt_wrong(a, "%.200s failed without a message", call);
-  a->refused++;
+  if (a->refused++ == 0) snprintf(a->message, sizeof a->message, "%s", hooke_last_error());
   if (a->reach == FAULT_FROM_THEN_ON) a->gave_up = 1;
   return 1;
 }

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 struct attempt {
-  const char *folder; /* for files of this scenario's own */
+  const char *folder, *out; /* with the files that it reads; for those that it writes */
   enum fault_reach reach;
   int32_t on_file; /* faults are those of files: HOOKE_IO_FAILED in place of HOOKE_NO_MEMORY */
   int32_t foreign; /* another library met the fault: it may hide the cause behind any failure */
@@ -18,8 +18,9 @@ struct attempt {
   int64_t refused; /* calls that failed for a fault */
   int64_t seen;    /* failures planned that were met by a call so far */
   int32_t gave_up;
-  int64_t committed; /* frames that were reported as written */
-  char wrong[640];   /* what must not be; "" if nothing */
+  int64_t planned, committed; /* frames that were reported as written */
+  char message[512];          /* of the first call that failed for a fault */
+  char wrong[640];            /* what must not be; "" if nothing */
 };
 
 /* Makes a call of the library; leaves through `end:` if the scenario is over. */

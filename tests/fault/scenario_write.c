@@ -10,7 +10,7 @@ static const char *path_of(const struct attempt *a, const char *name) {
   static _Thread_local char path[2][PATH_SIZE];
   static _Thread_local int turn;
   turn = !turn;
-  snprintf(path[turn], PATH_SIZE, "%s/%s", a->folder, name);
+  snprintf(path[turn], PATH_SIZE, "%s/%s", strncmp(name, "out.", 4) == 0 ? a->out : a->folder, name);
   return path[turn];
 }
 
@@ -71,6 +71,7 @@ static void trajectory(struct attempt *a, const void *with) {
   hooke_trajectory *trajectory = NULL;
   snprintf(path, sizeof path, "%s", path_of(a, "out.h5"));
   if (run == NULL) goto end;
+  a->planned = FRAMES;
   TRY(a, hooke_integrator_create(system, run, &integrator));
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_trajectory_create(path, system, integrator, "{ \"hooke\": 1 }", &trajectory));

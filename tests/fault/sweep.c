@@ -36,10 +36,10 @@ int sweep_close(struct sweep *sweep) {
 }
 
 struct attempt sweep_attempt(const struct sweep *sweep, enum fault_reach reach) {
-  return (struct attempt){.folder = sweep->folder, .reach = reach, .hash = HASH_START};
+  return (struct attempt){.folder = sweep->folder, .out = sweep->folder, .reach = reach, .hash = HASH_START};
 }
 
-enum { MOST_COMPLAINTS = 20 };
+enum { MOST_COMPLAINTS = 20, FEW = 20 };
 
 struct counts {
   int64_t tried, refused, borne, wrong;
@@ -74,9 +74,10 @@ static void check_clean(const struct scenario *scenario, sweep_point *try_point,
   *hash = a.hash;
 }
 
-static int64_t share_of(const struct scenario *scenario) {
+static int64_t share_of(const struct sweep *sweep, const struct scenario *scenario) {
   if (getenv("HOOKE_LONG")) return 1;
-  return HOOKE_SANITIZED ? 3 * scenario->share : scenario->share;
+  const int64_t share = sweep->share > 0 ? sweep->share : scenario->share;
+  return HOOKE_SANITIZED ? 3 * share : share;
 }
 
 static void sweep_scenario(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point) {
@@ -88,7 +89,8 @@ static void sweep_scenario(struct sweep *sweep, const struct scenario *scenario,
   check_clean(scenario, try_point, &hash, 0, &counts);
   const int64_t points = fault_points();
   for (int reach = FAULT_ONCE; reach <= FAULT_FROM_THEN_ON; reach++) {
-    for (int64_t k = 1; counts.wrong < MOST_COMPLAINTS; k += share_of(scenario)) {
+    const int64_t share = points < FEW ? 1 : share_of(sweep, scenario);
+    for (int64_t k = 1 + sweep->first % share; counts.wrong < MOST_COMPLAINTS; k += share) {
       struct attempt a;
       try_point(scenario, k, (enum fault_reach)reach, &a);
       if (a.wrong[0] == '\0' && fault_failures() == 0) break; /* there is no such point any more */

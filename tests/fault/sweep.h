@@ -6,6 +6,8 @@
 
 struct sweep {
   char folder[128]; /* of this test alone */
+  int32_t share,
+      first; /* if given: one in so many points of every scenario with many, from this one (0, 1, ...) on */
   int64_t wrong;
 };
 

@@ -1,0 +1,166 @@
+/* Every call that writes fails in turn, once and from then on, HDF5's and hooke's own: the status, and a message with the file
+ * and the reason; what was there before stays, or what comes in its place is whole; frames that were reported are there; nothing
+ * is left beside. */
+#include "check.h"
+#include "file_faults.h"
+#include "hash.h"
+#include "scenarios.h"
+#include "sweep.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static struct sweep sweep = {.share = 10};
+static char folder[160]; /* where files are written; scenes are read from that of the sweep */
+
+static const struct fault {
+  const char *name;
+  int number;
+  int32_t cut;
+} faults[] = {
+    {"no room", ENOSPC, 0}, {"broken", EIO, 0}, {"quota", EDQUOT, 0}, {"cut, then no room", ENOSPC, 1}};
+
+static const struct fault *fault; /* the one that strikes now */
+
+static const char old[] = "what was there before";
+
+/* ---- the folder ---- */
+
+static int64_t count_files(void) {
+  int64_t count = 0;
+  DIR *open_folder = opendir(folder);
+  assert_non_null(open_folder);
+  while (readdir(open_folder))
+    count++;
+  closedir(open_folder);
+  return count - 2;
+}
+
+static void put_old(const char *path) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(old, file);
+  assert_int_equal(fclose(file), 0);
+}
+
+static int is_old(const char *path) {
+  char text[sizeof old + 1] = "";
+  FILE *file = fopen(path, "r");
+  if (file == NULL) return 0;
+  const size_t got = fread(text, 1, sizeof text - 1, file);
+  fclose(file);
+  return got == sizeof old - 1 && strcmp(text, old) == 0;
+}
+
+static int64_t open_descriptors(void) {
+  int64_t count = 0;
+  for (int descriptor = 3; descriptor < 256; descriptor++)
+    count += fcntl(descriptor, F_GETFD) >= 0;
+  return count;
+}
+
+/* ---- one point ---- */
+
+/* Frames that were reported as written are there, if the file is a trajectory at all. */
+static void check_frames(struct attempt *a, const char *path) {
+  hooke_record *record = NULL;
+  if (hooke_record_open(path, &record) != HOOKE_OK) {
+    attempt_wrong(a, "%s cannot be read afterwards: %s", path, hooke_last_error());
+    return;
+  }
+  if (hooke_record_frame_count(record) < a->committed)
+    attempt_wrong(a, "%lld frames were reported, %lld are there", (long long)a->committed,
+                  (long long)hooke_record_frame_count(record));
+  const char *status = hooke_record_text(record, "status");
+  /* closing may fail when all is said and done */
+  if (a->gave_up && strcmp(status, "finished") == 0 && hooke_record_frame_count(record) < a->planned)
+    attempt_wrong(a, "the file says that it is finished");
+  for (int64_t k = 0; k < hooke_record_frame_count(record); k++) {
+    if (hooke_record_check(record, k) != HOOKE_OK) attempt_wrong(a, "frame %lld is damaged", (long long)k);
+  }
+  hooke_record_close(record);
+}
+
+static void look_at_message(struct attempt *a, const struct scenario *scenario, const char *message) {
+  if (!a->refused) return;
+  if (strstr(message, scenario->file) == NULL || strstr(message, strerror(fault->number)) == NULL)
+    attempt_wrong(a, "the message says not what failed and why: %s", message);
+}
+
+static void look_after(struct attempt *a, const struct scenario *scenario, const char *path) {
+  const int is_there = access(path, F_OK) == 0;
+  if (!is_there) attempt_wrong(a, "what was there before is gone");
+  if (count_files() > 1) attempt_wrong(a, "something is left beside the file");
+  if (!is_there || is_old(path)) return;
+  if (strstr(scenario->name, "trajectory")) check_frames(a, path);
+}
+
+static void try_point(const struct scenario *scenario, int64_t k, enum fault_reach reach, struct attempt *a) {
+  char path[200];
+  snprintf(path, sizeof path, "%s/%s", folder, scenario->file);
+  put_old(path);
+  const int64_t descriptors = open_descriptors();
+  *a = (struct attempt){
+      .folder = sweep.folder, .out = folder, .reach = reach, .on_file = 1, .hash = HASH_START};
+  file_faults_are(fault->number, fault->cut);
+  fault_begin(k, reach);
+  scenario->run(a, scenario->with);
+  fault_end();
+  look_at_message(a, scenario, a->message);
+  if (k > 0) look_after(a, scenario, path);
+  if (open_descriptors() != descriptors) attempt_wrong(a, "a file is still open");
+  unlink(path);
+  if (count_files() > 0) {
+    char command[256];
+    snprintf(command, sizeof command, "rm -f %s/*", folder);
+    if (system(command) != 0) attempt_wrong(a, "the folder cannot be emptied");
+  }
+}
+
+static void writes_fail(void **unused) {
+  (void)unused;
+  for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
+    fault = &faults[k];
+    sweep.first = (int32_t)(3 * k); /* others for each */
+    print_message("-- %s\n", fault->name);
+    sweep_all(&sweep, writing, try_point);
+  }
+}
+
+/* A write that takes only half of what it was given is none that failed. */
+static void short_writes_are_gone_on_with(void **unused) {
+  (void)unused;
+  fault = &faults[0];
+  file_faults_only_shorten(1);
+  sweep_all(&sweep, writing, try_point);
+  file_faults_only_shorten(0);
+}
+
+static int set_up(void **unused) {
+  (void)unused;
+  if (sweep_open(&sweep) != 0) return -1;
+  snprintf(folder, sizeof folder, "%s/out", sweep.folder);
+  file_faults_in(folder);
+  return mkdir(folder, 0777);
+}
+
+static int tear_down(void **unused) {
+  (void)unused;
+  file_faults_in("");
+  return rmdir(folder) == 0 ? sweep_close(&sweep) : -1;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(short_writes_are_gone_on_with),
+      cmocka_unit_test(writes_fail),
+  };
+  hooke_io_own_process();
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
