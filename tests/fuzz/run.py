@@ -369,7 +369,7 @@ def minimise(targets):
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
         old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
-        subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
+        subprocess.run(target.command("fuzz", "-merge=1", "-use_counters=0", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         shutil.rmtree(target.corpus, ignore_errors=True)
         shutil.copytree(new, target.corpus)
