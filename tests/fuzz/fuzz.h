@@ -9,8 +9,8 @@
 /* One input; returns 0. Called by libFuzzer and by replay.c. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, three numbers of 64 bits that the driver reads: they are
- * there whatever ends the process. To be called first of all with each input; the other two count an input once. */
+/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, numbers of 64 bits that the driver reads: executions, those
+ * past the syntax, those accepted, nanoseconds of processor. They are there whatever ends the process. To be called first of all with each input; the other two count an input once. */
 void hooke_fuzz_begin(void);
 void hooke_fuzz_is_past_syntax(void);
 void hooke_fuzz_is_accepted(void);

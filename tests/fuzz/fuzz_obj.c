@@ -113,6 +113,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   else
     require_failure(status, text, length);
   hooke_options_destroy(options);
-  if (hooke_fuzz_is_chosen(data, size, 16)) read_file(data, size, status);
+  if (hooke_fuzz_is_chosen(data, size, 64)) read_file(data, size, status);
   return 0;
 }

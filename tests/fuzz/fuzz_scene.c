@@ -160,6 +160,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     require_failure(status, text, size);
   }
   hooke_scene_destroy(scene);
-  if (hooke_fuzz_is_chosen(text, size, 16)) load(text, size);
+  if (hooke_fuzz_is_chosen(text, size, 64)) load(text, size);
   return 0;
 }
