@@ -27,7 +27,7 @@ docs: build/venv/done
 
 test: $(PRESETS:%=build-%) build/fuzz/packages
 	@failed=0; \
-	$(PYTHON) tests/fuzz/run.py --seconds 8 || failed=1; \
+	$(PYTHON) tests/fuzz/run.py --seconds 5 || failed=1; \
 	for preset in $(PRESETS); do \
 	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed=1; \
 	done; \

@@ -9,8 +9,8 @@
 /* One input; returns 0. Called by libFuzzer and by replay.c. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, three numbers of 64 bits that the driver reads: they are
- * there whatever ends the process. To be called first of all with each input; the other two count an input once. */
+/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, numbers of 64 bits that the driver reads: executions, those
+ * past the syntax, those accepted, nanoseconds of processor. They are there whatever ends the process. To be called first of all with each input; the other two count an input once. */
 void hooke_fuzz_begin(void);
 void hooke_fuzz_is_past_syntax(void);
 void hooke_fuzz_is_accepted(void);
@@ -20,5 +20,11 @@ void hooke_fuzz_require(int holds, const char *what);
 
 /* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control characters. */
 void hooke_fuzz_require_message(void);
+
+/* A path to a file that holds these bytes, until the next call. */
+const char *hooke_fuzz_file(const void *data, size_t size);
+
+/* 1 for one in `of` inputs, always the same ones: for checks that take long. */
+int hooke_fuzz_is_chosen(const void *data, size_t size, uint32_t of);
 
 #endif

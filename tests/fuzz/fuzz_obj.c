@@ -91,6 +91,16 @@ static void build(const hooke_options *options) {
   hooke_system_destroy(system);
 }
 
+/* A file gives what its text gives. */
+static void read_file(const uint8_t *data, size_t size, int32_t wanted) {
+  hooke_options *options = choose_options(data[0], data[1]);
+  const int32_t status = hooke_mesh_read(hooke_fuzz_file(data + 2, size - 2), options);
+  hooke_fuzz_require(status == wanted, "a file gives what its text gives");
+  hooke_fuzz_require(hooke_options_is_set(options, "triangles") == (status == HOOKE_OK),
+                     "what cannot be read leaves no triangles behind");
+  hooke_options_destroy(options);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_fuzz_begin();
   if (size < 2) return 0;
@@ -103,5 +113,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   else
     require_failure(status, text, length);
   hooke_options_destroy(options);
+  if (hooke_fuzz_is_chosen(data, size, 64)) read_file(data, size, status);
   return 0;
 }

@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "core/number.h"
+#include "core/option.h"
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"
@@ -144,6 +145,7 @@ static void set_lines(hooke_options *options, char **line, int32_t count) {
       set_one(options, name, value);
   }
   require_copy(options);
+  if (hooke_options_check_required(options) != HOOKE_OK) hooke_fuzz_require_message();
 }
 
 /* ---- numbers and units ---- */

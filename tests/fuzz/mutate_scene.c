@@ -168,6 +168,12 @@ static json_t *any_particle(void) {
   return json_pack("[s, I]", draw(4) ? name : "p", (json_int_t)draw(5));
 }
 
+static json_t *any_dataset(void) {
+  static const char *const names[] = {"/position", "/mass", "/pairs", "/list", "/odd", "/frames", "/none"};
+  return json_pack("{s: s, s: s}", "file", draw(8) ? "rows.h5" : "bad.obj", "dataset",
+                   names[draw(sizeof names / sizeof names[0])]);
+}
+
 static json_t *any_list(uint64_t count, int pairs) {
   json_t *array = json_array();
   for (uint64_t k = 0; k < count; k++)
@@ -294,8 +300,7 @@ static json_t *any_json(int depth) {
   case 4:
     return draw(4) ? json_integer(1) : json_null();
   case 5:
-    return json_pack("{s: s, s: s}", "file", draw(2) ? "rows.h5" : "bad.obj", "dataset",
-                     draw(2) ? "/position" : "/mass");
+    return any_dataset();
   case 6:
     value = json_array();
     for (uint64_t k = draw(4) + 1; k > 0; k--)

@@ -1,6 +1,6 @@
 """Fuzzing, driven.
 
-    run.py --seconds 8 [TARGET...]         each target for so long, two side by side: the part of `make test`
+    run.py --seconds 5 [TARGET...]         each target for so long, two side by side: the part of `make test`
     run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was
     run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach
     run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
@@ -87,38 +87,36 @@ class Target:
     def command(self, folder, *more):
         (self.work / "found").mkdir(parents=True, exist_ok=True)
         words = [f"-dict={self.words}"] if self.words.exists() else []
-        return [self.program(folder), f"-max_len={self.longest}", "-timeout=60", "-rss_limit_mb=2048", "-print_funcs=0",
+        longest = self.longest // 2 if folder == "fuzz-fast" else self.longest
+        return [self.program(folder), f"-max_len={longest}", "-timeout=60", "-rss_limit_mb=2048", "-print_funcs=0",
                 f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
 
 class Tally:
-    """Three counts that a program keeps in a file: executions, those past the syntax, those that are accepted."""
+    """What a program counts in a file: executions, those past the syntax, those accepted; and seconds of processor."""
 
     def __init__(self, path):
         self.path = path
 
-    def take(self):
-        """What was counted since the last time; nothing is lost if this is interrupted in between."""
+    def look(self):
         try:
-            numbers = struct.unpack("3Q", self.path.read_bytes())
-            self.path.unlink()
+            *counts, nanoseconds = struct.unpack("4Q", self.path.read_bytes())
         except (OSError, struct.error):
-            return [0, 0, 0]
-        return list(numbers)
+            return [0, 0, 0, 0.0]
+        return [*counts, nanoseconds / 1e9]
+
+    def take(self):
+        """What was counted; from now on it counts from 0."""
+        counted = self.look()
+        self.path.unlink(missing_ok=True)
+        return counted
 
 
 def start(command, tally):
     environment = {**os.environ, **SANITIZERS, "HOOKE_FUZZ_TALLY": str(tally.path)}
     return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                            errors="replace", preexec_fn=lambda: os.nice(5))
-
-
-def finish(process):
-    """Waits for its end: (exit code, seconds of processor)."""
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, used.ru_utime + used.ru_stime
+                            errors="replace")
 
 
 def findings(target):
@@ -136,13 +134,13 @@ def run_short(target, seconds, results):
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     process = start(target.command("fuzz", f"-max_total_time={seconds}", str(scratch), *target.inputs()), tally)
-    log = process.stderr.read()
-    code, took = finish(process)
-    counts = tally.take()
+    _, log = process.communicate()
+    code = process.returncode
+    *counts, seconds_used = tally.take()
     edges = [int(m) for m in re.findall(r" cov: (\d+)", log)]
     results[target.name] = (code, log)
     share = 100 * counts[1] / max(counts[0], 1)
-    print(f"fuzz/{target.name:10} {counts[0]:9} executions in {took:4.1f} s of processor, {share:3.0f} % past the syntax, "
+    print(f"fuzz/{target.name:10} {counts[0]:9} executions in {seconds_used:4.1f} s of processor, {share:3.0f} % past the syntax, "
           f"{edges[-1] if edges else 0} edges: {'finding' if code else 'nothing found'}", flush=True)
 
 
@@ -188,7 +186,7 @@ class Campaign:
         for target in targets:
             self.of(target)
             for left in target.work.glob("tally-*"):  # of a campaign that was interrupted
-                self.add(target, "fuzz-fast" if "fast" in left.name else "fuzz", Tally(left).take(), 0.0)
+                self.add(target, "fuzz-fast" if "fast" in left.name else "fuzz", Tally(left).take())
 
     def of(self, target):
         return self.state.setdefault(target.name, {
@@ -201,18 +199,18 @@ class Campaign:
         new.write_text(json.dumps(self.state, indent=1))
         new.replace(STATE)
 
-    def add(self, target, folder, counts, seconds):
+    def add(self, target, folder, counted):
         state = self.of(target)
-        for name, count in zip(("executions", "past_syntax", "accepted"), counts):
+        for name, count in zip(("executions", "past_syntax", "accepted", "seconds"), counted):
             state[name] += count
-        state["seconds"] += seconds
-        state["by_build"][folder]["executions"] += counts[0]
-        state["by_build"][folder]["seconds"] += seconds
+        state["by_build"][folder]["executions"] += counted[0]
+        state["by_build"][folder]["seconds"] += counted[3]
         state["findings"] = findings(target)
 
-    def see_edges(self, target, folder, edges, executions, seconds):
+    def see_edges(self, target, folder, edges, tally):
         state = self.of(target)
         if edges > state["edges"].get(folder, 0):
+            executions, _, _, seconds = tally.look()
             state["edges"][folder] = edges
             state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds}
 
@@ -224,15 +222,15 @@ class Campaign:
             return None
         return min(ahead, key=lambda t: self.of(t)["executions"] / self.wanted(t))
 
-    def follow(self, target, folder, process):
+    def follow(self, target, folder, process, tally):
         """Reads what libFuzzer says; returns the end of it."""
-        tail, began = [], time.monotonic()
+        tail = []
         for line in process.stderr:
             tail = [*tail[-200:], line]
-            match = re.match(r"#(\d+)\s.*? cov: (\d+)", line)
+            match = re.match(r"#\d+\s.*? cov: (\d+)", line)
             if match:
                 with self.lock:
-                    self.see_edges(target, folder, int(match.group(2)), int(match.group(1)), time.monotonic() - began)
+                    self.see_edges(target, folder, int(match.group(1)), tally)
         return "".join(tail)
 
     def work(self, number):
@@ -242,19 +240,19 @@ class Campaign:
                 if target is None:
                     return
                 turn = next(self.turn)
-                folder = "fuzz" if turn % 3 == 0 else "fuzz-fast"
+                folder = "fuzz" if turn % 6 == 0 else "fuzz-fast"
                 corpus = target.work / "corpus"
                 corpus.mkdir(parents=True, exist_ok=True)
                 left = max(1, int(self.wanted(target) - self.of(target)["executions"]))
                 tally = Tally(target.work / f"tally-{folder}-{number}")
-                process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left + 100000}",
+                process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left}",
                                                str(corpus), *target.inputs()), tally)
                 self.processes.add(process)
-            log = self.follow(target, folder, process)
-            code, seconds = finish(process)
+            log = self.follow(target, folder, process, tally)
+            code = process.wait()
             with self.lock:
                 self.processes.discard(process)
-                self.add(target, folder, tally.take(), seconds)
+                self.add(target, folder, tally.take())
                 self.save()
                 if code and not self.stop:
                     print(f"== fuzz/{target.name}: a finding, or it broke off ({code})\n{log[-6000:]}", flush=True)
@@ -369,7 +367,7 @@ def minimise(targets):
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
         old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
-        subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
+        subprocess.run(target.command("fuzz", "-merge=1", "-use_counters=0", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         shutil.rmtree(target.corpus, ignore_errors=True)
         shutil.copytree(new, target.corpus)
@@ -398,7 +396,7 @@ def main():
         return minimise(targets)
     if asked.executions:
         return campaign(targets, asked.executions, asked.workers, asked.minutes and 60 * asked.minutes)
-    return short(targets, asked.seconds or 8)
+    return short(targets, asked.seconds or 5)
 
 
 if __name__ == "__main__":
