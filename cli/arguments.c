@@ -69,10 +69,12 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
   arguments->scene = kind;
   int32_t status = hooke_run_options_create(&arguments->run);
   if (status == HOOKE_OK && verb->options) status = verb->options(&arguments->more);
+  if (status == HOOKE_OK && !verb->input && !verb->kind_options)
+    status = hooke_scene_options_create("limits", &arguments->limits);
   if (status == HOOKE_OK && kind) status = verb->kind_options(kind, &arguments->of_kind);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  const int64_t tables =
-      row_count(arguments->run) + row_count(arguments->more) + row_count(arguments->of_kind);
+  const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
+                         row_count(arguments->limits) + row_count(arguments->of_kind);
   arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
   if (!arguments->all) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
@@ -82,6 +84,7 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
   if (!verb->input) add_table(arguments, arguments->run, verb->without);
+  add_table(arguments, arguments->limits, NULL);
   return HOOKE_EXIT_DONE;
 }
 
@@ -254,6 +257,7 @@ void hooke_arguments_destroy(struct hooke_arguments *arguments) {
   free(arguments->all);
   hooke_options_destroy(arguments->run);
   hooke_options_destroy(arguments->more);
+  hooke_options_destroy(arguments->limits);
   hooke_options_destroy(arguments->of_kind);
 }
 

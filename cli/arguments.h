@@ -24,6 +24,7 @@ struct hooke_arguments {
   int32_t help, json, quiet;
   hooke_options *run;     /* the option table of a run, holding what was given */
   hooke_options *more;    /* that of the verb, likewise; NULL: it has none */
+  hooke_options *limits;  /* that of loading a scene, likewise; NULL: the verb takes none */
   hooke_options *of_kind; /* that of the kind, likewise; NULL: it has none */
   struct hooke_argument *all;
   int32_t count;

@@ -134,6 +134,8 @@ const char *hooke_describe_table(const struct hooke_arguments *arguments, const 
     add(title, "options of a %s", arguments->scene);
   } else if (table == arguments->more) {
     add(title, "options of the %s", makes ? "scene" : arguments->verb->name);
+  } else if (table == arguments->limits) {
+    add(title, "what a scene may do");
   } else {
     add(title, "options of the run, %s",
         makes ? "for the scene to hold (defaults: where it does not)"

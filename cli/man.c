@@ -173,6 +173,11 @@ static void print_options(const struct hooke_program *program) {
              hooke_unit_list("s", times), hooke_unit_list("m", lengths));
     printf(".PP\n");
     print_paragraph(words);
+    printf(".SS What a scene may do\n");
+    print_paragraph(
+        "Verbs that take a scene refuse one that needs more memory than there is, or names files outside its "
+        "folder, unless told otherwise.");
+    print_table(&arguments, arguments.limits);
   }
   hooke_arguments_destroy(&arguments);
 }

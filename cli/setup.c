@@ -8,7 +8,7 @@
 
 enum { READ_SIZE = 1 << 16 };
 
-static int32_t load_text(FILE *file, hooke_scene **scene) {
+static int32_t load_text(FILE *file, const hooke_options *limits, hooke_scene **scene) {
   char *text = NULL;
   size_t length = 0, size = 0, got;
   int32_t status = HOOKE_OK;
@@ -21,19 +21,22 @@ static int32_t load_text(FILE *file, hooke_scene **scene) {
     got = status == HOOKE_OK ? fread(text + length, 1, size - length, file) : 0;
     length += got;
   } while (got > 0);
-  if (status == HOOKE_OK) status = hooke_scene_parse(text, (int64_t)length, "standard input", ".", scene);
+  if (status == HOOKE_OK)
+    status = hooke_scene_parse_within(text, (int64_t)length, "standard input", ".", limits, scene);
   free(text);
   return status;
 }
 
 /* "-" is standard input, so that what `make` writes can be piped; files that it names are looked for here. */
-static int32_t load(const char *scene, hooke_scene **loaded) {
-  return strcmp(scene, "-") == 0 ? load_text(stdin, loaded) : hooke_scene_load(scene, loaded);
+static int32_t load(const struct hooke_arguments *arguments, hooke_scene **loaded) {
+  return strcmp(arguments->scene, "-") == 0
+             ? load_text(stdin, arguments->limits, loaded)
+             : hooke_scene_load_within(arguments->scene, arguments->limits, loaded);
 }
 
 int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
   memset(setup, 0, sizeof *setup);
-  int32_t status = load(arguments->scene, &setup->scene);
+  int32_t status = load(arguments, &setup->scene);
   if (ferror(stdin)) return hooke_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
   setup->options = hooke_scene_run_options(setup->scene);

@@ -93,6 +93,7 @@ static void print_options(FILE *file, const struct hooke_arguments *arguments) {
   print_table(file, arguments, arguments->more);
   if (arguments->verb->input) return;
   print_table(file, arguments, arguments->run);
+  print_table(file, arguments, arguments->limits);
   fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
           hooke_unit_list("m", lengths));
 }

@@ -29,6 +29,7 @@ module hooke_builders
     procedure :: add_part
     procedure :: set_gravity
     procedure :: set_drag
+    procedure :: limit_memory
     procedure :: set_force
     procedure :: drive_harmonic
     procedure :: drive_table
@@ -221,6 +222,15 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     call accept(c_system_set_gravity(self%address(), gravity), status)
+  end subroutine
+
+  ! What the system may need of memory [bytes]; 0: as much as the machine has.
+  subroutine limit_memory(self, bytes, status)
+    class(hooke_builder), intent(inout) :: self
+    real(c_double), intent(in) :: bytes
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_system_limit_memory(self%address(), bytes), status)
   end subroutine
 
   ! Ether drag -c v on every free particle, c in N s/m.

@@ -34,23 +34,26 @@ contains
   end subroutine
 
   ! Reads a scene file, or the scene that a trajectory file was made from.
-  subroutine load(self, path, status)
+  ! `limits` are options of create_scene("limits"): what it may need of memory, and whether files may be anywhere.
+  subroutine load(self, path, status, limits)
     class(hooke_scene), intent(inout) :: self
     character(*), intent(in) :: path
+    type(hooke_options), intent(in), optional :: limits
     integer, intent(out), optional :: status
     type(c_ptr) :: scene
     integer(c_int32_t) :: code
-    code = c_scene_load(to_c(path), scene)
+    code = c_scene_load_within(to_c(path), options_or_null(limits), scene)
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine
 
   ! The same from text; `name` stands for the file in messages, `folder` is where files named in it are looked up
   ! (without it none are allowed).
-  subroutine parse(self, text, name, folder, status)
+  subroutine parse(self, text, name, folder, status, limits)
     class(hooke_scene), intent(inout) :: self
     character(*, kind=c_char), intent(in) :: text
     character(*), intent(in), optional :: name, folder
+    type(hooke_options), intent(in), optional :: limits
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name, c_folder
     type(c_ptr) :: scene
@@ -58,7 +61,7 @@ contains
     c_name = to_c("scene")
     if (present(name)) c_name = to_c(name)
     call to_c_if(folder, c_folder)
-    code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, scene)
+    code = c_scene_parse_within(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine

@@ -38,12 +38,21 @@ HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                                     hooke_scene **scene);
 
+/* The same with other limits than those that hold for anybody's scene; NULL: these. `limits` are options of
+ * hooke_scene_options_create("limits", ...): "memory" [GB] that the scene may need, without it what the machine has or its
+ * limit on the address space; "outside", 1: the scene may name files anywhere. HOOKE_NO_MEMORY says what a scene that is too
+ * large would need; it comes before anything is allocated. */
+HOOKE_API int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name,
+                                           const char *folder, const hooke_options *limits,
+                                           hooke_scene **scene);
+
 /* Commits the system of the scene; like hooke_system_commit(), with messages that give the place in the file.
  */
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 
 /* Options for the keys of a scene that neither a part, nor springs, nor a run has, for the caller to set and destroy.
- * `what` is "scene" (title, gravity, drag), "particles", or "driven". HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
+ * `what` is "scene" (title, gravity, drag), "particles", "driven", or "limits" of what is loaded. HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
 
 /* Gives the system what options of a "scene" say of it: all but the title. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit. */

@@ -64,6 +64,11 @@ HOOKE_API int32_t hooke_system_create(hooke_system **system);
 /* Releases a system; nothing that was made from it may be used afterwards. NULL is allowed. */
 HOOKE_API void hooke_system_destroy(hooke_system *system);
 
+/* What the system may need of memory [bytes], with what an explicit method takes; 0: as much as the machine has, or its limit
+ * on the address space if that is less. What is added from here on is refused as HOOKE_NO_MEMORY where it would need more,
+ * before anything is allocated. HOOKE_BAD_VALUE for a negative number and NaN. */
+HOOKE_API int32_t hooke_system_limit_memory(hooke_system *system, double bytes);
+
 /* Adds `count` particles: `position` (3 count) [m], `velocity` (3 count) [m/s] or NULL for rest, and `mass` >
  * 0 [kg], `mass_count` being 1 (shared) or `count`. `first`, if not NULL, receives the number of the first
  * one. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */

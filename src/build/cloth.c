@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct hooke_option_row rows[] = {
@@ -103,14 +104,25 @@ static int32_t add_bending(struct hooke_part *part, const struct cell *cell) {
   return hooke_part_add_bending(part, cell->nu, 2, beams);
 }
 
+/* In numbers that cannot overflow. */
+static struct hooke_more size_of(const struct hooke_part *part, double nu, double nv) {
+  const double along = (nu - 1.0) * nv + nu * (nv - 1.0), across = 2.0 * (nu - 1.0) * (nv - 1.0);
+  const double two_apart = fmax(0.0, nu - 2.0) * nv + nu * fmax(0.0, nv - 2.0);
+  return (struct hooke_more){
+      .particles = nu * nv,
+      .springs = hooke_part_if_family(part, "structural", along) +
+                 hooke_part_if_family(part, "shear", across) + hooke_part_if_family(part, "bend", two_apart),
+      .triples = hooke_options_number(part->options, "bending") > 0.0 ? two_apart : 0.0};
+}
+
 static int32_t build(struct hooke_part *part) {
   const double *size = hooke_options_numbers(part->options, "size");
   const double *edges = hooke_options_numbers(part->options, "edges");
   const int64_t nu = (int64_t)size[0], nv = (int64_t)size[1];
 
   double *position;
-  int32_t status = hooke_part_new_positions(part, nu * nv, &position, "a cloth of %lld x %lld particles",
-                                            (long long)nu, (long long)nv);
+  int32_t status = hooke_part_new_positions(part, size_of(part, size[0], size[1]), &position,
+                                            "a cloth of %lld x %lld particles", (long long)nu, (long long)nv);
   if (status != HOOKE_OK) return hooke_fail_within(status, "size");
   const struct cell cell = find_cell(edges, nu, nv);
   place_particles(hooke_options_numbers(part->options, "origin"), edges, nu, nv, position);

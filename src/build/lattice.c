@@ -75,21 +75,17 @@ static double springs_along(const struct lattice *lattice, const int32_t *step, 
   return springs;
 }
 
-/* In numbers that cannot overflow, before anything is allocated. A lattice has more springs to a particle than other parts. */
-static int32_t check_size(const struct hooke_part *part, const struct lattice *lattice, const char *what) {
-  double particles = 1.0, springs = 0.0;
+/* In numbers that cannot overflow. */
+static struct hooke_more size_of(const struct hooke_part *part, const struct lattice *lattice) {
+  struct hooke_more more = {.particles = 1.0};
   for (int a = 0; a < 3; a++) {
-    particles *= (double)lattice->size[a];
-    if (hooke_options_has_family(part->options, "structural")) springs += springs_along(lattice, axis[a], 1);
-    if (hooke_options_has_family(part->options, "bend")) springs += springs_along(lattice, axis[a], 2);
+    more.particles *= (double)lattice->size[a];
+    more.springs += hooke_part_if_family(part, "structural", springs_along(lattice, axis[a], 1));
+    more.springs += hooke_part_if_family(part, "bend", springs_along(lattice, axis[a], 2));
   }
-  for (int d = 0; d < DIAGONALS && hooke_options_has_family(part->options, "shear"); d++)
-    springs += springs_along(lattice, diagonal[d], 1);
-  if (particles <= INT32_MAX && springs <= INT32_MAX)
-    return hooke_part_check_room(part, (int64_t)particles, 200.0 * particles + 50.0 * springs, what);
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "%s has %.10g particles and %.10g springs; allowed: up to 2147483647 of each", what,
-                    particles, springs);
+  for (int d = 0; d < DIAGONALS; d++)
+    more.springs += hooke_part_if_family(part, "shear", springs_along(lattice, diagonal[d], 1));
+  return more;
 }
 
 /* ---- particles ---- */
@@ -233,12 +229,9 @@ static int32_t build(struct hooke_part *part) {
   const struct lattice lattice = lattice_of(part->options);
   const int64_t *size = lattice.size;
   double *position;
-  char what[96];
-  snprintf(what, sizeof what, "a lattice of %lld x %lld x %lld", (long long)size[0], (long long)size[1],
-           (long long)size[2]);
-  int32_t status = check_size(part, &lattice, what);
-  if (status == HOOKE_OK)
-    status = hooke_part_new_positions(part, size[0] * size[1] * size[2], &position, "%s", what);
+  int32_t status =
+      hooke_part_new_positions(part, size_of(part, &lattice), &position, "a lattice of %lld x %lld x %lld",
+                               (long long)size[0], (long long)size[1], (long long)size[2]);
   if (status != HOOKE_OK) return hooke_fail_within(status, "size");
   place_particles(part->options, &lattice, position);
   status = add_particles(part, &lattice, position);

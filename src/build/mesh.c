@@ -87,10 +87,12 @@ int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const doubl
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
   }
-  if (vertex_count < 0 || triangle_count < 0 || !vertices || !triangles) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "%lld vertices and %lld triangles given; allowed: arrays of both",
-                      (long long)vertex_count, (long long)triangle_count);
+  if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
+      !vertices || !triangles) {
+    return hooke_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "%lld vertices and %lld triangles given; allowed: arrays of both, of up to 2147483647 rows",
+        (long long)vertex_count, (long long)triangle_count);
   }
   double *corner = hooke_new(3 * triangle_count, sizeof *corner);
   if (corner == NULL) return HOOKE_NO_MEMORY;
@@ -211,10 +213,12 @@ static int32_t refuse(const struct hooke_surface_fault *fault) {
 }
 
 static int32_t check_room(const struct hooke_part *part, const struct hooke_surface *surface) {
-  if (surface->vertex_count <= INT32_MAX - hooke_system_particle_count(part->system)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "vertices",
-                    "%lld vertices on top of %lld particles; a system holds up to 2147483647",
-                    (long long)surface->vertex_count, (long long)hooke_system_particle_count(part->system));
+  const double edges = (double)surface->edge_count;
+  const struct hooke_more more = {.particles = (double)surface->vertex_count,
+                                  .springs = hooke_part_if_family(part, "structural", edges) +
+                                             hooke_part_if_family(part, "bend", edges)};
+  const int32_t status = hooke_system_check_room(part->system, more, "the mesh");
+  return status == HOOKE_OK ? status : hooke_fail_within(status, "vertices");
 }
 
 static int32_t build(struct hooke_part *part) {

@@ -4,13 +4,11 @@
 #include "build/material.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static const struct hooke_part_kind *const kinds[] = {
     &hooke_part_rope, &hooke_part_cloth, &hooke_part_lattice, &hooke_part_mesh, &hooke_part_strand};
@@ -88,21 +86,11 @@ double hooke_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
 }
 
-int32_t hooke_part_check_room(const struct hooke_part *part, int64_t count, double bytes, const char *what) {
-  const double gigabytes = bytes / 1e9;
-  const double machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / 1e9;
-  if (count > INT32_MAX - hooke_system_particle_count(part->system)) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "%s needs about %.3g GB; a system holds up to 2147483647 particles", what, gigabytes);
-  }
-  if (machine > 0.0 && gigabytes > machine) {
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s needs about %.3g GB; this machine has %.3g GB", what,
-                      gigabytes, machine);
-  }
-  return HOOKE_OK;
+double hooke_part_if_family(const struct hooke_part *part, const char *family, double count) {
+  return hooke_options_has_family(part->options, family) ? count : 0.0;
 }
 
-int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
+int32_t hooke_part_new_positions(struct hooke_part *part, struct hooke_more more, double **position,
                                  const char *format, ...) {
   char what[128];
   va_list args;
@@ -111,11 +99,10 @@ int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double 
   va_end(args);
 
   *position = NULL;
-  /* system, springs of every family, a state and an integrator's scratch, roughly */
-  const int32_t status = hooke_part_check_room(part, count, 400.0 * (double)count, what);
+  const int32_t status = hooke_system_check_room(part->system, more, what);
   if (status != HOOKE_OK) return status;
-  part->count = count;
-  *position = hooke_new(3 * count, sizeof(double));
+  part->count = (int64_t)more.particles;
+  *position = hooke_new(3 * part->count, sizeof(double));
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 

@@ -5,6 +5,7 @@
 #include "core/option.h"
 #include "hooke/build.h"
 #include "model/part_record.h"
+#include "model/system.h"
 
 /* A part under construction. */
 struct hooke_part {
@@ -100,13 +101,13 @@ struct hooke_part_beams {
   enum hooke_part_beam_order side_by_side;
 };
 
-/* HOOKE_BAD_VALUE or HOOKE_NO_MEMORY if the system cannot hold so many particles more, or the machine so many bytes. */
-int32_t hooke_part_check_room(const struct hooke_part *part, int64_t count, double bytes, const char *what);
-
-/* Checks `count` before anything is allocated and gives an array of 3 count coordinates, to be freed. The
- * format says what is too large: "a cloth of 3 x 4 particles". */
-int32_t hooke_part_new_positions(struct hooke_part *part, int64_t count, double **position,
+/* Checks that there is room for so much before anything is allocated and gives an array of 3 coordinates for each particle,
+ * to be freed. The format says what is too large: "a cloth of 3 x 4 particles". */
+int32_t hooke_part_new_positions(struct hooke_part *part, struct hooke_more more, double **position,
                                  const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* `count` if the part has springs of the family, else 0. */
+double hooke_part_if_family(const struct hooke_part *part, const char *family, double count);
 
 /* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an inner one stands
  * for: its length (one row) or area. */

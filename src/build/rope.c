@@ -33,9 +33,15 @@ static int32_t build(struct hooke_part *part) {
   const int64_t segments = (int64_t)hooke_options_number(part->options, "segments");
   const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 
+  const double links = (double)segments;
+  const struct hooke_more more = {
+      .particles = links + 1.0,
+      .springs =
+          hooke_part_if_family(part, "stretch", links) + hooke_part_if_family(part, "bend", links - 1.0),
+      .triples = hooke_options_number(part->options, "bending") > 0.0 ? links - 1.0 : 0.0};
   double *position;
   int32_t status =
-      hooke_part_new_positions(part, segments + 1, &position, "a rope of %lld segments", (long long)segments);
+      hooke_part_new_positions(part, more, &position, "a rope of %lld segments", (long long)segments);
   if (status != HOOKE_OK) return hooke_fail_within(status, "segments");
   for (int64_t k = 0; k < segments; k++) {
     const double share = (double)k / (double)segments;

@@ -151,8 +151,14 @@ static double distance(const struct strand *strand, int64_t k, int64_t apart) {
 static int32_t add_particles(struct hooke_part *part, const struct strand *strand, int64_t count) {
   const double *from = hooke_options_numbers(part->options, "from");
   const double *to = hooke_options_numbers(part->options, "to");
+  const double n = (double)count;
+  const struct hooke_more more = {.particles = n,
+                                  .springs = hooke_part_if_family(part, "stretch", n) +
+                                             hooke_part_if_family(part, "bend", n) +
+                                             hooke_part_if_family(part, "twist", n),
+                                  .tetrahedra = hooke_part_if_family(part, "altitude", n)};
   double *position;
-  int32_t status = hooke_part_new_positions(part, count, &position, "a strand of %lld segments",
+  int32_t status = hooke_part_new_positions(part, more, &position, "a strand of %lld segments",
                                             (long long)strand->segments);
   if (status != HOOKE_OK) return hooke_fail_within(status, "segments");
   for (int64_t k = 0; k < count; k++) {

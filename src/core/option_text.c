@@ -66,18 +66,39 @@ void hooke_option_list_names(const struct hooke_option_table *table, char *text,
   }
 }
 
+/* Bytes of the character of UTF-8 (RFC 3629) that `text` begins with; 0 if it begins with none. */
+static int64_t character(const char *text, int64_t length) {
+  const unsigned char *c = (const unsigned char *)text;
+  if (c[0] < 0x80) return 1;
+  const int64_t bytes = c[0] >= 0xC2 && c[0] <= 0xDF   ? 2
+                        : (c[0] & 0xF0) == 0xE0        ? 3
+                        : c[0] >= 0xF0 && c[0] <= 0xF4 ? 4
+                                                       : 0;
+  if (bytes == 0 || bytes > length) return 0;
+  const unsigned char lowest = c[0] == 0xE0 ? 0xA0 : c[0] == 0xF0 ? 0x90 : 0x80;
+  const unsigned char highest = c[0] == 0xED ? 0x9F : c[0] == 0xF4 ? 0x8F : 0xBF;
+  if (c[1] < lowest || c[1] > highest) return 0;
+  for (int64_t k = 2; k < bytes; k++)
+    if ((c[k] & 0xC0) != 0x80) return 0;
+  return bytes;
+}
+
 void hooke_option_show(const char *text, int64_t length, char *shown) {
   int64_t used = 0, most = HOOKE_OPTION_SHOWN - 4;
-  for (; used < length && used < most; used++) {
-    unsigned char c = (unsigned char)text[used];
-    shown[used] = c < 32 || c == 127 ? '?' : text[used];
-  }
-  if (used < length) {
-    /* not in the middle of a character of several bytes */
-    while (used > 0 && ((unsigned char)text[used] & 0xC0) == 0x80)
-      used--;
-    memcpy(shown + used, "...", 3);
-    used += 3;
+  for (int64_t at = 0; at < length;) {
+    const int64_t bytes = character(text + at, length - at), count = bytes > 0 ? bytes : 1;
+    if (used + count > most) {
+      memcpy(shown + used, "...", 3);
+      used += 3;
+      break;
+    }
+    const int control = (unsigned char)text[at] < 32 || text[at] == 127;
+    if (bytes == 0 || control)
+      shown[used] = '?';
+    else
+      memcpy(shown + used, text + at, (size_t)bytes);
+    used += count;
+    at += count;
   }
   shown[used] = '\0';
 }

@@ -86,6 +86,13 @@ static int32_t check_count(const struct hooke_option_row *row, const char *place
                     given == 1 ? "" : "s", allowed(row, may));
 }
 
+/* A whole number has one 0. */
+static void drop_signs_of_zero(struct hooke_option_value *value) {
+  value->one += 0.0;
+  for (int64_t k = 0; value->many && k < value->count; k++)
+    value->many[k] += 0.0;
+}
+
 int32_t hooke_option_value_from_numbers(const struct hooke_option_row *row, const char *place, int64_t count,
                                         const double *numbers, struct hooke_option_value *value) {
   memset(value, 0, sizeof *value);
@@ -104,6 +111,7 @@ int32_t hooke_option_value_from_numbers(const struct hooke_option_row *row, cons
   }
   value->count = count;
   value->one = count ? numbers[0] : 0;
+  if (row->whole) drop_signs_of_zero(value);
   return HOOKE_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "io/array_h5.h"
 
 #include "core/memory.h"
+#include "core/room.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -16,6 +17,7 @@
 
 struct source {
   struct hooke_h5_guard *guard;
+  double memory_limit;
   const char *path, *dataset;
   hid_t file;
   struct hooke_dataset data;
@@ -82,6 +84,24 @@ static int32_t choose_frame(const struct source *source, int64_t *frame, int32_t
   return HOOKE_OK;
 }
 
+/* Numbers, and a chunk of the file, which HDF5 takes as a whole however little of it is asked for. */
+static int32_t check_room(const struct source *source, double count) {
+  hid_t list = H5Dget_create_plist(source->data.id), type = H5Dget_type(source->data.id);
+  hsize_t chunk[3] = {0, 0, 0};
+  double bytes = 0.0;
+  if (list >= 0 && type >= 0 && H5Pget_layout(list) == H5D_CHUNKED) {
+    const int rank = H5Pget_chunk(list, 3, chunk);
+    bytes = (double)H5Tget_size(type);
+    for (int k = 0; k < rank && k < 3; k++)
+      bytes *= (double)chunk[k];
+  }
+  hooke_h5_drop(type);
+  hooke_h5_drop(list);
+  char what[192];
+  snprintf(what, sizeof what, "dataset %.150s", source->dataset);
+  return hooke_room_require(source->memory_limit, 8.0 * count + bytes, what);
+}
+
 static int32_t read_values(const struct source *source, int64_t frame, double **values, int64_t *rows,
                            int64_t *columns) {
   const int framed = source->data.rank == 3;
@@ -91,6 +111,8 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
     return refuse(source, "has more numbers than a system has coordinates (3 x 2147483647)");
   }
   const hsize_t count = high * wide;
+  const int32_t room = check_room(source, (double)count);
+  if (room != HOOKE_OK) return room;
   const hsize_t begin[3] = {(hsize_t)frame, 0, 0}, part[3] = {1, high, wide};
   *values = hooke_new((int64_t)count, sizeof(double));
   if (*values == NULL) return HOOKE_NO_MEMORY;
@@ -107,10 +129,12 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
 }
 
 /* Without `checked` a frame of a trajectory is held against its check value. */
-static int32_t read_array(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
-                          int32_t checked, double **values, int64_t *rows, int64_t *columns) {
+static int32_t read_array(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                          int32_t has_frame, int32_t checked, double **values, int64_t *rows,
+                          int64_t *columns) {
   struct hooke_h5_guard guard;
-  struct source source = {.guard = &guard, .path = path, .dataset = dataset, .data = {.id = -1}};
+  struct source source = {
+      .guard = &guard, .memory_limit = memory_limit, .path = path, .dataset = dataset, .data = {.id = -1}};
   *values = NULL;
   *rows = *columns = 0;
   hooke_h5_guard_begin(&guard);
@@ -130,21 +154,21 @@ static int32_t read_array(const char *path, const char *dataset, int64_t frame, 
   return status;
 }
 
-int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
-                         double **values, int64_t *rows, int64_t *columns) {
-  return read_array(path, dataset, frame, has_frame, 0, values, rows, columns);
+int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                                int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
+  return read_array(memory_limit, path, dataset, frame, has_frame, 0, values, rows, columns);
 }
 
 int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t frame, double **values,
                                  int64_t *rows, int64_t *columns) {
-  return read_array(path, dataset, frame, 1, 1, values, rows, columns);
+  return read_array(0.0, path, dataset, frame, 1, 1, values, rows, columns);
 }
 
 #else
 
-int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
-                         double **values, int64_t *rows, int64_t *columns) {
-  (void)frame, (void)has_frame;
+int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                                int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
+  (void)memory_limit, (void)frame, (void)has_frame;
   *values = NULL;
   *rows = *columns = 0;
   return hooke_fail(HOOKE_NOT_BUILT, NULL,
@@ -157,3 +181,8 @@ int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t 
 }
 
 #endif
+
+int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
+                         double **values, int64_t *rows, int64_t *columns) {
+  return hooke_array_read_within(0.0, path, dataset, frame, has_frame, values, rows, columns);
+}

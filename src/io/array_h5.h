@@ -13,6 +13,9 @@
  * refused with HOOKE_BAD_VALUE if it is damaged. HOOKE_IO_FAILED, HOOKE_BAD_VALUE, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
                          double **values, int64_t *rows, int64_t *columns);
+/* The same with at most `memory_limit` bytes; 0, as above: what the machine has. */
+int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                                int32_t has_frame, double **values, int64_t *rows, int64_t *columns);
 
 /* The same for a frame that was found whole just before, which is then not looked at again. */
 int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t frame, double **values,

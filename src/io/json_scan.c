@@ -61,6 +61,8 @@ static int32_t follow_bracket(struct hooke_json_guard *guard, char c) {
       return hooke_fail(HOOKE_BAD_VALUE, NULL, "nested %d levels deep; allowed: up to %d", DEEPEST + 1,
                         DEEPEST);
     guard->arrays = guard->arrays << 1 | (c == '[');
+    guard->lists += c == '[';
+    guard->objects += c == '{';
   } else if (c == '}' || c == ']') {
     if ((guard->arrays & 1) != (c == ']'))
       return hooke_fail(HOOKE_BAD_VALUE, NULL, "%c closes nothing; allowed: brackets in pairs", c);
@@ -91,6 +93,7 @@ static int32_t follow_structure(struct hooke_json_guard *guard, char c) {
                       "text after the end; allowed: one JSON object and nothing after it");
   guard->started = 1;
   if (c == '"') guard->in_string = 1;
+  guard->values += c == ',' || c == '[' || c == '{';
   int32_t status = follow_bracket(guard, c);
   guard->last = c;
   return status;
@@ -109,6 +112,13 @@ int32_t hooke_json_guard_feed(struct hooke_json_guard *guard, const char *bytes,
     }
   }
   return HOOKE_OK;
+}
+
+double hooke_json_guard_bytes(const struct hooke_json_guard *guard, int64_t length) {
+  /* measured with jansson 2.14; the text is there, while it grows up to three times, and once more as texts in it */
+  static const double per_value = 64.0, per_list = 144.0, per_object = 400.0, per_byte = 4.0;
+  return per_value * (double)guard->values + per_list * (double)guard->lists +
+         per_object * (double)guard->objects + per_byte * (double)length;
 }
 
 int32_t hooke_json_guard_end(const struct hooke_json_guard *guard) {

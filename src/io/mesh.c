@@ -3,6 +3,7 @@
 #include "build/surface.h"
 #include "core/memory.h"
 #include "core/option.h"
+#include "core/room.h"
 #include "core/status.h"
 #include "io/obj.h"
 #include "io/scene_file.h"
@@ -57,22 +58,24 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
                   : hooke_fail_before(status, "%s: ", shown);
 }
 
-int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, hooke_options *options) {
+int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
+                         hooke_options *options) {
   int64_t line = 0;
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = read_text(text, length, options, &line);
+  status = hooke_room_require(memory_limit, hooke_obj_bytes(text, length), "the mesh");
+  if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   return finish(status, line, name, options);
 }
 
-int32_t hooke_mesh_read_as(const char *path, const char *name, hooke_options *options) {
+int32_t hooke_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char *text = NULL;
   int64_t length = 0;
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hooke_scene_read_file(path, NULL, &text, &length);
-  status =
-      status == HOOKE_OK ? hooke_mesh_parse(text, length, name, options) : finish(status, 0, name, options);
+  status = status == HOOKE_OK ? hooke_mesh_parse(text, length, name, memory_limit, options)
+                              : finish(status, 0, name, options);
   hooke_free(text);
   return status;
 }
@@ -84,5 +87,5 @@ int32_t hooke_mesh_read(const char *path, hooke_options *options) {
     return hooke_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
-  return hooke_mesh_read_as(path, path, options);
+  return hooke_mesh_read_as(path, path, 0.0, options);
 }

@@ -222,6 +222,23 @@ int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj,
                     (long long)obj->vertex_count);
 }
 
+/* A vertex is a line, a triangle at least a blank before its last corner. */
+double hooke_obj_bytes(const char *text, int64_t length) {
+  static const double per_vertex = 200.0, per_triangle = 340.0;
+  double vertices = 0.0, triangles = 0.0;
+  int in_face = 0;
+  for (int64_t k = 0; k < length; k++) {
+    const int starts = k == 0 || is_end_of_line(text[k - 1]);
+    const int blank = text[k] == ' ' || text[k] == '\t' || text[k] == '\\';
+    if (starts && !(k > 1 && memchr(text + (k > 2 ? k - 3 : 0), '\\', (size_t)(k > 2 ? 3 : k))) && !blank)
+      in_face = text[k] == 'f';
+    if (starts && blank) in_face = 1; /* whatever comes */
+    vertices += text[k] == 'v';
+    triangles += in_face && blank;
+  }
+  return per_vertex * vertices + per_triangle * triangles + 3.0 * (double)length;
+}
+
 void hooke_obj_release(struct hooke_obj *obj) {
   hooke_free(obj->vertex);
   hooke_free(obj->triangle);

@@ -15,6 +15,8 @@ struct hooke_obj {
 /* Reads `length` bytes. On failure `line` is that of the trouble, and the message is without the name of the file.
  * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; to be released in each case. */
 int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj, int64_t *line);
+/* What reading `length` bytes of such a file into a mesh needs at most [bytes]. */
+double hooke_obj_bytes(const char *text, int64_t length);
 void hooke_obj_release(struct hooke_obj *obj);
 
 #endif

@@ -52,6 +52,17 @@ int32_t hooke_place_find(const char *path, char **place, char **temporary) {
   return HOOKE_OK;
 }
 
+/* Asked of what was opened, so that nothing can be put in its place in between. */
+int hooke_place_open(const char *path) {
+  const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  struct stat there;
+  if (descriptor < 0) return -1;
+  if (fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode)) return descriptor;
+  close(descriptor);
+  errno = S_ISDIR(there.st_mode) ? EISDIR : EINVAL;
+  return -1;
+}
+
 static int sync_path(const char *path, int flags) {
   int descriptor = open(path, flags);
   if (descriptor < 0) return -1;

@@ -2,6 +2,7 @@
 #include "io/scene.h"
 
 #include "core/memory.h"
+#include "core/room.h"
 #include "core/status.h"
 #include "io/json_place.h"
 #include "io/record.h"
@@ -47,7 +48,7 @@ static int32_t read_text(hooke_scene *scene, const char *folder) {
   if (status) return status;
   struct hooke_scene_trouble trouble = {0};
   status = hooke_scene_build(scene, folder, &trouble);
-  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
+  if (status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hooke_fail_place()[0] == '\0')) return status;
   if (trouble.line) return in_line(status, scene->name, trouble.line, trouble.column);
   return at_place(status, scene, trouble.at_key);
 }
@@ -60,11 +61,16 @@ static int32_t require_jansson(void) {
 #endif
 }
 
-static hooke_scene *new_scene(const char *name) {
+static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
   hooke_scene *scene = hooke_new(1, sizeof *scene);
   if (scene && (scene->name = hooke_copy_text(name)) == NULL) {
     hooke_free(scene);
     return NULL;
+  }
+  if (scene && limits) {
+    if (hooke_options_is_set(limits, "memory"))
+      scene->memory_limit = 1e9 * hooke_options_number(limits, "memory");
+    scene->outside = hooke_options_number(limits, "outside") != 0.0;
   }
   return scene;
 }
@@ -79,7 +85,7 @@ static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
 }
 
 /* The scene that a trajectory was made from, as it was run. */
-static int32_t load_record(const char *path, hooke_scene **scene) {
+static int32_t load_record(const char *path, const hooke_options *limits, hooke_scene **scene) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(path, &record);
   if (status != HOOKE_OK) return status;
@@ -88,7 +94,8 @@ static int32_t load_record(const char *path, hooke_scene **scene) {
   if (folder == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && text[0] == '\0')
     status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
-  if (status == HOOKE_OK) status = hooke_scene_parse(text, (int64_t)strlen(text), path, folder, scene);
+  if (status == HOOKE_OK)
+    status = hooke_scene_parse_within(text, (int64_t)strlen(text), path, folder, limits, scene);
   if (status == HOOKE_OK) {
     hooke_options *run = NULL;
     status = hooke_options_copy(hooke_record_options(record), &run);
@@ -106,17 +113,21 @@ static int32_t load_record(const char *path, hooke_scene **scene) {
 }
 
 int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
+  return hooke_scene_load_within(path, NULL, scene);
+}
+
+int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene) {
   if (scene) *scene = NULL;
   if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
   if (require_jansson()) return HOOKE_NOT_BUILT;
-  if (hooke_record_is_one(path)) return load_record(path, scene);
-  hooke_scene *made = new_scene(path);
+  if (hooke_record_is_one(path)) return load_record(path, limits, scene);
+  hooke_scene *made = new_scene(path, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_json_guard guard = {0};
+  struct hooke_json_guard guard = {.memory_limit = made->memory_limit};
   int32_t status = hooke_scene_read_file(path, &guard, &made->text, &made->length);
-  if (status && guard.line)
+  if (status == HOOKE_BAD_VALUE && guard.line)
     in_line(status, path, guard.line, guard.column);
-  else if (status && status != HOOKE_NO_MEMORY)
+  else if (status)
     in_file(status, path);
   if (status == HOOKE_OK) {
     char *folder = hooke_scene_folder(path);
@@ -128,6 +139,11 @@ int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
 
 int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                           hooke_scene **scene) {
+  return hooke_scene_parse_within(text, length, name, folder, NULL, scene);
+}
+
+int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name, const char *folder,
+                                 const hooke_options *limits, hooke_scene **scene) {
   if (scene) *scene = NULL;
   if (text == NULL || length < 0 || scene == NULL)
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
@@ -137,8 +153,10 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
   int32_t status = hooke_json_guard_feed(&guard, text, length);
   if (status == HOOKE_OK) status = hooke_json_guard_end(&guard);
   if (status) return in_line(status, name, guard.line, guard.column);
-  hooke_scene *made = new_scene(name);
+  hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
+  status = hooke_room_require(made->memory_limit, hooke_json_guard_bytes(&guard, length), "this scene");
+  if (status) return finish(in_file(status, name), made, scene);
   made->text = hooke_new(length + 1, 1);
   made->length = length;
   if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);

@@ -11,6 +11,8 @@ struct hooke_scene {
   hooke_system *system;
   hooke_options *run;
   char *title;
+  double memory_limit; /* [bytes], 0: what the machine has */
+  int32_t outside;     /* files that it names may be anywhere */
 };
 
 /* Fills system, run and title from the text, which passed the guard and the check of its tokens. On failure

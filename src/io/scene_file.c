@@ -2,18 +2,25 @@
 
 #include "core/memory.h"
 #include "core/option.h"
+#include "core/room.h"
 #include "core/status.h"
+#include "io/place.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
 static int32_t refuse_open(int number, const struct hooke_json_guard *guard) {
   const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
+  if (number == EINVAL)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                      "is not a regular file; allowed: a %sfile, no pipe and no device",
+                      guard ? "scene " : "");
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
                     strerror(number), guard ? "scene " : "");
 }
@@ -35,6 +42,9 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     if (got == 0) break;
     if (guard && hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
+    if (guard &&
+        hooke_room_require(guard->memory_limit, hooke_json_guard_bytes(guard, *length), "this scene"))
+      return HOOKE_NO_MEMORY;
     if (*length > largest_file)
       return hooke_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",
                         guard ? "keep long arrays in HDF5 files" : "allowed: up to that");
@@ -50,8 +60,13 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
 int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, char **text,
                               int64_t *length) {
   *text = NULL;
-  FILE *file = fopen(path, "rb");
-  if (file == NULL) return refuse_open(errno, guard);
+  const int descriptor = hooke_place_open(path);
+  FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
+  if (file == NULL) {
+    const int number = errno;
+    if (descriptor >= 0) close(descriptor);
+    return refuse_open(number, guard);
+  }
   int32_t status = read_all(file, guard, text, length);
   fclose(file);
   if (status) {
@@ -82,6 +97,14 @@ static int is_inside(const char *folder, const char *path) {
   size_t length = strlen(folder);
   if (length > 0 && folder[length - 1] == '/') length--;
   return strncmp(folder, path, length) == 0 && path[length] == '/';
+}
+
+int32_t hooke_scene_find_any(const char *folder, const char *file, char **path) {
+  const char *base = file[0] == '/' ? "" : folder ? folder : ".";
+  const size_t room = strlen(base) + strlen(file) + 2;
+  *path = hooke_new((int64_t)room, 1);
+  if (*path) snprintf(*path, room, "%s%s%s", base, base[0] ? "/" : "", file);
+  return *path ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 int32_t hooke_scene_find_file(const char *folder, const char *file, char **path) {

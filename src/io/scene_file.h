@@ -16,4 +16,7 @@ char *hooke_scene_folder(const char *path);
  * it does not exist or is not inside the folder, through links neither. */
 int32_t hooke_scene_find_file(const char *folder, const char *file, char **path);
 
+/* The same where the caller lets the scene name any file; whether it exists is seen when it is opened. */
+int32_t hooke_scene_find_any(const char *folder, const char *file, char **path);
+
 #endif

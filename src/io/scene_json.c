@@ -122,10 +122,9 @@ int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_s
   if (root == NULL) return syntax_error(&error, trouble);
   struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
   int32_t status = hooke_system_create(&scene->system);
+  if (status == HOOKE_OK) status = hooke_system_limit_memory(scene->system, scene->memory_limit);
   if (status == HOOKE_OK) status = read_scene(&reader, root);
-  for (int64_t k = 0; k < reader.part_count; k++)
-    hooke_free(reader.part[k].name);
-  hooke_free(reader.part);
+  hooke_part_names_release(&reader.parts);
   json_decref(root);
   trouble->at_key = reader.at_key;
   return status;

@@ -3,22 +3,16 @@
 #define HOOKE_IO_SCENE_JSON_H
 
 #include "core/option.h"
+#include "io/part_names.h"
 #include "io/scene.h"
 
 struct json_t; /* of jansson */
-
-/* A part whose particles springs may name. */
-struct hooke_scene_part {
-  char *name;
-  int64_t first, count;
-};
 
 struct hooke_scene_reader {
   hooke_scene *scene;
   const char *folder; /* NULL: no files */
   int32_t at_key;     /* 1 if the last failure is about a key rather than its value */
-  int64_t part_count;
-  struct hooke_scene_part *part;
+  struct hooke_part_names parts;
 };
 
 /* ---- scene_json_values.c ---- */
@@ -44,6 +38,9 @@ int32_t hooke_scene_refuse(const struct json_t *value, const char *place, const 
 int32_t hooke_scene_place_number(int32_t status, const struct json_t *array, const char *name);
 
 /* ---- scene_json_array.c ---- */
+
+/* The path of a file that the scene names, for the caller to free. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+int32_t hooke_scene_reader_file(const struct hooke_scene_reader *reader, const char *file, char **path);
 
 /* The numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the
  * caller frees `numbers`. */

@@ -24,17 +24,21 @@ static const struct hooke_option_row source_rows[] = {
 
 static const struct hooke_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
 
+int32_t hooke_scene_reader_file(const struct hooke_scene_reader *reader, const char *file, char **path) {
+  return (reader->scene->outside ? hooke_scene_find_any : hooke_scene_find_file)(reader->folder, file, path);
+}
+
 /* ---- data sets ---- */
 
 static int32_t read_dataset(const struct hooke_scene_reader *reader, const hooke_options *source,
                             double **numbers, int64_t *rows, int64_t *columns) {
   char *path = NULL;
-  int32_t status = hooke_scene_find_file(reader->folder, hooke_options_text(source, "file"), &path);
+  int32_t status = hooke_scene_reader_file(reader, hooke_options_text(source, "file"), &path);
   if (status) return hooke_fail_within(status, "file");
   int32_t has_frame = hooke_options_is_set(source, "frame");
   int64_t frame = has_frame ? (int64_t)hooke_options_number(source, "frame") : 0;
-  status =
-      hooke_array_read(path, hooke_options_text(source, "dataset"), frame, has_frame, numbers, rows, columns);
+  status = hooke_array_read_within(reader->scene->memory_limit, path, hooke_options_text(source, "dataset"),
+                                   frame, has_frame, numbers, rows, columns);
   hooke_free(path);
   /* a file that a scene names and that cannot be used is the scene's fault */
   if (status == HOOKE_IO_FAILED) return hooke_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_fail_message());
@@ -138,22 +142,32 @@ int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t
 
 static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
 
+/* "rope0, cloth1", up to the room that there is. */
+static void list_parts(const struct hooke_part_names *parts, char *names, size_t size) {
+  names[0] = '\0';
+  for (int64_t k = 0; k < parts->count; k++) {
+    char shown[HOOKE_OPTION_SHOWN];
+    const size_t used = strlen(names);
+    hooke_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
+    const int fits = used + strlen(shown) + strlen(", , ...") < size;
+    snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
+    if (!fits) return;
+  }
+}
+
 static int32_t find_in_part(const struct hooke_scene_reader *reader, const char *name, int64_t index,
                             int64_t *particle) {
-  char names[256] = "", shown[HOOKE_OPTION_SHOWN];
+  char names[256], shown[HOOKE_OPTION_SHOWN];
   hooke_option_show(name, (int64_t)strlen(name), shown);
-  for (int64_t k = 0; k < reader->part_count; k++) {
-    const struct hooke_scene_part *part = &reader->part[k];
-    size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", part->name);
-    if (strcmp(part->name, name) != 0) continue;
-    if (index >= 0 && index < part->count) {
-      *particle = part->first + index;
-      return HOOKE_OK;
-    }
+  const struct hooke_named_part *part = hooke_part_names_find(&reader->parts, name);
+  if (part && index >= 0 && index < part->count) {
+    *particle = part->first + index;
+    return HOOKE_OK;
+  }
+  if (part)
     return hooke_fail(HOOKE_BAD_VALUE, "[1]", "part \"%s\" has no particle %lld; allowed: 0 to %lld", shown,
                       (long long)index, (long long)part->count - 1);
-  }
+  list_parts(&reader->parts, names, sizeof names);
   return hooke_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
                     names[0] ? names : "none, as this scene has no parts");
 }

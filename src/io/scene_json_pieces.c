@@ -6,7 +6,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/mesh.h"
-#include "io/scene_file.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -97,24 +96,31 @@ static int32_t read_kind(const json_t *object, const char **kind) {
   return hooke_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
 }
 
-/* Room for the part's name, checked to be the only one; an unnamed part is called by its kind and number. */
-static int32_t note_part(struct hooke_scene_reader *reader, const char *kind, const char *name,
-                         int64_t index) {
-  char made[LIST_SIZE];
-  snprintf(made, sizeof made, "%s%lld", kind, (long long)index);
-  if (name[0] == '\0') name = made;
-  for (int64_t k = 0; k < reader->part_count; k++) {
-    if (strcmp(reader->part[k].name, name) != 0) continue;
-    char shown[HOOKE_OPTION_SHOWN];
-    hooke_option_show(name, (int64_t)strlen(name), shown);
-    return hooke_fail(HOOKE_BAD_VALUE, "name",
-                      "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
-                      (long long)k);
+/* The names of all parts, before the first is built; an unnamed part is called by its kind and number. What is wrong with one
+ * is said when it is built. */
+static int32_t note_names(struct hooke_scene_reader *reader, const json_t *parts) {
+  int32_t status = hooke_part_names_create((int64_t)json_array_size(parts), &reader->parts);
+  for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {
+    const json_t *object = json_array_get(parts, (size_t)k);
+    const char *name = json_string_value(json_object_get(object, "name"));
+    const char *kind = json_string_value(json_object_get(object, "kind"));
+    char made[LIST_SIZE];
+    snprintf(made, sizeof made, "%s%lld", kind ? kind : "", (long long)k);
+    status = hooke_part_names_set(&reader->parts, k, name && name[0] ? name : made);
   }
-  char *copy = hooke_copy_text(name);
-  if (copy == NULL) return HOOKE_NO_MEMORY;
-  reader->part[reader->part_count++].name = copy;
-  return HOOKE_OK;
+  if (status == HOOKE_OK) hooke_part_names_sort(&reader->parts);
+  return status;
+}
+
+static int32_t check_name(const struct hooke_scene_reader *reader, int64_t index) {
+  const char *name = reader->parts.part[index].name;
+  const struct hooke_named_part *first = hooke_part_names_find(&reader->parts, name);
+  if (first->number == index) return HOOKE_OK;
+  char shown[HOOKE_OPTION_SHOWN];
+  hooke_option_show(name, (int64_t)strlen(name), shown);
+  return hooke_fail(HOOKE_BAD_VALUE, "name",
+                    "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
+                    (long long)first->number);
 }
 
 /* The file of a mesh becomes its vertices and triangles, so that a system does not hang on files. */
@@ -124,8 +130,8 @@ static int32_t read_file(const struct hooke_scene_reader *reader, hooke_options 
   char *path = NULL;
   int32_t status = hooke_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = hooke_scene_find_file(reader->folder, file, &path);
-  if (status == HOOKE_OK) status = hooke_mesh_read_as(path, file, options);
+  status = hooke_scene_reader_file(reader, file, &path);
+  if (status == HOOKE_OK) status = hooke_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hooke_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
   if (hooke_fail_place()[0]) return status;
@@ -138,12 +144,12 @@ static int32_t add_part(struct hooke_scene_reader *reader, const json_t *object,
   hooke_options *options = NULL;
   int32_t status = read_kind(object, &kind);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK) status = note_part(reader, kind, name, index);
+  if (status == HOOKE_OK) status = check_name(reader, index);
   if (status == HOOKE_OK) status = hooke_part_options_create(kind, &options);
   if (status == HOOKE_OK) status = hooke_scene_read_options(reader, object, "kind name", options);
   if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
-    struct hooke_scene_part *part = &reader->part[index];
+    struct hooke_named_part *part = &reader->parts.part[index];
     status = hooke_system_add_part(reader->scene->system, kind, name, options, &part->first, &part->count);
     if (status) hooke_scene_place_number(status, json_object_get(object, "pinned"), "pinned");
   }
@@ -152,8 +158,8 @@ static int32_t add_part(struct hooke_scene_reader *reader, const json_t *object,
 }
 
 int32_t hooke_scene_add_parts(struct hooke_scene_reader *reader, const json_t *parts) {
-  reader->part = hooke_new((int64_t)json_array_size(parts), sizeof *reader->part);
-  return reader->part ? for_each(reader, parts, "parts", add_part) : HOOKE_NO_MEMORY;
+  const int32_t status = note_names(reader, parts);
+  return status == HOOKE_OK ? for_each(reader, parts, "parts", add_part) : status;
 }
 
 /* ---- springs ---- */

@@ -86,13 +86,31 @@ static const struct hooke_option_row drive_rows[] = {
 
 static const struct hooke_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
 
+static const struct hooke_option_row limit_rows[] = {
+    {.name = "memory",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "GB",
+     .low = 0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "memory that the scene may need; what the machine has if not given"},
+    {.name = "outside",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "the scene may name files anywhere, and not in its folder alone"},
+};
+
+static const struct hooke_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
+
 int32_t hooke_scene_options_create(const char *what, hooke_options **options) {
-  static const struct hooke_option_table *const tables[] = {&scene_table, &particle_table, &drive_table};
+  static const struct hooke_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
+                                                            &limit_table};
   *options = NULL;
   for (size_t k = 0; what && k < sizeof tables / sizeof tables[0]; k++)
     if (strcmp(tables[k]->name, what) == 0) return hooke_options_create(tables[k], options);
   return hooke_fail(HOOKE_BAD_VALUE, "what",
-                    "there is no table called \"%s\"; allowed: scene, particles, driven", what ? what : "");
+                    "there is no table called \"%s\"; allowed: scene, particles, driven, limits",
+                    what ? what : "");
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {

@@ -75,7 +75,7 @@ static void add_particles(struct hooke_text *text, const hooke_system *system,
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (numbering->in_part[p]) continue;
     for (int a = 0; a < 3 && system->velocity; a++)
-      moving += system->velocity[3 * p + a] != 0.0;
+      moving += system->velocity[3 * p + a] != 0.0 || signbit(system->velocity[3 * p + a]);
     pinned += system->held[p] == HOOKE_HELD_PINNED;
   }
   hooke_text_open(text, "particles", '{');

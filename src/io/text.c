@@ -67,9 +67,11 @@ void hooke_text_close(struct hooke_text *text, char bracket) {
   hooke_text_add(text, &bracket, 1);
 }
 
+/* "-0" would be read as a whole number, and these have one 0. */
 void hooke_text_number(struct hooke_text *text, const char *key, double value) {
   char number[HOOKE_NUMBER_SIZE] = "null";
   if (isfinite(value)) hooke_number_print(value, number);
+  if (value == 0.0 && signbit(value)) strcpy(number, "-0.0");
   begin(text, key);
   add(text, number);
 }

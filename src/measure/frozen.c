@@ -213,6 +213,7 @@ static int32_t build(const struct thaw *thaw, const struct hooke_frozen *frozen,
   const hooke_system *old = thaw->system;
   hooke_system *system = NULL;
   int32_t status = hooke_system_create(&system);
+  if (status == HOOKE_OK) system->memory_limit = old->memory_limit;
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(system, old->particle_count, frozen->place, NULL, old->particle_count,
                                         old->mass, NULL);

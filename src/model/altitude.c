@@ -180,6 +180,8 @@ static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *plac
 int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int32_t from_part, int64_t count,
                                     const struct hooke_tetrahedron *tetrahedron) {
   int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_particles(system, count, tetrahedron);
   if (status != HOOKE_OK) return status;
   struct hooke_altitude_group group = {
@@ -194,6 +196,7 @@ int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int3
   }
   if (count > 0) memcpy(group.tetrahedron, tetrahedron, (size_t)count * sizeof *tetrahedron);
   system->altitude_group[place] = group;
+  system->tetrahedron_total += count;
   return HOOKE_OK;
 }
 
@@ -217,6 +220,8 @@ static int32_t check_call(const hooke_system *system, int64_t count, const int64
     return hooke_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed",
                       (long long)count);
   }
+  status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "tetrahedra");
   status = hooke_options_check_required(options);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
   if (status == HOOKE_OK) status = check_count(options, "damping", count);

@@ -45,6 +45,8 @@ static int32_t check_triples(const hooke_system *system, int64_t count, const in
   if (count < 0) {
     return hooke_fail(HOOKE_BAD_VALUE, "triples", "%lld triples; 0 or more are allowed", (long long)count);
   }
+  const int32_t status = hooke_system_check_room(system, (struct hooke_more){.triples = (double)count}, NULL);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "triples");
   for (int64_t k = 0; k < count; k++) {
     const int64_t *t = triples + 3 * k;
     for (int e = 0; e < 3; e++) {
@@ -119,10 +121,12 @@ static int32_t add_group(hooke_system *system, const char *name, int64_t count, 
   int64_t place;
   status = fill_group(name, triples, coefficient_count, coefficient, &group);
   if (status == HOOKE_OK) status = open_place(system, from_part, &place);
-  if (status == HOOKE_OK)
+  if (status == HOOKE_OK) {
     system->bending_group[place] = group;
-  else
+    system->triple_total += count;
+  } else {
     hooke_bending_group_release(&group);
+  }
   return status;
 }
 

@@ -142,6 +142,8 @@ static int32_t check_ends(const hooke_system *system, int64_t count, const int64
   if (count < 0) {
     return hooke_fail(HOOKE_BAD_VALUE, "between", "%lld springs; 0 or more are allowed", (long long)count);
   }
+  const int32_t status = hooke_system_check_room(system, (struct hooke_more){.springs = (double)count}, NULL);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "between");
   for (int64_t k = 0; k < count; k++) {
     for (int end = 0; end < 2; end++) {
       const int64_t p = ends[2 * k + end];
@@ -276,10 +278,12 @@ static int32_t add_group(hooke_system *system, const char *name, int64_t count, 
   struct hooke_group group = {.from_part = from_part, .part = system->part_count - 1};
   status = fill_group(system, name, count, ends, options, &group);
   if (status == HOOKE_OK && !from_part) status = keep_options(options, &group);
-  if (status == HOOKE_OK)
+  if (status == HOOKE_OK) {
     system->group[system->group_count++] = group;
-  else
+    system->spring_total += count;
+  } else {
     hooke_group_release(&group);
+  }
   return status;
 }
 

@@ -63,10 +63,6 @@ int32_t hooke_system_require_committed(const hooke_system *system) {
 
 /* Capacity for `count` more particles in every particle array. */
 static int32_t reserve_particles(hooke_system *system, int64_t count) {
-  if (count > INT32_MAX - system->particle_count) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%lld particles on top of %lld; a system holds up to 2147483647",
-                      (long long)count, (long long)system->particle_count);
-  }
   int64_t used = system->particle_count, needed = used + count;
   if (needed <= system->particle_capacity) return HOOKE_OK;
   int64_t capacity = used == 0 ? needed : needed + needed / 2;
@@ -113,6 +109,8 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
     status = hooke_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more particles are",
                         (long long)count);
   }
+  if (status == HOOKE_OK)
+    status = hooke_system_check_room(system, (struct hooke_more){.particles = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_finite("position", count, position);
   if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
   if (status == HOOKE_OK) status = check_mass(count, mass_count, mass);
@@ -211,12 +209,18 @@ struct hooke_system_mark hooke_system_mark(const hooke_system *system) {
 }
 
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark) {
-  while (system->group_count > mark.group_count)
-    hooke_group_release(&system->group[--system->group_count]);
-  while (system->bending_group_count > mark.bending_group_count)
-    hooke_bending_group_release(&system->bending_group[--system->bending_group_count]);
-  while (system->altitude_group_count > mark.altitude_group_count)
-    hooke_altitude_group_release(&system->altitude_group[--system->altitude_group_count]);
+  while (system->group_count > mark.group_count) {
+    system->spring_total -= system->group[--system->group_count].count;
+    hooke_group_release(&system->group[system->group_count]);
+  }
+  while (system->bending_group_count > mark.bending_group_count) {
+    system->triple_total -= system->bending_group[--system->bending_group_count].count;
+    hooke_bending_group_release(&system->bending_group[system->bending_group_count]);
+  }
+  while (system->altitude_group_count > mark.altitude_group_count) {
+    system->tetrahedron_total -= system->altitude_group[--system->altitude_group_count].count;
+    hooke_altitude_group_release(&system->altitude_group[system->altitude_group_count]);
+  }
   hooke_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;

@@ -61,6 +61,9 @@ struct hooke_system {
   int64_t derived_count, derived_capacity;
   struct hooke_derived *derived;
 
+  int64_t spring_total, triple_total, tetrahedron_total; /* of all groups, as added */
+  double memory_limit; /* [bytes] that it may need; 0: what the machine has */
+
   double gravity[3];
   int32_t has_gravity;
   double drag; /* 0: none */
@@ -83,6 +86,14 @@ int32_t hooke_system_require_committed(const hooke_system *system);
  * `refused` says. */
 int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
                                      const int64_t *particles, int32_t refused);
+
+/* What a system needs at most with more of each [bytes], and whether there is room, in 32-bit numbers and in memory; `what` is what they are ("a cloth of 3 x 4
+ * particles", NULL: the scene). HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+struct hooke_more {
+  double particles, springs, triples, tetrahedra; /* which cannot overflow */
+};
+double hooke_system_needed_bytes(const hooke_system *system, struct hooke_more more);
+int32_t hooke_system_check_room(const hooke_system *system, struct hooke_more more, const char *what);
 
 /* Sets touched[p] to 1 for every particle that a spring, a triple or a tetrahedron is at. */
 void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched);

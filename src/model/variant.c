@@ -123,6 +123,7 @@ int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant 
   int32_t status = hooke_system_require_committed(from);
   if (status == HOOKE_OK) status = check_callbacks(from, variant);
   if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
+  if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
   if (status == HOOKE_OK) status = hooke_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hooke_variant_hold(&maker);
   if (status == HOOKE_OK) status = hooke_variant_add_springs(&maker);

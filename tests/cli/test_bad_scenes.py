@@ -119,7 +119,7 @@ EXPECTED = {
     "damping-ratio-negative": ("7:55", "parts[0].stretch.damping_ratio", "-0.5", "a number >= 0"),
     "lattice-size": ("5:106", "parts[0].size[2]", "1 is not", "3 whole numbers >= 2"),
     "lattice-edges": ("5:56", "parts[0].edges", "2 rows", "3 rows of 3 numbers"),
-    "lattice-huge": ("5:99", "parts[0].size", "8000000000 particles and 2.3988e+10 springs", "2147483647 of each"),
+    "lattice-huge": ("5:99", "parts[0].size", "8000000000 particles, 2.3988e+10 springs", "2147483647 of each"),
     "lattice-flat": ("5:121", "parts[0].density", "0 m^3", "> 0, so let the edges of the part span a volume"),
     "lattice-of-no-length": ("7:21", "parts[0].structural", "0 m", "> 0"),
     "lattice-pinned": ("6:28", "parts[0].pinned[1]", '"left"', '"bottom" or "top"'),

@@ -18,11 +18,13 @@ void hooke_fuzz_is_accepted(void);
 /* Ends the process, which is a finding, unless `holds`. */
 void hooke_fuzz_require(int holds, const char *what);
 
-/* Requires that a failure (a status < 0) has a message: not empty, of one line, without control characters and, where the
- * caller's text was UTF-8, UTF-8. */
-void hooke_fuzz_require_message(int utf8);
+/* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control characters. */
+void hooke_fuzz_require_message(void);
 
-/* The same of any text; `what` is what it is called if it fails. */
-void hooke_fuzz_require_text(const char *text, int utf8, const char *what);
+/* A path to a file that holds these bytes, until the next call. */
+const char *hooke_fuzz_file(const void *data, size_t size);
+
+/* 1 for one in `of` inputs, always the same ones: for checks that take long. */
+int hooke_fuzz_is_chosen(const void *data, size_t size, uint32_t of);
 
 #endif

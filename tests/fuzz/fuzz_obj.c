@@ -39,7 +39,7 @@ static int64_t count_lines(const char *text, int64_t length) {
 static void require_failure(int32_t status, const char *text, int64_t length) {
   hooke_fuzz_require(status == HOOKE_BAD_VALUE || status == HOOKE_NO_MEMORY,
                      "a file that is refused is a bad value");
-  hooke_fuzz_require_message(0);
+  hooke_fuzz_require_message();
   if (status != HOOKE_BAD_VALUE) return;
   const char *message = hooke_last_error();
   hooke_fuzz_require(strncmp(message, "mesh.obj:", 9) == 0, "a message begins with the name of the file");
@@ -87,8 +87,18 @@ static void build(const hooke_options *options) {
   if (status == HOOKE_OK)
     hooke_fuzz_is_accepted();
   else
-    hooke_fuzz_require_message(0);
+    hooke_fuzz_require_message();
   hooke_system_destroy(system);
+}
+
+/* A file gives what its text gives. */
+static void read_file(const uint8_t *data, size_t size, int32_t wanted) {
+  hooke_options *options = choose_options(data[0], data[1]);
+  const int32_t status = hooke_mesh_read(hooke_fuzz_file(data + 2, size - 2), options);
+  hooke_fuzz_require(status == wanted, "a file gives what its text gives");
+  hooke_fuzz_require(hooke_options_is_set(options, "triangles") == (status == HOOKE_OK),
+                     "what cannot be read leaves no triangles behind");
+  hooke_options_destroy(options);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -97,11 +107,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_options *options = choose_options(data[0], data[1]);
   const char *text = (const char *)data + 2;
   const int64_t length = (int64_t)size - 2;
-  const int32_t status = hooke_mesh_parse(text, length, "mesh.obj", options);
+  const int32_t status = hooke_mesh_parse(text, length, "mesh.obj", 0.0, options);
   if (status == HOOKE_OK)
     build(options);
   else
     require_failure(status, text, length);
   hooke_options_destroy(options);
+  if (hooke_fuzz_is_chosen(data, size, 16)) read_file(data, size, status);
   return 0;
 }

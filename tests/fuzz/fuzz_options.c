@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "core/number.h"
+#include "core/option.h"
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"
@@ -76,7 +77,7 @@ static void set_one(hooke_options *options, const char *name, const char *value)
     set_again(options, name);
   } else {
     hooke_fuzz_require(status == HOOKE_BAD_VALUE, "a text that is refused is a bad value");
-    hooke_fuzz_require_message(0);
+    hooke_fuzz_require_message();
     hooke_fuzz_require(hooke_options_is_set(options, name) == was_set,
                        "a failure leaves the option as it was");
   }
@@ -96,7 +97,36 @@ static void require_copy(const hooke_options *options) {
   hooke_options_destroy(copy);
 }
 
-/* A value of "!" takes the option back. */
+/* Bytes as they are, eight a number: any double there is. */
+static void set_bytes(hooke_options *options, const char *name, const char *bytes) {
+  double number[8] = {0};
+  const size_t length = strlen(bytes), size = length < sizeof number ? length : sizeof number;
+  memcpy(number, bytes, size);
+  const int64_t count = (int64_t)(size + 7) / 8;
+  if (hooke_options_set_numbers(options, name, count, number) == HOOKE_OK) {
+    hooke_fuzz_is_past_syntax();
+    for (int64_t k = 0; k < count; k++)
+      hooke_fuzz_require(isfinite(hooke_options_numbers(options, name)[k]), "numbers of options are finite");
+  } else {
+    hooke_fuzz_require_message();
+  }
+}
+
+/* What a table says of itself. */
+static void ask(const hooke_options *options) {
+  static const char *const texts[] = {"name",    "type",  "unit",   "default", "doc",
+                                      "allowed", "words", "family", "example", "?"};
+  static const char *const numbers[] = {"low",       "high",      "above_low", "whole",      "required",
+                                        "min_count", "max_count", "columns",   "word_lists", "?"};
+  for (int64_t row = -1; row <= hooke_options_row_count(options); row++) {
+    for (int k = 0; k < 10; k++) {
+      hooke_options_row(options, row, texts[k]);
+      hooke_options_row_number(options, row, numbers[k]);
+    }
+  }
+}
+
+/* A value of "!" takes the option back, one of "?" asks for its row, and "#" is followed by bytes of numbers. */
 static void set_lines(hooke_options *options, char **line, int32_t count) {
   for (int32_t k = 0; k < count; k++) {
     char *value = line[k] + 1;
@@ -107,10 +137,15 @@ static void set_lines(hooke_options *options, char **line, int32_t count) {
     }
     if (value && strcmp(value, "!") == 0)
       hooke_options_unset(options, name);
+    else if (value && strcmp(value, "?") == 0)
+      ask(options);
+    else if (value && value[0] == '#')
+      set_bytes(options, name, value + 1);
     else if (value)
       set_one(options, name, value);
   }
   require_copy(options);
+  if (hooke_options_check_required(options) != HOOKE_OK) hooke_fuzz_require_message();
 }
 
 /* ---- numbers and units ---- */
@@ -196,11 +231,11 @@ const char *hooke_describe_operand(const struct hooke_verb *verb) {
 }
 
 static void parse_words(uint8_t which, const hooke_options *table, char **line, int32_t count) {
-  static char word[MOST_LINES][LINE_SIZE];
+  static char word[MOST_LINES][LINE_SIZE], name[] = "verb", kind[] = "cloth";
   const struct hooke_verb *verb = &verbs[which % 4];
-  char *argv[MOST_LINES + 3] = {(char[]){"verb"}};
+  char *argv[MOST_LINES + 3] = {name};
   int argc = 1;
-  if (verb->kind_options && which < 128) argv[argc++] = (char[]){"cloth"};
+  if (verb->kind_options && which < 128) argv[argc++] = kind;
   for (int32_t k = 0; k < count; k++) {
     char flag[HOOKE_FLAG_SIZE];
     if (line[k][0] == '=')

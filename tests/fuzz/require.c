@@ -27,17 +27,13 @@ static size_t character(const unsigned char *at) {
   return length;
 }
 
-void hooke_fuzz_require_text(const char *text, int utf8, const char *what) {
-  const unsigned char *at = (const unsigned char *)text;
-  hooke_fuzz_require(*at != '\0', what);
+void hooke_fuzz_require_message(void) {
+  const unsigned char *at = (const unsigned char *)hooke_last_error();
+  hooke_fuzz_require(*at != '\0', "a failure has a message");
   while (*at) {
-    hooke_fuzz_require(*at >= 32 && *at != 127, what);
-    const size_t length = utf8 ? character(at) : 1;
-    hooke_fuzz_require(length > 0, what);
+    const size_t length = character(at);
+    hooke_fuzz_require(*at >= 32 && *at != 127, "a message is one line without control characters");
+    hooke_fuzz_require(length > 0, "a message is UTF-8");
     at += length;
   }
-}
-
-void hooke_fuzz_require_message(int utf8) {
-  hooke_fuzz_require_text(hooke_last_error(), utf8, "a failure has a message of one line of text");
 }

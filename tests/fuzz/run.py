@@ -27,6 +27,8 @@ import sys
 import threading
 import time
 
+import seeds
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "tests" / "fuzz"
 BUILD = ROOT / "build" / "fuzz"
@@ -36,8 +38,8 @@ WARNINGS = "-Wno-pass-failed"
 # Another folder of the preset with other flags; the preset's own has all sanitizers.
 FLAGS = {
     "fuzz": None,
-    "fuzz-fast": "-O2 -gline-tables-only -fsanitize=fuzzer-no-link,undefined,float-cast-overflow "
-    f"-fno-sanitize-recover=all {WARNINGS}",
+    "fuzz-fast": "-O2 -gline-tables-only -fsanitize-coverage=inline-8bit-counters,pc-table "
+    f"-fsanitize=undefined,float-cast-overflow -fsanitize-trap=all {WARNINGS}",
     "fuzz-coverage": f"-O1 -fprofile-instr-generate -fcoverage-mapping {WARNINGS}",
 }
 CHUNK = 120  # seconds between two turns
@@ -87,7 +89,8 @@ class Target:
     def command(self, folder, *more):
         (self.work / "found").mkdir(parents=True, exist_ok=True)
         words = [f"-dict={self.words}"] if self.words.exists() else []
-        return [self.program(folder), f"-max_len={self.longest}", "-timeout=20", "-rss_limit_mb=2048", "-verbosity=1",
+        return [self.program(folder), f"-max_len={self.longest}", "-timeout=60", "-rss_limit_mb=2048", "-print_funcs=0",
+                f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
 
@@ -113,6 +116,13 @@ def start(command, tally):
                             errors="replace", preexec_fn=lambda: os.nice(5))
 
 
+def finish(process):
+    """Waits for its end: (exit code, seconds of processor)."""
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, used.ru_utime + used.ru_stime
+
+
 def findings(target):
     return sorted(str(p) for p in (target.work / "found").glob("*") if not p.name.startswith("slow-unit"))
 
@@ -124,18 +134,18 @@ def run_short(target, seconds, results):
     target.work.mkdir(parents=True, exist_ok=True)
     tally = Tally(target.work / "tally-short")
     tally.take()
-    began = time.monotonic()
     scratch = target.work / "short"
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     process = start(target.command("fuzz", f"-max_total_time={seconds}", str(scratch), *target.inputs()), tally)
-    _, log = process.communicate()
-    counts, took = tally.take(), time.monotonic() - began
+    log = process.stderr.read()
+    code, took = finish(process)
+    counts = tally.take()
     edges = [int(m) for m in re.findall(r" cov: (\d+)", log)]
-    results[target.name] = (process.returncode, log)
+    results[target.name] = (code, log)
     share = 100 * counts[1] / max(counts[0], 1)
-    print(f"fuzz/{target.name:10} {counts[0]:9} executions in {took:4.1f} s, {share:3.0f} % past the syntax, "
-          f"{edges[-1] if edges else 0} edges: {'finding' if process.returncode else 'nothing found'}", flush=True)
+    print(f"fuzz/{target.name:10} {counts[0]:9} executions in {took:4.1f} s of processor, {share:3.0f} % past the syntax, "
+          f"{edges[-1] if edges else 0} edges: {'finding' if code else 'nothing found'}", flush=True)
 
 
 def short(targets, seconds):
@@ -216,9 +226,9 @@ class Campaign:
             return None
         return min(ahead, key=lambda t: self.of(t)["executions"] / self.wanted(t))
 
-    def follow(self, target, folder, process, began):
+    def follow(self, target, folder, process):
         """Reads what libFuzzer says; returns the end of it."""
-        tail = []
+        tail, began = [], time.monotonic()
         for line in process.stderr:
             tail = [*tail[-200:], line]
             match = re.match(r"#(\d+)\s.*? cov: (\d+)", line)
@@ -238,15 +248,15 @@ class Campaign:
                 corpus = target.work / "corpus"
                 corpus.mkdir(parents=True, exist_ok=True)
                 left = max(1, int(self.wanted(target) - self.of(target)["executions"]))
-                tally, began = Tally(target.work / f"tally-{folder}-{number}"), time.monotonic()
+                tally = Tally(target.work / f"tally-{folder}-{number}")
                 process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left + 100000}",
                                                str(corpus), *target.inputs()), tally)
                 self.processes.add(process)
-            log = self.follow(target, folder, process, began)
-            code = process.wait()
+            log = self.follow(target, folder, process)
+            code, seconds = finish(process)
             with self.lock:
                 self.processes.discard(process)
-                self.add(target, folder, tally.take(), time.monotonic() - began)
+                self.add(target, folder, tally.take(), seconds)
                 self.save()
                 if code and not self.stop:
                     print(f"== fuzz/{target.name}: a finding, or it broke off ({code})\n{log[-6000:]}", flush=True)
@@ -332,8 +342,8 @@ def coverage(targets):
         subprocess.run([tools[0], "merge", "-sparse", str(raw), "-o", str(data)], check=True)
         told = subprocess.run([tools[1], "export", "-summary-only", f"-instr-profile={data}", target.program("fuzz-coverage")],
                               check=True, capture_output=True, text=True).stdout
-        summary = {str(pathlib.Path(f["filename"]).relative_to(ROOT)): f["summary"]["lines"]
-                   for f in json.loads(told)["data"][0]["files"] if f["filename"].startswith(str(ROOT))}
+        summary = {os.path.relpath(ROOT / "build" / "fuzz-coverage" / f["filename"], ROOT): f["summary"]["lines"]
+                   for f in json.loads(told)["data"][0]["files"]}
         files = {f: summary[f] for f in target.files if f in summary}
         covered, count = (sum(f[key] for f in files.values()) for key in ("covered", "count"))
         result[target.name] = {"covered": covered, "count": count, "percent": round(100 * covered / max(count, 1), 1),
@@ -355,12 +365,13 @@ def tell_coverage(targets):
 def minimise(targets):
     """The fewest inputs that reach as much; small ones come first."""
     build("fuzz")
+    seeds.make(BUILD / "seeds")
     for target in targets:
         new = target.work / "minimised"
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
-        old = [str(f) for f in (target.corpus, target.work / "corpus") if f.is_dir()]
-        subprocess.run(target.command("fuzz", "-merge=1", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
+        old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
+        subprocess.run(target.command("fuzz", "-merge=1", "-use_counters=0", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         shutil.rmtree(target.corpus, ignore_errors=True)
         shutil.copytree(new, target.corpus)

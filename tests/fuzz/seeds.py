@@ -1,13 +1,11 @@
-"""Inputs to begin with, for tests/fuzz/corpus: every scene of the repository, made small; what is wrong in it stays.
+"""Inputs to begin with: every scene of the repository as it is and made small, where what is wrong in it stays; meshes.
 
-    seeds.py FOLDER     writes FOLDER/scene and FOLDER/obj; run.py --minimise then keeps those that reach more
-
-A scene that is too large for an input is cut off, which is one more that is wrong.
+A scene that is too large for an input is cut off, which is one more that is wrong. `run.py --minimise` keeps of them what
+reaches more than the others.
 """
 
 import json
 import pathlib
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ["examples/scenes", "tests/cli/scenes"]
@@ -23,7 +21,8 @@ def smaller(value):
     return [smaller(v) for v in value] if isinstance(value, list) else value
 
 
-def main(folder):
+def make(folder):
+    """Writes folder/<target>/<name>."""
     for kind in "scene", "obj":
         (folder / kind).mkdir(parents=True, exist_ok=True)
     paths = [p for place in SCENES for p in sorted((ROOT / place).rglob("*.json"))]
@@ -38,7 +37,3 @@ def main(folder):
         (folder / "scene" / f"{name}-small").write_bytes(small[:LONGEST])
     for path in sorted((ROOT / "examples/scenes").glob("*.obj")):
         (folder / "obj" / path.stem).write_bytes(b"\0\0" + path.read_bytes())
-
-
-if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]))

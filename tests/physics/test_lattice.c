@@ -246,11 +246,12 @@ static void check_size_refused(double nx, double ny, double nz, int32_t status, 
 static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
   (void)unused;
   check_size_refused(2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE,
-                     "2147483647 x 2147483647 x 2147483647 has");
+                     "2147483647 x 2147483647 x 2147483647 needs");
   /* 1e9 particles, but more springs than can be numbered */
-  check_size_refused(1000, 1000, 1000, HOOKE_BAD_VALUE,
-                     "size: a lattice of 1000 x 1000 x 1000 has 1000000000 particles and 1.5967018e+10 "
-                     "springs; allowed: up to 2147483647");
+  check_size_refused(
+      1000, 1000, 1000, HOOKE_BAD_VALUE,
+      "size: a lattice of 1000 x 1000 x 1000 needs 1.08 TB of memory for 1000000000 particles, 1.5967018e+10 "
+      "springs; allowed: up to 2147483647");
 }
 
 static void check_held(const char *pinned, int64_t from, int64_t to) {

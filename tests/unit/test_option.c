@@ -413,6 +413,32 @@ static void a_wrong_default_is_noticed(void **state) {
   assert_null(options);
 }
 
+static void check_shown(const char *text, const char *wanted) {
+  char shown[HOOKE_OPTION_SHOWN];
+  memset(shown, 'x', sizeof shown);
+  hooke_option_show(text, (int64_t)strlen(text), shown);
+  assert_string_equal(shown, wanted);
+}
+
+#define TWENTY "aaaaaaaaaaaaaaaaaaaa"
+
+/* What comes from a file may be anything; a message is text. */
+static void what_is_shown_is_text(void **state) {
+  (void)state;
+  check_shown("", "");
+  check_shown("a\nb\x1b[2J\x7f", "a?b?[2J?");
+  check_shown("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
+  check_shown("\x89HDF", "?HDF");
+  check_shown("\xc3", "?");
+  check_shown("\xe2\x82", "??");
+  check_shown("\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80\xff", "??????????");
+  check_shown("\xe0\x80\x80\xf0\x80\x80\x80", "???????");
+  check_shown(TWENTY TWENTY TWENTY, TWENTY TWENTY TWENTY);
+  check_shown(TWENTY TWENTY TWENTY "a", TWENTY TWENTY TWENTY "...");
+  check_shown(TWENTY TWENTY TWENTY "\xc3\xa9", TWENTY TWENTY TWENTY "...");
+  check_shown(TWENTY TWENTY "aaaaaaaaaaaaaaaaaaa\xc3\xa9", TWENTY TWENTY "aaaaaaaaaaaaaaaaaaa...");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 
 int main(void) {
@@ -436,6 +462,7 @@ int main(void) {
       TEST(the_table_describes_itself),
       TEST(the_table_tells_its_numbers),
       TEST(a_wrong_default_is_noticed),
+      TEST(what_is_shown_is_text),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -495,7 +495,7 @@ static void files_that_are_none_are_bad_input(void **state) {
   check_status(hooke_scene_load("/", &scene), HOOKE_BAD_VALUE);
   check_message("/: is a directory");
   check_status(hooke_scene_load("/dev/null", &scene), HOOKE_BAD_VALUE);
-  check_message("/dev/null: is empty");
+  check_message("/dev/null: is not a regular file");
   check_status(hooke_scene_load(NULL, &scene), HOOKE_BAD_VALUE);
   check_status(hooke_scene_parse("{}", -1, NULL, NULL, &scene), HOOKE_BAD_VALUE);
   check_status(hooke_scene_parse("", 0, NULL, NULL, &scene), HOOKE_BAD_VALUE);

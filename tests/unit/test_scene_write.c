@@ -219,6 +219,31 @@ static void drives_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
+static void zeros_keep_their_sign(void **state) {
+  (void)state;
+  const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
+  hooke_system *system;
+  hooke_scene *read;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 2, at, still, 1, &mass, NULL));
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  hooke_scene_destroy(read);
+  hooke_system_destroy(system);
+}
+
+/* "-0" is a whole number too, and a scene has no word for the sign of one. */
+static void whole_numbers_have_one_zero(void **state) {
+  (void)state;
+  const double wanted[2] = {0.0, 1.0};
+  hooke_options *options;
+  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_set_text(options, "pinned", "-0,1"));
+  check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
+  hooke_options_destroy(options);
+}
+
 #endif
 
 static void keys_of_a_scene_are_applied(void **state) {
@@ -269,6 +294,8 @@ int main(void) {
       cmocka_unit_test(lattice_and_mesh_come_back),
       cmocka_unit_test(drives_come_back),
       cmocka_unit_test(strands_come_back),
+      cmocka_unit_test(zeros_keep_their_sign),
+      cmocka_unit_test(whole_numbers_have_one_zero),
       cmocka_unit_test(keys_of_a_scene_are_applied),
       cmocka_unit_test(callbacks_cannot_be_written),
   };

@@ -18,6 +18,20 @@ module hooke_c_io
       integer(c_int64_t), value :: length
       type(c_ptr), intent(out) :: scene
     end function
+    integer(c_int32_t) function c_scene_load_within(path, limits, scene) bind(c, name="hooke_scene_load_within")
+      import
+      character(kind=c_char), intent(in), optional :: path(*)
+      type(c_ptr), value :: limits
+      type(c_ptr), intent(out) :: scene
+    end function
+    integer(c_int32_t) function c_scene_parse_within(text, length, name, folder, limits, scene) &
+      bind(c, name="hooke_scene_parse_within")
+      import
+      character(kind=c_char), intent(in), optional :: text(*), name(*), folder(*)
+      integer(c_int64_t), value :: length
+      type(c_ptr), value :: limits
+      type(c_ptr), intent(out) :: scene
+    end function
     integer(c_int32_t) function c_scene_commit(scene) bind(c, name="hooke_scene_commit")
       import
       type(c_ptr), value :: scene

@@ -12,6 +12,11 @@ module hooke_c_system
       import
       type(c_ptr), value :: system
     end subroutine
+    integer(c_int32_t) function c_system_limit_memory(system, bytes) bind(c, name="hooke_system_limit_memory")
+      import
+      type(c_ptr), value :: system
+      real(c_double), value :: bytes
+    end function
     integer(c_int32_t) function c_system_add_particles(system, count, position, velocity, mass_count, mass, first) &
       bind(c, name="hooke_system_add_particles")
       import

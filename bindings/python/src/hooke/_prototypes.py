@@ -78,6 +78,7 @@ PROTOTYPES = {
     # system.h: building
     "hooke_system_create": (STATUS, POINTER(SYSTEM)),
     "hooke_system_destroy": (None, SYSTEM),
+    "hooke_system_limit_memory": (STATUS, SYSTEM, DOUBLE),
     "hooke_system_add_particles": (STATUS, SYSTEM, INT64, DOUBLES, DOUBLES, INT64, DOUBLES, INTEGERS),
     "hooke_system_pin": (STATUS, SYSTEM, INT64, INTEGERS),
     "hooke_spring_options_create": (STATUS, POINTER(OPTIONS)),
@@ -284,6 +285,8 @@ PROTOTYPES = {
     "hooke_io_own_process": (STATUS,),
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
     "hooke_scene_parse": (STATUS, TEXT, INT64, TEXT, TEXT, POINTER(SCENE)),
+    "hooke_scene_load_within": (STATUS, TEXT, OPTIONS, POINTER(SCENE)),
+    "hooke_scene_parse_within": (STATUS, TEXT, INT64, TEXT, TEXT, OPTIONS, POINTER(SCENE)),
     "hooke_scene_commit": (STATUS, SCENE),
     "hooke_scene_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_scene_options_apply": (STATUS, OPTIONS, SYSTEM),

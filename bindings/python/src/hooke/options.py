@@ -102,8 +102,8 @@ class Options(MutableMapping[str, Any]):
 
     @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
-        """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", or of
-        what is "driven"."""
+        """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", of
+        what is "driven", or the "limits" of loading it."""
         return cls(_create(lambda out: lib.hooke_scene_options_create(what.encode(), out)))
 
     @classmethod

@@ -80,28 +80,41 @@ class Scene(Parts):
         return scene
 
     @classmethod
-    def load(cls, path: Path) -> Scene:
-        """Reads a scene file, or the scene of a trajectory file with the options of its run.
+    def load(cls, path: Path, *, memory: float | None = None, outside: bool = False) -> Scene:
+        """Reads a scene file, or the scene of a trajectory file with the options of its run. `memory` [GB] is what the
+        scene may need, None: as much as the machine has; with `outside` it may name files outside its folder.
 
         BadValue says what is wrong where; IOFailed if it cannot be read.
         """
         pointer = SCENE()
-        lib.hooke_scene_load(os.fsencode(path), ctypes.byref(pointer))
+        limits = _limits(memory, outside)
+        lib.hooke_scene_load_within(os.fsencode(path), limits._handle, ctypes.byref(pointer))
         return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
 
     @classmethod
-    def parse(cls, scene: str | bytes | Mapping[str, Any], name: str = "scene", folder: Path | None = None) -> Scene:
+    def parse(
+        cls,
+        scene: str | bytes | Mapping[str, Any],
+        name: str = "scene",
+        folder: Path | None = None,
+        *,
+        memory: float | None = None,
+        outside: bool = False,
+    ) -> Scene:
         """Reads a scene from its text, or from a dict of the same shape, which may hold NumPy arrays.
 
         `name` stands for the file in messages; files named in the scene are looked up in `folder` (None: none are
-        allowed).
+        allowed); `memory` and `outside` are those of load().
         """
         if isinstance(scene, Mapping):
             scene = _dump(scene)
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         where = None if folder is None else os.fsencode(folder)
         pointer = SCENE()
-        lib.hooke_scene_parse(data, len(data), name.encode(), where, ctypes.byref(pointer))
+        limits = _limits(memory, outside)
+        lib.hooke_scene_parse_within(
+            data, len(data), name.encode(), where, limits._handle, ctypes.byref(pointer)
+        )
         return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
 
     # building
@@ -335,6 +348,13 @@ class Scene(Parts):
             ranges[name] = range(last - count, last)
             last -= count
         self._parts = ranges
+
+
+def _limits(memory: float | None, outside: bool) -> Options:
+    limits = Options.for_scene("limits")
+    limits["memory"] = memory
+    limits["outside"] = outside
+    return limits
 
 
 def scene_text(scene: Scene | None) -> bytes | None:

@@ -177,6 +177,11 @@ class System(Queries):
         """Acceleration of every free particle (3,) [m/s^2]."""
         lib.hooke_system_set_gravity(self._handle, double_pointer(doubles(gravity, "gravity", (3,))))
 
+    def limit_memory(self, size: float) -> None:
+        """What the system may need of memory [bytes]; 0: as much as the machine has. What would need more is refused from
+        here on (NoMemory)."""
+        lib.hooke_system_limit_memory(self._handle, size)
+
     def set_drag(self, coefficient: float) -> None:
         """Ether drag f = -c v on every free particle, c >= 0 [N s/m]."""
         lib.hooke_system_set_drag(self._handle, coefficient)

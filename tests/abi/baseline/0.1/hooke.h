@@ -71,6 +71,7 @@ typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const 
 typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
 HOOKE_API int32_t hooke_system_create(hooke_system **system);
 HOOKE_API void hooke_system_destroy(hooke_system *system);
+HOOKE_API int32_t hooke_system_limit_memory(hooke_system *system, double bytes);
 HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const double *position,
                                              const double *velocity, int64_t mass_count, const double *mass,
                                              int64_t *first);
@@ -413,6 +414,10 @@ typedef struct hooke_scene hooke_scene;
 HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                                     hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name,
+                                           const char *folder, const hooke_options *limits,
+                                           hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);

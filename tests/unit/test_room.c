@@ -1,0 +1,468 @@
+/* Room: scenes that are too large are refused before anything is allocated, at the edges of 32-bit numbers and of memory;
+ * what is said to be needed is held against what is used. */
+#include "hooke.h"
+#include "check.h"
+#include "sanitized.h"
+
+#include "core/room.h"
+#include "io/json_scan.h"
+#include "model/system.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const double LITTLE = 1e6; /* bytes, which no scene at the edges fits into */
+
+static hooke_system *new_system(double limit) {
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_limit_memory(system, limit));
+  return system;
+}
+
+/* ---- parts ---- */
+
+static hooke_options *part_options(const char *kind, int64_t size[3]) {
+  hooke_options *options;
+  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  const int grid = strcmp(kind, "cloth") == 0 ? 2 : strcmp(kind, "lattice") == 0 ? 3 : 0;
+  const double edges[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const double sizes[] = {(double)size[0], (double)size[1], (double)size[2]};
+  if (grid) {
+    check_ok(hooke_options_set_numbers(options, "edges", 3 * grid, edges));
+    check_ok(hooke_options_set_numbers(options, "size", grid, sizes));
+  } else {
+    check_ok(hooke_options_set_numbers(options, "from", 3, edges + 1));
+    check_ok(hooke_options_set_numbers(options, "to", 3, edges));
+    check_ok(hooke_options_set_number(options, "segments", sizes[0]));
+  }
+  return options;
+}
+
+/* Up to 2^31 - 1 of everything it is the memory that lacks, beyond it the numbers. */
+static void check_part(const char *kind, const char *family, int64_t a, int64_t b, int64_t c,
+                       int32_t expected, const char *count) {
+  hooke_system *system = new_system(LITTLE);
+  int64_t size[3] = {a, b, c};
+  hooke_options *options = part_options(kind, size);
+  if (family) check_ok(hooke_options_set_number(options, family, 1.0));
+  check_status(hooke_system_add_part(system, kind, "", options, NULL, NULL), expected);
+  check_message("of memory");
+  check_message(count);
+  assert_int_equal(hooke_system_particle_count(system), 0);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static void parts_stop_at_the_edge_of_32_bits(void **unused) {
+  (void)unused;
+  check_part("rope", NULL, 2147483645, 0, 0, HOOKE_NO_MEMORY, "601 GB");
+  check_part("rope", NULL, 2147483646, 0, 0, HOOKE_NO_MEMORY, "601 GB");
+  check_part("rope", NULL, 2147483647, 0, 0, HOOKE_BAD_VALUE, "2147483648 particles");
+  check_part("rope", "bending", 2147483646, 0, 0, HOOKE_NO_MEMORY, "730 GB");
+  check_part("cloth", NULL, 2, 1073741823, 0, HOOKE_NO_MEMORY, "601 GB");
+  check_part("cloth", NULL, 2, 1073741824, 0, HOOKE_BAD_VALUE, "2147483648 particles");
+  check_part("cloth", NULL, 1073741825, 2, 0, HOOKE_BAD_VALUE, "2147483650 particles");
+  check_part("cloth", NULL, 2147483647, 2147483647, 0, HOOKE_BAD_VALUE, "4.611686014e+18 particles");
+  check_part("cloth", "structural.stiffness", 2, 715827883, 0, HOOKE_NO_MEMORY, "GB");
+  check_part("cloth", "structural.stiffness", 2, 715827884, 0, HOOKE_BAD_VALUE, "2147483650 springs");
+  check_part("cloth", "shear.stiffness", 32769, 32769, 0, HOOKE_BAD_VALUE, "2147483648 springs");
+  check_part("cloth", "shear.stiffness", 32768, 32769, 0, HOOKE_NO_MEMORY, "GB");
+  check_part("lattice", NULL, 2, 2, 536870911, HOOKE_NO_MEMORY, "601 GB");
+  check_part("lattice", NULL, 2, 536870912, 2, HOOKE_BAD_VALUE, "2147483648 particles");
+  check_part("lattice", NULL, 2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE, "9.9035203e+27 particles");
+  check_part("lattice", "shear.stiffness", 599, 599, 600, HOOKE_NO_MEMORY, "GB");
+  check_part("lattice", "shear.stiffness", 600, 600, 600, HOOKE_BAD_VALUE, "springs");
+  check_part("strand", NULL, 1073741823, 0, 0, HOOKE_NO_MEMORY, "601 GB");
+  check_part("strand", NULL, 1073741824, 0, 0, HOOKE_BAD_VALUE, "2147483649 particles");
+}
+
+static void a_mesh_stops_at_the_edge_of_32_bits(void **unused) {
+  (void)unused;
+  hooke_options *options;
+  const double vertex[3] = {0};
+  const int64_t triangle[3] = {0};
+  check_ok(hooke_part_options_create("mesh", &options));
+  const int64_t counts[] = {2147483648, 2147483649, INT64_MAX / 3 + 1, INT64_MAX};
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+    check_status(hooke_mesh_set(options, counts[k], vertex, 1, triangle), HOOKE_BAD_VALUE);
+    check_status(hooke_mesh_set(options, 1, vertex, counts[k], triangle), HOOKE_BAD_VALUE);
+  }
+  hooke_options_destroy(options);
+}
+
+/* ---- systems by hand ---- */
+
+static hooke_options *spring_options(void) {
+  hooke_options *options;
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  return options;
+}
+
+static hooke_options *altitude_options(void) {
+  hooke_options *options;
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  return options;
+}
+
+/* The arrays have room for one: nothing of them is read. */
+static void systems_stop_at_the_edge_of_32_bits(void **unused) {
+  (void)unused;
+  hooke_system *system = new_system(LITTLE);
+  hooke_options *spring = spring_options(), *altitude = altitude_options();
+  const double one = 1.0, place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const int64_t ends[4] = {0, 1, 2, 3};
+  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &one, NULL));
+  const struct {
+    int64_t count;
+    int32_t expected;
+  } cases[] = {
+      {INT32_MAX - 5, HOOKE_NO_MEMORY}, {INT32_MAX - 4, HOOKE_NO_MEMORY}, {2147483646, HOOKE_NO_MEMORY},
+      {2147483647, HOOKE_NO_MEMORY},    {2147483648, HOOKE_BAD_VALUE},    {2147483649, HOOKE_BAD_VALUE},
+      {INT64_MAX / 3, HOOKE_BAD_VALUE}, {INT64_MAX, HOOKE_BAD_VALUE},     {-1, HOOKE_BAD_VALUE},
+      {INT64_MIN, HOOKE_BAD_VALUE}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const int64_t count = cases[k].count;
+    const int32_t expected = cases[k].expected;
+    check_status(hooke_system_add_particles(system, count, place, NULL, 1, &one, NULL),
+                 count > INT32_MAX - 4 ? HOOKE_BAD_VALUE : expected);
+    check_status(hooke_system_add_springs(system, "", count, ends, spring), expected);
+    check_status(hooke_system_add_bending(system, "", count, ends, 1, &one), expected);
+    check_status(hooke_system_add_altitude(system, "", count, ends, altitude), expected);
+    check_status(hooke_system_drive_harmonic(system, count, ends, place, 1.0, 0.0), HOOKE_BAD_VALUE);
+  }
+  /* what is there already counts, in the numbers and in the memory */
+  check_ok(hooke_system_limit_memory(system, INFINITY));
+  system->spring_total = system->triple_total = system->tetrahedron_total = INT32_MAX - 1;
+  check_ok(hooke_system_add_springs(system, "", 1, ends, spring));
+  check_ok(hooke_system_add_bending(system, "", 1, ends, 1, &one));
+  check_ok(hooke_system_add_altitude(system, "", 1, ends, altitude));
+  check_status(hooke_system_add_springs(system, "", 1, ends, spring), HOOKE_BAD_VALUE);
+  check_message("2147483648 springs");
+  check_status(hooke_system_add_bending(system, "", 1, ends, 1, &one), HOOKE_BAD_VALUE);
+  check_status(hooke_system_add_altitude(system, "", 1, ends, altitude), HOOKE_BAD_VALUE);
+  check_ok(hooke_system_limit_memory(system, LITTLE));
+  check_status(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL), HOOKE_NO_MEMORY);
+  check_status(hooke_system_limit_memory(system, -1.0), HOOKE_BAD_VALUE);
+  check_status(hooke_system_limit_memory(system, (double)NAN), HOOKE_BAD_VALUE);
+  hooke_options_destroy(spring);
+  hooke_options_destroy(altitude);
+  hooke_system_destroy(system);
+}
+
+/* A part that does not come to be leaves the counts as they were. */
+static void what_is_taken_back_does_not_count(void **unused) {
+  (void)unused;
+  hooke_system *system = new_system(0.0);
+  int64_t size[3] = {10, 10, 0};
+  hooke_options *options = part_options("cloth", size);
+  check_ok(hooke_options_set_number(options, "structural.stiffness", 1.0));
+  check_ok(hooke_options_set_number(options, "bending", 1.0));
+  check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
+  const double before = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  assert_int_equal(system->spring_total, 180);
+  assert_int_equal(system->triple_total, 160);
+  check_ok(hooke_options_set_number(options, "pinned", 100.0));
+  check_status(hooke_system_add_part(system, "cloth", "", options, NULL, NULL), HOOKE_BAD_VALUE);
+  check_close(hooke_system_needed_bytes(system, (struct hooke_more){0}), before, 0.0);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+/* ---- what is needed ---- */
+
+static double peak(void) {
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  return 1024.0 * (double)use.ru_maxrss;
+}
+
+/* Builds, commits and runs one step; how much of what it was said to need it took. */
+static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
+  const double before = peak();
+  hooke_system *system = new_system(0.0);
+  hooke_options *run;
+  hooke_state *state;
+  hooke_integrator *integrator;
+  int64_t size[3] = {a, b, c};
+  hooke_options *options = part_options(kind, size);
+  for (; *families; families++)
+    check_ok(hooke_options_set_number(options, *families, 1e-3));
+  check_ok(hooke_system_add_part(system, kind, "", options, NULL, NULL));
+  const double needed = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  check_ok(hooke_system_commit(system));
+  check_ok(hooke_state_create(system, &state));
+  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_set_text(run, "method", "symplectic-euler"));
+  check_ok(hooke_options_set_number(run, "step", 1e-9));
+  check_ok(hooke_options_set_number(run, "duration", 1e-9));
+  check_ok(hooke_integrator_create(system, run, &integrator));
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+  return (peak() - before) / needed;
+}
+
+static const struct {
+  const char *kind;
+  int64_t size[3];
+  const char *families[5];
+} scenes[] = {
+    {"cloth", {400, 400, 0}, {NULL}},
+    {"cloth", {400, 400, 0}, {"structural.stiffness", NULL}},
+    {"cloth", {400, 400, 0}, {"structural.stiffness", "shear.stiffness", "bend.stiffness", NULL}},
+    {"cloth", {400, 400, 0}, {"structural.stiffness", "bending", NULL}},
+    {"lattice", {45, 45, 45}, {"structural.stiffness", "shear.stiffness", "bend.stiffness", NULL}},
+    {"rope", {150000, 0, 0}, {"stretch.stiffness", "bending", NULL}},
+    {"strand",
+     {70000, 0, 0},
+     {"stretch.stiffness", "bend.stiffness", "twist.stiffness", "altitude.stiffness", NULL}},
+};
+
+/* In a process each, since a peak stays. */
+static void a_scene_takes_what_it_is_said_to_need(void **unused) {
+  (void)unused;
+  if (HOOKE_SANITIZED) return;
+  for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const double share = share_used(scenes[k].kind, scenes[k].size[0], scenes[k].size[1], scenes[k].size[2],
+                                      scenes[k].families);
+      _exit((int)fmin(255.0, 100.0 * share));
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    const int percent = WEXITSTATUS(status);
+    if (getenv("HOOKE_SHOW")) fprintf(stderr, "scene %zu: %d %%\n", k, percent);
+    if (percent < 40 || percent > 100)
+      check_failed("scene %zu took %d %% of what it was said to need", k, percent);
+  }
+}
+
+static void bytes_are_shown_in_three_digits(void **unused) {
+  (void)unused;
+  char shown[HOOKE_BYTES_SHOWN];
+  const struct {
+    double bytes;
+    const char *text;
+  } cases[] = {{0, "0 bytes"},    {999, "999 bytes"},     {1000, "1 kB"},   {4.12e11, "412 GB"},
+               {999.6e9, "1 TB"}, {2.5e25, "2.5e+07 EB"}, {1.5e6, "1.5 MB"}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+    assert_string_equal(hooke_show_bytes(cases[k].bytes, shown), cases[k].text);
+  check_ok(hooke_room_require(100.0, 100.0, "it"));
+  check_status(hooke_room_require(100.0, 101.0, "it"), HOOKE_NO_MEMORY);
+  assert_string_equal(
+      hooke_last_error(),
+      "it needs 101 bytes of memory; there are 100 bytes (the limit that was set); allowed: less "
+      "than that, or a higher limit set by the caller");
+}
+
+/* The limit on the address space is asked each time. */
+static void a_limit_on_the_address_space_counts(void **unused) {
+  (void)unused;
+  struct rlimit before;
+  const char *which = NULL;
+  assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+  const double all = hooke_room(&which);
+  assert_true(all > 1e6);
+  if (HOOKE_SANITIZED) return; /* which reserves a great deal of it */
+  struct rlimit less = before;
+  less.rlim_cur = (rlim_t)(all / 2.0);
+  if (setrlimit(RLIMIT_AS, &less) != 0) return;
+  check_close(hooke_room(&which), (double)less.rlim_cur, 0.0);
+  assert_string_equal(which, "the limit on the address space");
+  assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+}
+
+/* ---- the text of a scene ---- */
+
+#if HOOKE_HAVE_JANSSON
+
+static hooke_options *limits(double gigabytes, int32_t outside) {
+  hooke_options *options;
+  check_ok(hooke_scene_options_create("limits", &options));
+  if (gigabytes > 0.0) check_ok(hooke_options_set_number(options, "memory", gigabytes));
+  check_ok(hooke_options_set_number(options, "outside", outside));
+  return options;
+}
+
+static void check_parse(const char *text, double gigabytes, int32_t expected, const char *message) {
+  hooke_scene *scene = NULL;
+  hooke_options *options = limits(gigabytes, 0);
+  check_status(hooke_scene_parse_within(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
+  if (message) check_message(message);
+  hooke_scene_destroy(scene);
+  hooke_options_destroy(options);
+}
+
+static void scenes_that_are_too_large_are_refused(void **unused) {
+  (void)unused;
+  check_parse("{\"hooke\":1,\"parts\":[{\"kind\":\"cloth\",\"size\":[100000,100000],"
+              "\"edges\":[[1,0,0],[0,1,0]],\"mass\":1}]}",
+              0.0, HOOKE_BAD_VALUE,
+              "s:1:44: parts[0].size: a cloth of 100000 x 100000 particles needs 2.8 TB of memory");
+  /* each part fits, all of them do not */
+  const char *parts = "{\"hooke\":1,\"parts\":["
+                      "{\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1000,\"mass\":1},"
+                      "{\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1000,\"mass\":1}]}";
+  check_parse(parts, 1e-3, HOOKE_OK, NULL);
+  check_parse(parts, 5e-4, HOOKE_NO_MEMORY, "s:1:144: parts[1].segments: a rope of 1000 segments needs");
+  /* lists of numbers, before they are parsed */
+  char many[4096] = "{\"hooke\":1,\"title\":[";
+  for (int k = 0; k < 1000; k++)
+    strcat(many, "0,");
+  strcat(many, "0]}");
+  check_parse(many, 1e-4, HOOKE_BAD_VALUE, "title");
+  check_parse(many, 5e-5, HOOKE_NO_MEMORY, "s: this scene needs");
+}
+
+static void equal_names_are_found_among_many(void **unused) {
+  (void)unused;
+  enum { PARTS = 3000 };
+  char *text = new_block(PARTS * 128 + 256, 1), *at = text;
+  at += sprintf(at, "{\"hooke\":1,\"parts\":[");
+  for (int k = 0; k < PARTS; k++)
+    at += sprintf(
+        at, "%s{\"name\":\"%x\",\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1,\"mass\":1}",
+        k ? "," : "", (unsigned)k * 7919u % (PARTS + 1));
+  char *end = at;
+  sprintf(end, "],\"springs\":[{\"between\":[[[\"0\",0],[\"%x\",1]]],\"stiffness\":1}]}",
+          (PARTS - 1u) * 7919u % (PARTS + 1));
+  check_parse(text, 0.0, HOOKE_OK, NULL);
+  sprintf(end, "],\"springs\":[{\"between\":[[[\"0\",0],[\"no\",1]]],\"stiffness\":1}]}");
+  check_parse(text, 0.0, HOOKE_BAD_VALUE, "there is no part \"no\"; allowed: 0, ");
+  sprintf(end,
+          ",{\"name\":\"0\",\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1,\"mass\":1}]}");
+  check_parse(text, 0.0, HOOKE_BAD_VALUE, "parts[3000].name: \"0\" is the name of part 0 already");
+  free(text);
+}
+
+/* ---- files ---- */
+
+static void write_text(const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+static void check_load(const char *path, int32_t outside, int32_t expected, const char *message) {
+  hooke_scene *scene = NULL;
+  hooke_options *options = limits(0.0, outside);
+  check_status(hooke_scene_load_within(path, options, &scene), expected);
+  if (message) check_message(message);
+  hooke_scene_destroy(scene);
+  hooke_options_destroy(options);
+}
+
+/* Nobody writes into the pipe: whoever waits for it is ended by the alarm. */
+static void nothing_waits_for_a_pipe(void **unused) {
+  (void)unused;
+  char folder[] = "/tmp/hooke-room-XXXXXX";
+  assert_non_null(mkdtemp(folder));
+  const int back = open(".", O_RDONLY);
+  assert_int_equal(chdir(folder), 0);
+  assert_int_equal(mkfifo("pipe", 0600), 0);
+  alarm(20);
+  write_text("mesh.json", "{\"hooke\":1,\"parts\":[{\"kind\":\"mesh\",\"file\":\"pipe\",\"mass\":1}]}");
+  write_text("array.json",
+             "{\"hooke\":1,\"particles\":{\"mass\":1,\"position\":{\"file\":\"pipe\",\"dataset\":\"/a\"}}}");
+  check_load("pipe", 0, HOOKE_BAD_VALUE, "is not a regular file");
+  check_load("mesh.json", 0, HOOKE_BAD_VALUE, "parts[0].file: pipe: is not a regular file");
+  check_load("array.json", 0, HOOKE_HAVE_HDF5 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "pipe");
+  check_load("/dev/zero", 0, HOOKE_BAD_VALUE, "is not a regular file");
+  hooke_record *record = NULL;
+  check_status(hooke_record_open("pipe", &record), HOOKE_HAVE_HDF5 ? HOOKE_IO_FAILED : HOOKE_NOT_BUILT);
+  alarm(0);
+  unlink("pipe");
+  unlink("mesh.json");
+  unlink("array.json");
+  assert_int_equal(fchdir(back), 0);
+  close(back);
+  rmdir(folder);
+}
+
+static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+static void check_named(const char *file, int32_t outside, int32_t expected, const char *message) {
+  char text[512];
+  snprintf(text, sizeof text, "{\"hooke\":1,\"parts\":[{\"kind\":\"mesh\",\"file\":\"%s\",\"mass\":1}]}",
+           file);
+  write_text("inside/scene.json", text);
+  check_load("inside/scene.json", outside, expected, message);
+}
+
+static void files_stay_in_the_folder_unless_allowed(void **unused) {
+  (void)unused;
+  char folder[] = "/tmp/hooke-room-XXXXXX", absolute[128];
+  assert_non_null(mkdtemp(folder));
+  const int back = open(".", O_RDONLY);
+  assert_int_equal(chdir(folder), 0);
+  assert_int_equal(mkdir("inside", 0700), 0);
+  assert_int_equal(mkdir("inside-too", 0700), 0);
+  write_text("out.obj", triangle);
+  write_text("inside-too/out.obj", triangle);
+  write_text("inside/in.obj", triangle);
+  assert_int_equal(symlink("../out.obj", "inside/link.obj"), 0);
+  assert_int_equal(symlink("../inside-too", "inside/folder"), 0);
+  assert_int_equal(symlink("in.obj", "inside/fine.obj"), 0);
+  assert_int_equal(symlink("loop.obj", "inside/loop.obj"), 0);
+  snprintf(absolute, sizeof absolute, "%s/out.obj", folder);
+  const char *const out[] = {"../out.obj",   "link.obj", "folder/out.obj",
+                             "./../out.obj", absolute,   "../inside-too/out.obj"};
+  for (size_t k = 0; k < sizeof out / sizeof out[0]; k++) {
+    check_named(out[k], 0, HOOKE_BAD_VALUE, "parts[0].file");
+    check_named(out[k], 1, HOOKE_OK, NULL);
+  }
+  check_named("in.obj", 0, HOOKE_OK, NULL);
+  check_named("./in.obj", 0, HOOKE_OK, NULL);
+  check_named("fine.obj", 0, HOOKE_OK, NULL);
+  check_named("loop.obj", 0, HOOKE_BAD_VALUE, "cannot be opened");
+  check_named("/proc/self/environ", 0, HOOKE_BAD_VALUE, "relative and without ..");
+  check_named("/dev/zero", 1, HOOKE_BAD_VALUE, "is not a regular file");
+  check_named("none.obj", 1, HOOKE_BAD_VALUE, "cannot be opened");
+  const char *const files[] = {"out.obj",         "inside-too/out.obj", "inside/in.obj", "inside/link.obj",
+                               "inside/fine.obj", "inside/loop.obj",    "inside/folder", "inside/scene.json"};
+  for (size_t k = 0; k < sizeof files / sizeof files[0]; k++)
+    unlink(files[k]);
+  rmdir("inside");
+  rmdir("inside-too");
+  assert_int_equal(fchdir(back), 0);
+  close(back);
+  rmdir(folder);
+}
+
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(parts_stop_at_the_edge_of_32_bits),
+    cmocka_unit_test(a_mesh_stops_at_the_edge_of_32_bits),
+    cmocka_unit_test(systems_stop_at_the_edge_of_32_bits),
+    cmocka_unit_test(what_is_taken_back_does_not_count),
+    cmocka_unit_test(a_scene_takes_what_it_is_said_to_need),
+    cmocka_unit_test(bytes_are_shown_in_three_digits),
+    cmocka_unit_test(a_limit_on_the_address_space_counts),
+#if HOOKE_HAVE_JANSSON
+    cmocka_unit_test(scenes_that_are_too_large_are_refused),
+    cmocka_unit_test(equal_names_are_found_among_many),
+    cmocka_unit_test(nothing_waits_for_a_pipe),
+    cmocka_unit_test(files_stay_in_the_folder_unless_allowed),
+#endif
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
