@@ -143,6 +143,30 @@ static struct hooke_argument *argument_of(struct hooke_arguments *arguments, int
   return NULL;
 }
 
+/* The one word that is no option. */
+static int take_operand(struct hooke_arguments *arguments, int argc, char **argv) {
+  const char *input = arguments->verb->input;
+  const char *name = arguments->verb->for_scene,
+             *instead = name ? hooke_arguments_text(arguments, name) : NULL;
+  if (instead) {
+    arguments->scene = instead;
+    if (optind >= argc) return HOOKE_EXIT_DONE;
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s has a scene of its own; leave out '%s'", name,
+                        instead, argv[optind]);
+  }
+  if (optind >= argc) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                        input ? input : "scene", arguments->verb->name,
+                        hooke_describe_operand(arguments->verb));
+  }
+  if (optind + 1 < argc) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
+  }
+  arguments->scene = argv[optind];
+  return HOOKE_EXIT_DONE;
+}
+
 static int parse_words(struct hooke_arguments *arguments, int argc, char **argv, const char *letters,
                        const struct option *longs) {
   int code;
@@ -160,7 +184,6 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     int answer = take(arguments, argument, optarg);
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
-  const char *input = arguments->verb->input;
   arguments->help = hooke_arguments_text(arguments, "help") != NULL;
   if (arguments->help) return HOOKE_EXIT_DONE;
   int answer = set_what_added_up(arguments);
@@ -170,17 +193,7 @@ static int parse_words(struct hooke_arguments *arguments, int argc, char **argv,
     return hooke_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
                         argv[optind + 1], arguments->scene);
   }
-  if (optind >= argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
-                        input ? input : "scene", arguments->verb->name,
-                        hooke_describe_operand(arguments->verb));
-  }
-  if (optind + 1 < argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
-                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
-  }
-  arguments->scene = argv[optind];
-  return HOOKE_EXIT_DONE;
+  return take_operand(arguments, argc, argv);
 }
 
 static const char *next_kind(int64_t i, const void *ctx) {

@@ -294,5 +294,6 @@ const struct hooke_verb hooke_verb_check = {
         "meant.",
     .example = "hooke check cloth.json",
     .options = hooke_cost_options_create,
+    .without = "checkpoint",
     .function = do_check,
 };

@@ -193,6 +193,6 @@ const struct hooke_verb hooke_verb_compare = {
             "Tables are rounded; --json has every digit.",
     .example = "hooke compare cloth.json --methods symplectic-euler,cvode-adams",
     HOOKE_VERB_ROWS(own_rows),
-    .without = "method",
+    .without = "method checkpoint",
     .function = do_compare,
 };

@@ -313,5 +313,6 @@ const struct hooke_verb hooke_verb_limit = {
     .example = "hooke limit cloth.json --predict",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_limit_options_create,
+    .without = "checkpoint",
     .function = do_limit,
 };

@@ -128,6 +128,6 @@ const struct hooke_verb hooke_verb_needs = {
     .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_needs_options_create,
-    .without = "step",
+    .without = "step checkpoint",
     .function = do_needs,
 };

@@ -2,6 +2,7 @@
 #include "advice.h"
 #include "print.h"
 #include "report.h"
+#include "resume.h"
 #include "setup.h"
 #include "unit.h"
 #include "watch.h"
@@ -21,6 +22,9 @@ struct run {
   hooke_integrator *integrator;
   hooke_trajectory *trajectory; /* NULL without -o */
   const char *output;
+  const char *resumed;  /* FILE of --resume, which is the output then; NULL: a run from the beginning */
+  int32_t was_finished; /* 1: there was nothing to go on with */
+  int32_t kept_place;   /* 1: of an interrupted run, a checkpoint or a frame to go on from */
   struct hooke_watch watch;
   double duration;
   int64_t frames; /* reported so far */
@@ -68,6 +72,16 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   return see_step(step, state, run);
 }
 
+static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
+  struct run *run = ctx;
+  (void)step;
+  if (!run->trajectory || hooke_trajectory_checkpoint(run->trajectory, run->integrator, state) == HOOKE_OK)
+    return 0;
+  run->write_failed = 1;
+  keep_message(run);
+  return 1;
+}
+
 /* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing. */
 static int64_t stride(const struct run *run) {
   if (hooke_method_is_adaptive(method_of(run)) != 0) return 1;
@@ -92,18 +106,34 @@ static int32_t prepare(struct run *run) {
   run->duration = option_of(run, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
+  if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   if (status == HOOKE_OK && !run->arguments->quiet)
     status = hooke_integrator_on_warning(run->integrator, see_warning, run);
   if (status != HOOKE_OK || !run->output) return status;
-  status = hooke_trajectory_create(run->output, run->setup.system, run->integrator,
-                                   hooke_scene_text(run->setup.scene), &run->trajectory);
-  return status == HOOKE_OK ? hooke_trajectory_write_behind(run->trajectory) : status;
+  status = run->resumed ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator,
+                                                  run->setup.state, &run->trajectory)
+                        : hooke_trajectory_create(run->output, run->setup.system, run->integrator,
+                                                  hooke_scene_text(run->setup.scene), &run->trajectory);
+  if (status != HOOKE_OK || !run->trajectory) return status;
+  if (run->resumed && !run->arguments->quiet)
+    hooke_report_words(run->arguments, "goes on from %s", hooke_trajectory_origin(run->trajectory));
+  return hooke_trajectory_write_behind(run->trajectory);
+}
+
+/* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and nobody from
+ * numbers that are not finite. */
+static void keep_place(struct run *run) {
+  if (run->outcome != HOOKE_STOPPED || run->write_failed || !run->trajectory) return;
+  run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
+  run->write_failed = run->kept_place == HOOKE_IO_FAILED || run->kept_place == HOOKE_NO_MEMORY;
+  if (run->write_failed) keep_message(run);
 }
 
 /* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
-static int32_t write_companion(const struct run *run) {
+static int32_t write_companion(struct run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
+  if (status == HOOKE_OK) run->frames = hooke_record_frame_count(record);
   if (status == HOOKE_OK) status = hooke_record_write_xdmf(record, NULL);
   hooke_record_close(record);
   if (status != HOOKE_BAD_VALUE) return status;
@@ -115,13 +145,17 @@ static int32_t write_companion(const struct run *run) {
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
 static int integrate(struct run *run) {
   hooke_watch_start(&run->watch, run->arguments);
+  run->energy_before = state_energy(run);
   int32_t status = prepare(run);
   if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
-  run->energy_before = state_energy(run);
-  run->outcome = hooke_integrator_run(run->integrator, run->setup.state);
+  run->was_finished = run->resumed && !run->trajectory;
+  if (run->was_finished) return HOOKE_EXIT_DONE;
+  run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
+                              : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && !run->write_failed) keep_message(run);
   hooke_watch_end(&run->watch);
   run->energy_after = state_energy(run);
+  keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
   if (run->write_failed) return hooke_report(run->arguments, HOOKE_EXIT_IO, "%s", run->message);
@@ -286,6 +320,7 @@ static void explain(const struct run *run) {
   if (run->outcome == HOOKE_STOPPED) {
     hooke_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
                        hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+    if (run->output) hooke_resume_tell_how(arguments, run->output, run->kept_place);
     return;
   }
   hooke_report_words(arguments, "%s", run->message);
@@ -299,6 +334,7 @@ static void explain(const struct run *run) {
 static int run_and_tell(struct run *run) {
   int code = integrate(run);
   if (code != HOOKE_EXIT_DONE) return code;
+  if (run->was_finished) return hooke_resume_tell_finished(run->arguments, &run->setup);
   int32_t with_final = hooke_arguments_text(run->arguments, "final") != NULL;
   int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
   if (run->arguments->json) {
@@ -363,9 +399,13 @@ static int pick(struct run *run, const char *text) {
 
 static int do_run(const struct hooke_arguments *arguments) {
   const char *want = hooke_arguments_text(arguments, "want");
-  struct run run = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
-  int code = hooke_setup_check_output(arguments, run.output);
+  struct run run = {.arguments = arguments,
+                    .output = hooke_arguments_text(arguments, "output"),
+                    .resumed = hooke_arguments_text(arguments, "resume")};
+  int code = hooke_resume_check(arguments);
+  if (code == HOOKE_EXIT_DONE) code = hooke_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
+  if (run.resumed) run.output = run.resumed;
   code = hooke_setup_load(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE && want) code = pick(&run, want);
   if (code == HOOKE_EXIT_DONE) {
@@ -382,6 +422,10 @@ static const struct hooke_verb_row rows[] = {
     {"output", 'o', "FILE",
      "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
      "reads it, replacing them"},
+    {"resume", 0, "OUT.h5",
+     "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
+     "it had never "
+     "stopped; only --threads, --final, --json and --quiet may be given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
@@ -392,8 +436,11 @@ const struct hooke_verb hooke_verb_run = {
     .summary = "integrates a scene",
     .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "
             "momentum. A run "
-            "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly.",
+            "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly, and "
+            "with -o says how to go "
+            "on with it; --checkpoint keeps places to go on from that outlast a crash, too.",
     .example = "hooke run cloth.json -o cloth.h5",
     HOOKE_VERB_ROWS(rows),
+    .for_scene = "resume",
     .function = do_run,
 };

@@ -196,6 +196,6 @@ const struct hooke_verb hooke_verb_study = {
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_study_options_create,
-    .without = "method step rtol atol atol_velocity",
+    .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };

@@ -41,6 +41,7 @@ struct hooke_verb {
   int32_t (*kind_options)(const char *kind,
                           hooke_options **options); /* takes a kind of part in place of a scene, and makes its
                                                        table; NULL: it takes a scene */
+  const char *for_scene; /* its option that stands for the scene; NULL: there is none */
   const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
   int (*function)(const struct hooke_arguments *arguments);
 };

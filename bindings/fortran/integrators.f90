@@ -2,7 +2,8 @@
 module hooke_integrators
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
     c_null_ptr, c_ptr
-  use hooke_base, only: accept, hooke_long, to_c, to_integer, to_text, zero_based
+  use hooke_base, only: accept, hooke_long, to_c, to_c_if, to_integer, to_text, zero_based
+  use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
   use hooke_c_why, only: c_integrator_on_warning
   use hooke_handles, only: hooke_handle
@@ -15,7 +16,7 @@ module hooke_integrators
   public :: hooke_integrator
   public :: method_count, method_name, method_summary, method_is_adaptive, method_is_built
 
-  integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4
+  integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5
 
   type, extends(hooke_handle) :: hooke_integrator
     ! The options it runs with: its own copy, with defaults filled in.
@@ -25,9 +26,13 @@ module hooke_integrators
     procedure :: create_first_order
     procedure :: on_frame
     procedure :: on_step
+    procedure :: on_checkpoint
     procedure :: on_warning
     procedure :: frame_count
     procedure :: run
+    procedure :: resume
+    procedure :: write_checkpoint
+    procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
     procedure :: count => count_of
@@ -171,6 +176,29 @@ contains
     call accept(code, status)
   end subroutine
 
+  ! Called at each checkpoint of the option `checkpoint`.
+  subroutine on_checkpoint(self, observer, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_observer), target, intent(inout), optional :: observer
+    integer, intent(out), optional :: status
+    type(observer_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(observer)) then
+      call accept(c_integrator_on_checkpoint(self%address(), c_null_funptr, c_null_ptr), status)
+      return
+    end if
+    allocate (holder)
+    holder%observer => observer
+    code = c_integrator_on_checkpoint(self%address(), c_funloc(call_observer), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_checkpoints)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
   ! Told once a run when the step is near the safe one, and when it is above.
   subroutine on_warning(self, warning, status)
     class(hooke_integrator), intent(inout) :: self
@@ -210,6 +238,44 @@ contains
     if (self%is_missing(status)) return
     if (state%is_missing(status)) return
     call accept(c_integrator_run(self%address(), state%address()), status)
+  end subroutine
+
+  ! Goes on from where read_checkpoint() placed integrator and state, or where a run with a fixed step was stopped.
+  subroutine resume(self, state, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_state), intent(inout) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_integrator_resume(self%address(), state%address()), status)
+  end subroutine
+
+  ! Writes where the run stands; `name` says which run it is.
+  subroutine write_checkpoint(self, path, state, name, status)
+    class(hooke_integrator), intent(in) :: self
+    character(*), intent(in) :: path
+    class(hooke_state), intent(in) :: state
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call to_c_if(name, c_name)
+    call accept(c_checkpoint_write(to_c(path), self%address(), state%address(), c_name), status)
+  end subroutine
+
+  ! Puts integrator and state where the file has them, for resume() or step(); of any run if `name` is absent.
+  subroutine read_checkpoint(self, path, state, name, status)
+    class(hooke_integrator), intent(inout) :: self
+    character(*), intent(in) :: path
+    class(hooke_state), intent(inout) :: state
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call to_c_if(name, c_name)
+    call accept(c_checkpoint_read(to_c(path), c_name, self%address(), state%address()), status)
   end subroutine
 
   ! Takes some steps, without frames.

@@ -1,8 +1,9 @@
 ! Trajectory files (HDF5): written, read back, and one for a whole comparison.
 module hooke_trajectories
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
     to_integer, to_text
+  use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_origin, c_trajectory_resume
   use hooke_c_io
   use hooke_comparisons, only: hooke_comparison
   use hooke_handles, only: hooke_handle
@@ -18,6 +19,9 @@ module hooke_trajectories
   type, extends(hooke_handle) :: hooke_trajectory
   contains
     procedure :: create => create_trajectory
+    procedure :: resume => resume_trajectory
+    procedure :: origin
+    procedure :: checkpoint
     procedure :: write => write_frame
     procedure :: write_behind
     procedure :: sync
@@ -71,6 +75,46 @@ contains
     code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
     if (code == 0) call self%take(trajectory, abandon_trajectory, system)
     call accept(code, status)
+  end subroutine
+
+  ! Opens the file of a run that was stopped or killed, and puts a new integrator and its state where it goes on, for
+  ! their resume(). `finished`: there is nothing to go on with, and the trajectory stays empty.
+  subroutine resume_trajectory(self, path, system, integrator, state, finished, status)
+    class(hooke_trajectory), intent(inout) :: self
+    character(*), intent(in) :: path
+    class(hooke_system), intent(in) :: system
+    class(hooke_integrator), intent(inout) :: integrator
+    class(hooke_state), intent(inout) :: state
+    logical, intent(out), optional :: finished
+    integer, intent(out), optional :: status
+    type(c_ptr) :: trajectory
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    if (integrator%is_missing(status)) return
+    if (state%is_missing(status)) return
+    code = c_trajectory_resume(to_c(path), system%address(), integrator%address(), state%address(), trajectory)
+    if (present(finished)) finished = code == 0 .and. .not. c_associated(trajectory)
+    if (code == 0 .and. c_associated(trajectory)) call self%take(trajectory, abandon_trajectory, system)
+    call accept(code, status)
+  end subroutine
+
+  ! From where a run went on, in words.
+  function origin(self) result(words)
+    class(hooke_trajectory), intent(in) :: self
+    character(:), allocatable :: words
+    words = to_text(c_trajectory_origin(self%address()))
+  end function
+
+  ! Writes a checkpoint beside the file, for resume().
+  subroutine checkpoint(self, integrator, state, status)
+    class(hooke_trajectory), intent(inout) :: self
+    class(hooke_integrator), intent(in) :: integrator
+    class(hooke_state), intent(in) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (integrator%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_trajectory_checkpoint(self%address(), integrator%address(), state%address()), status)
   end subroutine
 
   ! Writes the next frame.

@@ -28,6 +28,27 @@ HOOKE_API int32_t hooke_checkpoint_write(const char *path, const hooke_integrato
 HOOKE_API int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *integrator,
                                         hooke_state *state);
 
+/* ---- beside a trajectory ---- */
+
+/* Brings the trajectory to the disk and writes "<its path>.checkpoint", labelled with hooke_trajectory_run(): every frame that
+ * was reported up to there is then in the trajectory. hooke_trajectory_close() removes it after a run that finished. The
+ * failures of hooke_trajectory_sync() and hooke_checkpoint_write(). */
+HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
+                                              const hooke_integrator *integrator, const hooke_state *state);
+
+/* Opens the trajectory of a run that was killed, stopped or ended early, for the frames that are missing, and puts
+ * `integrator`, new and with the options of that run (but for `threads`), and `state`, its initial one, where the run goes
+ * on: hooke_integrator_resume() is next, with hooke_trajectory_write() for each frame. That is at the checkpoint beside the
+ * file; if there is none of this run, at the last whole frame with a fixed step, whose counts then begin there (but for
+ * "steps"), and at the first frame with error control. `trajectory` is NULL if the run has finished: nothing is to do.
+ * HOOKE_BAD_VALUE for another system, other options, or a file that is no trajectory; HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY; the state then stays as it is. */
+HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
+                                          hooke_integrator *integrator, hooke_state *state,
+                                          hooke_trajectory **trajectory);
+/* From where a run went on, in words, and why not from a checkpoint; "" for a trajectory that was not opened so. */
+HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory);
+
 #ifdef __cplusplus
 }
 #endif

@@ -94,6 +94,11 @@ static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, dou
          (rest - it->energy0) + risen <= RISE * (it->scale0 + it->gravity_swing) + DBL_MIN;
 }
 
+void hooke_divergence_follow(hooke_integrator *it, const hooke_state *state) {
+  double energy;
+  if (has_energy_bound(it)) energy_is_bounded(it, state, &energy);
+}
+
 static const char *advice(const hooke_integrator *it) {
   return it->method->adaptive ? "tighter tolerances" : "a smaller step";
 }

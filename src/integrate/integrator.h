@@ -119,11 +119,17 @@ int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const doub
 int32_t hooke_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
 
-/* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself. Its first state is then
- * unknown to it. The failures of a run's beginning. */
+/* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself; what it knows of its first
+ * state stays. The failures of a run's beginning. */
 struct hooke_standing hooke_integrator_standing(const hooke_integrator *integrator);
 int32_t hooke_integrator_stand(hooke_integrator *integrator, const struct hooke_standing *standing,
                                hooke_state *state);
+
+/* The same at a frame of a run that began at `first`: for hooke_run_begin() and hooke_divergence_follow() to come
+ * before, at the first frame and at each one since. What it counted but steps is not known. An error-controlled method
+ * stands at frame 0 alone. HOOKE_BAD_VALUE for a time that is not the frame's. */
+int32_t hooke_integrator_stand_at_frame(hooke_integrator *integrator, int64_t frame, const hooke_state *first,
+                                        hooke_state *state);
 
 /* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that run did from
  * there, to the bit. An error-controlled method starts anew. */
@@ -144,5 +150,7 @@ int32_t hooke_divergence_store(hooke_integrator *integrator, double t, hooke_sta
  * looked for. */
 int32_t hooke_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
+/* A check that another run passed at this state. */
+void hooke_divergence_follow(hooke_integrator *integrator, const hooke_state *state);
 
 #endif

@@ -24,15 +24,19 @@ int32_t hooke_integrator_stand(hooke_integrator *it, const struct hooke_standing
   const struct hooke_standing s = *standing, before = hooke_integrator_standing(it);
   it->count = s.count; /* a method goes on counting from here */
   it->wall_seconds = s.wall_seconds;
+  struct hooke_recent *recent = &it->recent;
+  hooke_state *const first = recent->first, *const room = recent->room_of_first;
+  recent->room_of_first = NULL; /* a beginning is not the first one here */
   const int32_t status = hooke_run_begin(it, state);
+  recent->room_of_first = room;
+  recent->first = first;
   if (status != HOOKE_OK) {
     it->count = before.count;
     it->wall_seconds = before.wall_seconds;
     return status;
   }
-  hooke_recent_set_first(&it->recent, NULL);
   it->t0 = s.t0;
-  it->k = it->recent.step[it->recent.newest] = s.k;
+  it->k = recent->step[recent->newest] = s.k;
   it->frames = s.frames;
   it->energy0 = s.energy0;
   it->scale0 = s.scale0;
@@ -41,6 +45,25 @@ int32_t hooke_integrator_stand(hooke_integrator *it, const struct hooke_standing
   if (!it->method->adaptive || isnan(it->schedule.checkpoint)) return HOOKE_OK;
   it->point = hooke_run_first_after(it->t0, it->schedule.checkpoint, it->t);
   it->restart.standing = hooke_integrator_standing(it);
+  return HOOKE_OK;
+}
+
+int32_t hooke_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const hooke_state *first,
+                                        hooke_state *state) {
+  const int64_t k = it->method->adaptive ? 0 : frame * it->schedule.frame_steps;
+  struct hooke_standing standing = hooke_integrator_standing(it); /* with the energies at the first frame */
+  standing.t0 = *first->t;
+  standing.t = *state->t;
+  standing.k = standing.count.steps = k;
+  standing.frames = frame + 1;
+  const double t = standing.t0 + (double)k * it->schedule.step;
+  if (frame > 0 && memcmp(&t, &standing.t, sizeof t) != 0)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "frame %lld is not at the time of this run's, %.17g s",
+                      (long long)frame, t);
+  const int32_t status = hooke_integrator_stand(it, &standing, state);
+  if (status != HOOKE_OK) return status;
+  hooke_recent_set_first(&it->recent, first);
+  it->placed = 1;
   return HOOKE_OK;
 }
 
@@ -99,6 +122,7 @@ int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   const struct hooke_standing standing = hooke_integrator_standing(it);
   status = hooke_integrator_stand(it, &standing, state);
+  if (status == HOOKE_OK && it->k == 0 && it->frames == 0) status = hooke_divergence_check(it, state, 1);
   if (status == HOOKE_OK && is_frame_missing(it)) status = hooke_run_report(it, state);
   if (status == HOOKE_OK) status = hooke_run_to_end(it, state);
   return hooke_run_end(it, state, status);

@@ -4,6 +4,7 @@
 #include "core/crc32.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/checkpoint_file.h"
 #include "io/checkpoint_form.h"
 #include "io/place.h"
 
@@ -102,7 +103,7 @@ int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, con
 struct found {
   struct hooke_checkpoint_header header;
   hooke_state *state;
-  int32_t intact; /* 1: if it is refused all the same, it is of something else */
+  enum hooke_checkpoint_finding finding;
 };
 
 static int32_t damaged(const char *path, const char *what) {
@@ -148,7 +149,7 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
   if (damage) return damaged(path, damage);
   const int64_t size = found->header.size;
   if (size != it->size || found->header.has_v != (it->system != NULL)) {
-    found->intact = 1;
+    found->finding = HOOKE_CHECKPOINT_OTHER;
     return damaged(path, "is of another scene");
   }
   int32_t status = hooke_state_create_sized(size, it->system != NULL, &found->state);
@@ -156,29 +157,39 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
   if (!read_numbers(file, &check, (found->state->has_v ? 2 : 1) * size, found->state->q))
     return damaged(path, "is cut off");
   *found->state->t = found->header.standing.t;
-  status = read_end(path, file, check);
-  found->intact = status == HOOKE_OK;
-  return status;
+  return read_end(path, file, check);
 }
 
 static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
   FILE *file = fopen(path, "rb");
+  found->finding = errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
   if (file == NULL) return hooke_place_fail(path, "open the checkpoint", errno);
+  found->finding = HOOKE_CHECKPOINT_DAMAGED;
   int32_t status = read_open(path, file, it, found);
   fclose(file);
-  return status == HOOKE_OK ? hooke_checkpoint_check(path, &found->header, run, it) : status;
+  if (status != HOOKE_OK) return status;
+  if (run && strcmp(found->header.run, run) != 0) {
+    found->finding = HOOKE_CHECKPOINT_OTHER_RUN;
+    return damaged(path, "is of another run");
+  }
+  found->finding = HOOKE_CHECKPOINT_OTHER;
+  status = hooke_checkpoint_check(path, &found->header, it);
+  if (status == HOOKE_OK) found->finding = HOOKE_CHECKPOINT_FOUND;
+  return status;
 }
 
 static void drop(struct found *found) {
   hooke_state_destroy(found->state);
-  *found = (struct found){.state = NULL};
+  found->state = NULL;
 }
 
 /* The newest, or where that is missing or damaged the one before it. */
 static int32_t find(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
   char *previous = NULL, first[512];
   int32_t status = read_file(path, run, it, found);
-  if (status == HOOKE_OK || found->intact || status == HOOKE_NO_MEMORY) return status;
+  const enum hooke_checkpoint_finding newest = found->finding;
+  if (newest == HOOKE_CHECKPOINT_FOUND || newest >= HOOKE_CHECKPOINT_OTHER_RUN || status == HOOKE_NO_MEMORY)
+    return status;
   snprintf(first, sizeof first, "%s", hooke_last_error());
   drop(found);
   const int32_t second = hooke_place_beside(path, ".previous", &previous);
@@ -193,13 +204,17 @@ static int32_t find(const char *path, const char *run, const hooke_integrator *i
   return second == HOOKE_OK ? status : second;
 }
 
-int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *it, hooke_state *state) {
+int32_t hooke_checkpoint_take(const char *path, const char *run, hooke_integrator *it, hooke_state *state,
+                              enum hooke_checkpoint_finding *finding) {
+  *finding = HOOKE_CHECKPOINT_OTHER;
   if (state->size != it->size || state->has_v != (it->system != NULL))
     return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
                       (long long)state->size, (long long)it->size);
   struct found found = {.state = NULL};
   int32_t status = find(path, run, it, &found);
+  *finding = found.finding;
   if (status == HOOKE_OK) {
+    hooke_recent_set_first(&it->recent, NULL);
     status = hooke_integrator_stand(it, &found.header.standing, found.state);
     if (status != HOOKE_OK) hooke_fail_before(status, "%s: ", path);
   }
@@ -209,4 +224,16 @@ int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrato
   }
   drop(&found);
   return status;
+}
+
+int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *it, hooke_state *state) {
+  enum hooke_checkpoint_finding finding;
+  return hooke_checkpoint_take(path, run, it, state, &finding);
+}
+
+void hooke_checkpoint_remove(const char *path) {
+  char *previous = NULL;
+  unlink(path);
+  if (hooke_place_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
+  hooke_free(previous);
 }

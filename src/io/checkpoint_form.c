@@ -118,8 +118,7 @@ void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, 
 
 /* ---- what it is of ---- */
 
-/* Of every option that has a value, given or not; threads decide no bit. */
-static uint32_t check_value_of(const hooke_options *options) {
+uint32_t hooke_checkpoint_options(const hooke_options *options) {
   uint32_t value = 0;
   for (int64_t k = 0; k < hooke_options_row_count(options); k++) {
     const char *name = hooke_options_row(options, k, "name"), *text = hooke_options_text(options, name);
@@ -147,7 +146,7 @@ void hooke_checkpoint_describe(const hooke_integrator *it, const struct hooke_st
   h->size = it->size;
   h->length = length_of(h->size, h->has_v);
   h->system = it->system ? hooke_system_check_value(it->system) : 0;
-  h->options = check_value_of(it->options);
+  h->options = hooke_checkpoint_options(it->options);
   snprintf(h->method, sizeof h->method, "%s", it->method->name);
   snprintf(h->run, sizeof h->run, "%s", run ? run : "");
   h->standing = *standing;
@@ -181,12 +180,10 @@ static int is_possible(const hooke_integrator *it, const struct hooke_standing *
          (s->frames == frames || (s->frames == frames - 1 && s->k % schedule->frame_steps == 0));
 }
 
-int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *h, const char *run,
+int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *h,
                                const hooke_integrator *it) {
   struct hooke_checkpoint_header own;
-  hooke_checkpoint_describe(it, &h->standing, run, &own);
-  if (run && strcmp(h->run, run) != 0)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another run", path);
+  hooke_checkpoint_describe(it, &h->standing, NULL, &own);
   if (h->size != own.size || h->has_v != own.has_v || h->system != own.system)
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
   if (strcmp(h->method, own.method) != 0)

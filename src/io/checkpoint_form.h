@@ -40,10 +40,13 @@ void hooke_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
 void hooke_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
 void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
 
+/* Check value of the options of a run that have a value, given or not, but for `threads`, which decide no bit. */
+uint32_t hooke_checkpoint_options(const hooke_options *options);
+
 /* NULL, or what is wrong with a header of a file of `length` bytes. */
 const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *header, int64_t length);
-/* HOOKE_BAD_VALUE for one that is not of this problem, options and run (NULL: any), or with impossible numbers. */
+/* HOOKE_BAD_VALUE for one that is not of this problem and these options, or with impossible numbers. */
 int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *header,
-                               const char *run, const hooke_integrator *integrator);
+                               const hooke_integrator *integrator);
 
 #endif

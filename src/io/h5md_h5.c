@@ -7,11 +7,13 @@
 #include "io/bytes.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
+#include "io/place.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/random.h>
+#include <unistd.h>
 
 enum { STATUS_LENGTH = 16 }; /* less than a page, and on a multiple of it: never torn */
 
@@ -82,10 +84,14 @@ herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *
 }
 
 int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
+  static const char source[] = "/dev/urandom";
   unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
-  if (getentropy(random, sizeof random) != 0)
-    return hooke_fail(HOOKE_IO_FAILED, NULL, "the system has no random number for a run: %s",
-                      strerror(errno));
+  const int descriptor = open(source, O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return hooke_place_fail(source, "take a random number for the run from it", errno);
+  const ssize_t got = read(descriptor, random, sizeof random);
+  const int error = got == (ssize_t)sizeof random ? 0 : got < 0 ? errno : EIO;
+  close(descriptor);
+  if (error) return hooke_place_fail(source, "take a random number for the run from it", error);
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
   return HOOKE_OK;

@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_TRAJECTORY_H
 #define HOOKE_IO_TRAJECTORY_H
 
-#include "hooke/io.h"
+#include "hooke/checkpoint.h"
 
 /* Opens the file of a run that was killed or ended early, for the frames of the same run from `frames_kept` on. Of a run
  * that was killed the file has its planned length and is written in place: frames that it has beyond the first `frames_kept`
@@ -14,5 +14,17 @@
 int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
                                 const hooke_integrator *integrator, int64_t frames_kept,
                                 hooke_trajectory **trajectory);
+
+/* Of a trajectory that was opened so: whole frames that the file had; and taking the first `frames` of them for kept. */
+int64_t hooke_trajectory_there(const hooke_trajectory *trajectory);
+void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames);
+
+/* The file, from the root. */
+const char *hooke_trajectory_path(const hooke_trajectory *trajectory);
+/* What hooke_trajectory_origin() says. */
+void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words);
+
+/* A run that has finished needs the checkpoint beside its trajectory no more. */
+void hooke_trajectory_drop_checkpoint(const char *path);
 
 #endif

@@ -6,6 +6,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/place.h"
+#include "io/trajectory.h"
 #include "io/trajectory_h5.h"
 
 #include <errno.h>
@@ -214,6 +215,7 @@ int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   end_thread(trajectory);
   const int32_t status = finish(trajectory, outcome);
+  if (status == HOOKE_OK && outcome == HOOKE_OK) hooke_trajectory_drop_checkpoint(trajectory->file.path);
   hooke_trajectory_release(trajectory);
   return status;
 }

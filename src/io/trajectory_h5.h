@@ -16,6 +16,7 @@ struct hooke_trajectory {
   int64_t there;                     /* whole frames that the file had when it was opened again */
   int64_t status_at;                 /* in the file */
   char run[HOOKE_RUN_SIZE];
+  char origin[512];  /* from where the run goes on; "" if it did not */
   char failure[512]; /* of the write that made the file bad; "" while it is good */
 };
 

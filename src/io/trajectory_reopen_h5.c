@@ -29,8 +29,8 @@ static int is_plain(const struct hooke_dataset *data, hid_t type, double file_by
   const haddr_t at = H5Dget_offset(data->id);
   const double bytes = (double)H5Dget_storage_size(data->id);
   const int inside = bytes == 0.0 || (at != HADDR_UNDEF && (double)at + bytes <= file_bytes);
-  const int plain = inside && own >= 0 && list >= 0 && H5Tequal(own, type) > 0 &&
-                    H5Pget_layout(list) == H5D_CONTIGUOUS;
+  const int plain =
+      inside && own >= 0 && list >= 0 && H5Tequal(own, type) > 0 && H5Pget_layout(list) == H5D_CONTIGUOUS;
   hooke_h5_drop(list);
   hooke_h5_drop(own);
   return plain;
@@ -159,7 +159,7 @@ static int32_t go_on(struct hooke_h5_guard *guard, hooke_trajectory **trajectory
     *trajectory = made;
     hooke_trajectory_release(old);
   }
-  (*trajectory)->recording.written = (*trajectory)->taken = frames_kept;
+  hooke_trajectory_keep(*trajectory, frames_kept);
   return status;
 }
 
@@ -184,6 +184,26 @@ int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
   return status;
 }
 
+int64_t hooke_trajectory_there(const hooke_trajectory *trajectory) {
+  return trajectory->there;
+}
+
+void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
+  trajectory->recording.written = trajectory->taken = frames;
+}
+
+const char *hooke_trajectory_path(const hooke_trajectory *trajectory) {
+  return trajectory->file.path;
+}
+
+void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
+  snprintf(trajectory->origin, sizeof trajectory->origin, "%s", words);
+}
+
+const char *hooke_trajectory_origin(const hooke_trajectory *trajectory) {
+  return trajectory->origin;
+}
+
 #else
 
 int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
@@ -193,6 +213,29 @@ int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
   *trajectory = NULL;
   return hooke_fail(HOOKE_NOT_BUILT, NULL,
                     "trajectories need HDF5, and this build of the library is without it");
+}
+
+int64_t hooke_trajectory_there(const hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return 0;
+}
+
+void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
+  (void)trajectory, (void)frames;
+}
+
+const char *hooke_trajectory_path(const hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return "";
+}
+
+void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
+  (void)trajectory, (void)words;
+}
+
+const char *hooke_trajectory_origin(const hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return "";
 }
 
 #endif

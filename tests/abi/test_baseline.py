@@ -108,7 +108,7 @@ def test_baseline_is_up_to_date():
         (r"HOOKE_API void hooke_state_set_time\([^)]*\);", "", (1, 0, 0)),
         (r"(hooke_system_add_particles\(hooke_system \*system, )int64_t", r"\1int32_t", (0, 1, 0)),
         (r"(HOOKE_API) int64_t (hooke_state_size\()", r"\1 double \2", (0, 1, 0)),
-        (r"(typedef int32_t hooke_observer\()int64_t", r"\1double", (0, 2, 0)),
+        (r"(typedef int32_t hooke_observer\()int64_t", r"\1double", (0, 3, 0)),
         (r"(HOOKE_API int32_t hooke_abi\(void\);)", r"\1 HOOKE_API int32_t hooke_new(void);", (0, 0, 1)),
     ],
 )

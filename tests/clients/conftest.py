@@ -60,6 +60,5 @@ def killed(tmp_path_factory):
 
 def there(path):
     """Of each frame, whether it is there."""
-    os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
     with h5py.File(path) as file:
         return ~np.isnan(file["particles/all/position/time"][:])

@@ -217,9 +217,177 @@ static void resumed_runs_end_in_the_same_bits(void **state) {
   }
 }
 
+/* Two threads, and one alone, in turn. */
+static void threads_change_nothing(void **state) {
+  (void)state;
+  static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
+  const struct moving_scene *scene = &moving_scenes[MOVING_LARGE];
+  struct random_source random = {17};
+  hooke_system *system = moving_system(scene);
+  for (int m = 0; m < 4; m++) {
+    if (!hooke_method_is_built(methods[m]) || left_out(m, 3)) continue;
+    struct run run = run_of(scene, methods[m], 0);
+    struct trace whole = trace_create(system);
+    const int64_t calls = run_whole(system, run, &whole);
+    for (int k = 0; k < 2; k++)
+      check_stops(system, run, &whole, calls, &random, methods[m]);
+    free(whole.row);
+  }
+  hooke_system_destroy(system);
+}
+
+/* In the same process, at the state where an observer stopped it, time and again. */
+static void fixed_steps_go_on_where_they_stopped(void **state) {
+  (void)state;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    hooke_system *system = moving_system(&moving_scenes[2]);
+    const struct run run = run_of(&moving_scenes[2], method, 0);
+    struct trace whole = trace_create(system), trace = trace_create(system);
+    const int64_t calls = run_whole(system, run, &whole);
+    struct course course = {.trace = &trace, .stop_at = calls / 3};
+    hooke_state *at = start_state(system);
+    start(system, run, &course);
+    check_status(hooke_integrator_run(course.integrator, at), HOOKE_STOPPED);
+    course.stop_at = calls / 2;
+    check_status(hooke_integrator_resume(course.integrator, at), HOOKE_STOPPED);
+    course.stop_at = 0;
+    check_ok(hooke_integrator_resume(course.integrator, at));
+    finish(&course, at);
+    check_same(method, &trace, &whole);
+    check_status(hooke_integrator_resume(course.integrator, at), HOOKE_BAD_CALL); /* it is at its end */
+    hooke_integrator_destroy(course.integrator);
+    hooke_state_destroy(at);
+    free(trace.row);
+    free(whole.row);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Loops of the caller's own: so many steps, a checkpoint, the other half in another integrator. */
+static void single_steps_go_on_from_a_checkpoint(void **state) {
+  (void)state;
+  char path[64];
+  snprintf(path, sizeof path, "%s/hooke-steps-%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".",
+           (long)getpid());
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    hooke_system *system = moving_system(&moving_scenes[1]);
+    const struct run run = {.method = method, .step = 1e-3};
+    hooke_integrator *whole = start_run(system, run), *half = start_run(system, run),
+                     *rest = start_run(system, run);
+    hooke_state *expected = start_state(system), *before = start_state(system), *found = start_state(system);
+    check_ok(hooke_integrator_step(whole, expected, 20));
+    check_ok(hooke_integrator_step(half, before, 11));
+    check_ok(hooke_checkpoint_write(path, half, before, NULL));
+    check_ok(hooke_checkpoint_read(path, NULL, rest, found));
+    check_ok(hooke_integrator_step(rest, found, 9));
+    const double times[] = {hooke_state_time(found), hooke_state_time(expected)};
+    check_same_bits(1, &times[0], &times[1]);
+    check_same_bits(hooke_state_size(found), hooke_state_position(found), hooke_state_position(expected));
+    check_same_bits(hooke_state_size(found), hooke_state_velocity(found), hooke_state_velocity(expected));
+    for (int k = 0; k < COUNTS; k++)
+      assert_int_equal(hooke_integrator_count(rest, counts[k]), hooke_integrator_count(whole, counts[k]));
+    hooke_state_destroy(expected);
+    hooke_state_destroy(before);
+    hooke_state_destroy(found);
+    hooke_integrator_destroy(whole);
+    hooke_integrator_destroy(half);
+    hooke_integrator_destroy(rest);
+    hooke_system_destroy(system);
+  }
+  remove_files(path);
+}
+
+/* x' = phi(t, x), which has no velocities. */
+static int32_t circle(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)n, (void)ctx;
+  rate[0] = -x[1] + 0.1 * t;
+  rate[1] = x[0];
+  return 0;
+}
+
+static int32_t stop_once(int64_t step, const hooke_state *state, void *ctx) {
+  (void)step, (void)state;
+  return --*(int64_t *)ctx == 0;
+}
+
+static void first_order_problems_go_on(void **state) {
+  (void)state;
+  static const char *const methods[] = {"forward-euler", "rk4",   "cvode-bdf",
+                                        "cvode-adams",   "rk8pd", "arkode-esdirk"};
+  char path[64];
+  snprintf(path, sizeof path, "%s/hooke-first-%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".",
+           (long)getpid());
+  for (int m = 0; m < 6; m++) {
+    if (!hooke_method_is_built(methods[m])) continue;
+    const struct run run = {
+        .method = methods[m], .step = 0.01, .duration = 2.0, .every = 0.1, .checkpoint = 0.25, .rtol = 1e-7};
+    hooke_integrator *part[3];
+    hooke_state *at[3];
+    int64_t calls = 17;
+    for (int k = 0; k < 3; k++) {
+      part[k] = start_first_order(2, circle, NULL, run);
+      check_ok(hooke_state_create_first_order(2, &at[k]));
+      hooke_state_position(at[k])[0] = 1.0;
+    }
+    check_ok(hooke_integrator_run(part[0], at[0]));
+    check_ok(hooke_integrator_on_step(part[1], 1, stop_once, &calls));
+    check_status(hooke_integrator_run(part[1], at[1]), HOOKE_STOPPED);
+    check_ok(hooke_checkpoint_write(path, part[1], at[1], NULL));
+    check_ok(hooke_checkpoint_read(path, NULL, part[2], at[2]));
+    check_ok(hooke_integrator_resume(part[2], at[2]));
+    check_same_bits(2, hooke_state_position(at[2]), hooke_state_position(at[0]));
+    assert_int_equal(hooke_integrator_count(part[2], "steps"), hooke_integrator_count(part[0], "steps"));
+    for (int k = 0; k < 3; k++) {
+      hooke_integrator_destroy(part[k]);
+      hooke_state_destroy(at[k]);
+    }
+  }
+  remove_files(path);
+}
+
+/* Restarts are part of the method: without the option there are none, and with it watching changes nothing. */
+static void the_option_decides_and_nobody_else(void **state) {
+  (void)state;
+  const struct moving_scene *scene = &moving_scenes[0];
+  if (!hooke_method_is_built("cvode-adams")) return;
+  hooke_system *system = moving_system(scene);
+  struct run run = run_of(scene, "cvode-adams", 0);
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  double *watched = new_doubles(size), *alone = new_doubles(size), *without = new_doubles(size);
+  struct trace trace = trace_create(system);
+  run_whole(system, run, &trace);
+  memcpy(watched, trace.row + (trace.frames - 1) * trace.size + 2, (size_t)size * sizeof(double));
+  run_to_end(system, run, alone, NULL);
+  run.checkpoint = 0.0;
+  run_to_end(system, run, without, NULL);
+  check_same_bits(size, alone, watched);
+  assert_true(first_difference(size, alone, without) >= 0);
+  run.checkpoint = 1e-18;
+  hooke_integrator *integrator = start_run(system, run);
+  hooke_state *at = start_state(system);
+  check_status(hooke_integrator_run(integrator, at), HOOKE_BAD_VALUE);
+  check_message("checkpoint");
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(at);
+  free(watched);
+  free(alone);
+  free(without);
+  free(trace.row);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(resumed_runs_end_in_the_same_bits),
+      cmocka_unit_test(threads_change_nothing),
+      cmocka_unit_test(fixed_steps_go_on_where_they_stopped),
+      cmocka_unit_test(single_steps_go_on_from_a_checkpoint),
+      cmocka_unit_test(first_order_problems_go_on),
+      cmocka_unit_test(the_option_decides_and_nobody_else),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -147,6 +147,39 @@ contains
     call leave(scene)
     call record%open(output("left.h5"))
     call expect(record%text("status") == "stopped" .and. record%frame_count() == 1, "with the frame that it had")
+    call record%destroy()
+    call goes_on(scene)
+  end subroutine
+
+  ! The frames that are missing, in the same file; and from a checkpoint.
+  subroutine goes_on(scene)
+    type(hooke_scene), intent(in) :: scene
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state, again
+    type(writer), target :: frames
+    type(hooke_record) :: record
+    logical :: finished
+    integer :: status
+    call integrator%create(scene%system, scene%run)
+    call state%create(scene%system)
+    call frames%trajectory%resume(output("left.h5"), scene%system, integrator, state, finished)
+    call expect(.not. finished .and. index(frames%trajectory%origin(), "no checkpoint") > 0, "from the first frame")
+    call integrator%on_frame(frames)
+    call integrator%on_checkpoint()
+    call integrator%resume(state)
+    call frames%trajectory%checkpoint(integrator, state)
+    call frames%trajectory%close(hooke_ok)
+    call record%open(output("left.h5"))
+    call expect(record%text("status") == "finished" .and. record%frame_count() == 11, "to the last one")
+    call frames%trajectory%resume(output("left.h5"), scene%system, integrator, state, finished)
+    call expect(finished, "and then no further")
+    call integrator%write_checkpoint(output("rope.checkpoint"), state, "a run")
+    call integrator%create(scene%system, scene%run)
+    call again%create(scene%system)
+    call integrator%read_checkpoint(output("rope.checkpoint"), again, "another", status)
+    call expect(status == hooke_bad_value, "of another run")
+    call integrator%read_checkpoint(output("rope.checkpoint"), again)
+    call expect(same_count(again%x, state%x) == state%size(), "the same state")
   end subroutine
 
   subroutine leave(scene)

@@ -61,11 +61,21 @@ module hooke_c_integrator
       integer(c_int64_t), value :: stride
       type(c_funptr), value :: observer
     end function
+    integer(c_int32_t) function c_integrator_on_checkpoint(integrator, observer, ctx) &
+      bind(c, name="hooke_integrator_on_checkpoint")
+      import
+      type(c_ptr), value :: integrator, ctx
+      type(c_funptr), value :: observer
+    end function
     integer(c_int64_t) function c_integrator_frame_count(integrator) bind(c, name="hooke_integrator_frame_count")
       import
       type(c_ptr), value :: integrator
     end function
     integer(c_int32_t) function c_integrator_run(integrator, state) bind(c, name="hooke_integrator_run")
+      import
+      type(c_ptr), value :: integrator, state
+    end function
+    integer(c_int32_t) function c_integrator_resume(integrator, state) bind(c, name="hooke_integrator_resume")
       import
       type(c_ptr), value :: integrator, state
     end function

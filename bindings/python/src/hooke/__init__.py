@@ -31,7 +31,7 @@ from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
-from .results import Frames, Result, run
+from .results import Frames, Result, resume, run
 from .scene import Scene
 from .state import State
 from .study import Study, study
@@ -90,6 +90,7 @@ __all__ = [
     "part_kind_summary",
     "part_kinds",
     "plot",
+    "resume",
     "run",
     "study",
     "view",

@@ -175,7 +175,9 @@ PROTOTYPES = {
     "hooke_integrator_on_frame": (STATUS, INTEGRATOR, OBSERVER, ADDRESS),
     "hooke_integrator_on_step": (STATUS, INTEGRATOR, INT64, OBSERVER, ADDRESS),
     "hooke_integrator_frame_count": (INT64, INTEGRATOR),
+    "hooke_integrator_on_checkpoint": (STATUS, INTEGRATOR, OBSERVER, ADDRESS),
     "hooke_integrator_run": (OUTCOME, INTEGRATOR, STATE),
+    "hooke_integrator_resume": (OUTCOME, INTEGRATOR, STATE),
     "hooke_integrator_step": (OUTCOME, INTEGRATOR, STATE, INT64),
     "hooke_integrator_count": (INT64, INTEGRATOR, TEXT),
     "hooke_integrator_wall_seconds": (DOUBLE, INTEGRATOR),
@@ -327,4 +329,10 @@ PROTOTYPES = {
     "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
     "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
     "hooke_needs_write_report": (STATUS, NEEDS, TEXT, TEXT, TEXT),
+    # checkpoint.h
+    "hooke_checkpoint_write": (STATUS, TEXT, INTEGRATOR, STATE, TEXT),
+    "hooke_checkpoint_read": (STATUS, TEXT, TEXT, INTEGRATOR, STATE),
+    "hooke_trajectory_checkpoint": (STATUS, TRAJECTORY, INTEGRATOR, STATE),
+    "hooke_trajectory_resume": (STATUS, TEXT, SYSTEM, INTEGRATOR, STATE, POINTER(TRAJECTORY)),
+    "hooke_trajectory_origin": (TEXT, TRAJECTORY),
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
@@ -93,17 +94,49 @@ class Integrator(Closing):
         return Options(Handle(lib.hooke_integrator_options(self._handle), None, self._handle), read_only=True)
 
     def run(
-        self, state: State, *, on_frame: Observer | None = None, on_step: tuple[int, Observer] | None = None
+        self,
+        state: State,
+        *,
+        on_frame: Observer | None = None,
+        on_step: tuple[int, Observer] | None = None,
+        on_checkpoint: Observer | None = None,
     ) -> str:
         """Runs `duration` from the state's time on and leaves the final state in `state`.
 
         ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)``
-        after every `stride` steps. Returns "finished", "stopped" (a callback asked for it), "diverged" or
-        "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
+        after every `stride` steps, and ``on_checkpoint(step, state)`` at each of the option `checkpoint`, where
+        `write_checkpoint` has all that the run can go on from. Returns "finished", "stopped" (a callback asked for
+        it), "diverged" or "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
         again; so does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
         """
-        with self._watched(state, on_frame, on_step), self._warned():
+        with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
             return self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
+
+    def resume(
+        self,
+        state: State,
+        *,
+        on_frame: Observer | None = None,
+        on_step: tuple[int, Observer] | None = None,
+        on_checkpoint: Observer | None = None,
+    ) -> str:
+        """Goes on to the end of a run from where `read_checkpoint` placed the integrator and the state, or where a
+        callback stopped a run with a fixed step, as if it had never stopped: the same bits, and the same counts.
+        Frames that were reported are not reported again. The rest is as in `run`."""
+        with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
+            return self._outcome(lib.hooke_integrator_resume(self._handle, state._handle))
+
+    def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
+        """Writes where the run stands, with `state` as observers have it, or as `run` left it where it was stopped. An
+        error-controlled method writes the last of its checkpoints. The file before stays as ``<path>.previous``; `run` (63
+        bytes at most) says which run it is."""
+        lib.hooke_checkpoint_write(os.fsencode(path), self._handle, state._handle, run.encode())
+
+    def read_checkpoint(self, path: str | os.PathLike[str], state: State, run: str | None = None) -> None:
+        """Puts the integrator and `state` where the file has them, or, if it is damaged or missing, the previous one, for
+        `resume` or `step`. BadValue for files of another problem, other options (but for threads), or another `run`."""
+        label = None if run is None else run.encode()
+        lib.hooke_checkpoint_read(os.fsencode(path), label, self._handle, state._handle)
 
     def step(self, state: State, steps: int = 1) -> str:
         """Takes `steps` steps without frames, for time loops of your own; returns an outcome as `run`
@@ -156,23 +189,28 @@ class Integrator(Closing):
         return OUTCOMES.get(code, f"outcome {code}")
 
     @contextlib.contextmanager
-    def _watched(self, state: State, on_frame: Observer | None, on_step: Any) -> Iterator[None]:
+    def _watched(
+        self, state: State, on_frame: Observer | None, on_step: Any, on_checkpoint: Observer | None
+    ) -> Iterator[None]:
         if self._running:
             raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
         # a frame observer is always there, so that Ctrl-C is noticed
         frames = _observer(on_frame or (lambda step, state: None), state)
         steps = _observer(step_observer, state) if step_observer else OBSERVER()
+        checkpoints = _observer(on_checkpoint, state) if on_checkpoint else OBSERVER()
         self._running = True
         try:
             lib.hooke_integrator_on_frame(self._handle, frames, None)
             lib.hooke_integrator_on_step(self._handle, stride, steps, None)
+            lib.hooke_integrator_on_checkpoint(self._handle, checkpoints, None)
             with _callback.interruptible():
                 yield
         finally:
             self._running = False
             lib.hooke_integrator_on_frame(self._handle, OBSERVER(), None)
             lib.hooke_integrator_on_step(self._handle, 1, OBSERVER(), None)
+            lib.hooke_integrator_on_checkpoint(self._handle, OBSERVER(), None)
 
     @contextlib.contextmanager
     def _warned(self) -> Iterator[None]:

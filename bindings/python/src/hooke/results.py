@@ -13,6 +13,7 @@ After a run that was killed, frames that were not written have the time NaN: use
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 from dataclasses import dataclass, field
@@ -22,9 +23,10 @@ import numpy as np
 
 from ._callback import stop_value
 from ._library import lib
+from ._memory import Handle
 from ._progress import shown
-from ._prototypes import TRAJECTORY
-from ._status import BadValue
+from ._prototypes import RECORD, TRAJECTORY
+from ._status import BadCall, BadValue, Error, Unsuited
 from ._types import FloatArray, Path, Table
 from .first_order import FirstOrder
 from .integrator import Integrator, Observer
@@ -111,9 +113,10 @@ def run(
     """Runs a scene (or the path of one), a system or a first-order problem, and returns the `Result`.
 
     The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
-    every [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
+    every [s], checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
     start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it comes the
-    ``.xdmf`` by which ParaView reads it), ``frames=True`` keeps all frames in memory, `force` adds a force
+    ``.xdmf`` by which ParaView reads it; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for
+    `hooke.resume`), ``frames=True`` keeps all frames in memory, `force` adds a force
     callback (see `System.set_force`), ``progress(fraction, state)`` is told at each frame, ``progress=True``
     shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
     """
@@ -132,21 +135,85 @@ def run(
         if output is None:
             status = integrator.run(state, on_frame=_all(watchers), on_step=on_step)
         else:
-            status = _run_to_file(os.fsencode(output), scene, integrator, state, watchers, on_step)
+            file = _create_file(os.fsencode(output), scene, integrator)
+            status = _run_to_file(os.fsencode(output), file, integrator.run, integrator, state, watchers, on_step)
+    return _result(status, integrator, state, output, recorder.frames() if recorder is not None else None)
+
+
+def resume(
+    output: Path,
+    problem: Runnable | None = None,
+    *,
+    threads: int | None = None,
+    force: Force | None = None,
+    progress: Progress | bool | None = None,
+    on_frame: Observer | None = None,
+    on_step: tuple[int, Observer] | None = None,
+) -> Result:
+    """Goes on with the run of the file `output`, which stopped or was killed, as if it had never stopped: the file, the
+    final state and the counts are then the same to the bit. Of a run that has finished, the `Result` is the last frame.
+
+    The options are those of the run, but for `threads`. So is the scene, unless `problem` is given, as it has to be
+    where the run was not made from a scene, or with callbacks; `force` is the force callback that it had. It goes on from the
+    checkpoint beside the file, where there is none from the last frame, and with error control from the beginning. The
+    rest is as in `run`.
+    """
+    scene, options = Scene.load(output) if problem is None else None, _options_of(output)
+    _, system, _ = resolve(scene if scene is not None else problem, force)  # type: ignore[arg-type]
+    if not isinstance(system, System):
+        raise BadValue("problem: a first-order problem has no trajectory")
+    if threads is not None:
+        options.set(threads=threads)
+    integrator, state, file = Integrator(system, options), system.state(), TRAJECTORY()
+    first = state.t
+    lib.hooke_trajectory_resume(
+        os.fsencode(output), system._handle, integrator._handle, state._handle, ctypes.byref(file)
+    )
+    if not file:
+        _read_last(output, state)
+        integrator.message = f"the run of {os.fsdecode(output)} had finished"
+        return _result("finished", integrator, state, output, None)
+    watchers: list[Observer] = [] if on_frame is None else [on_frame]
+    with shown(progress, fills=False) as tell:
+        if tell is not None:
+            watchers.append(_TimeProgress(tell, first, integrator.options["duration"]))
+        status = _run_to_file(os.fsencode(output), file, integrator.resume, integrator, state, watchers, on_step)
+    return _result(status, integrator, state, output, None)
+
+
+def _result(
+    status: str, integrator: Integrator, state: State, output: Path | None, frames: Frames | None
+) -> Result:
     return Result(
         status=status,
         message=integrator.message,
         state=state,
-        problem=problem,
+        problem=integrator._problem,
         options=integrator.options,
         counts=integrator.counts,
         wall_seconds=integrator.wall_seconds,
         diverged_at=integrator.diverged_at,
         stop_value=integrator.stop_value,
-        frames=recorder.frames() if recorder is not None else None,
+        frames=frames,
         output=output,
         integrator=integrator if status in ("diverged", "step-limit") else None,
     )
+
+
+def _record(path: Path) -> Handle:
+    pointer = RECORD()
+    lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
+    return Handle(pointer, lib.hooke_record_close)
+
+
+def _options_of(path: Path) -> Options:
+    """Those of the run of a file."""
+    record = _record(path)
+    return Options(Handle(lib.hooke_record_options(record), None, record), read_only=True).copy()
+
+
+def _read_last(path: Path, state: State) -> None:
+    lib.hooke_record_read(_record(path), -1, state._handle)
 
 
 def resolve(
@@ -191,36 +258,54 @@ def _all(watchers: list[Observer]) -> Observer:
     return watch
 
 
-def _run_to_file(
-    path: bytes,
-    scene: Scene | None,
-    integrator: Integrator,
-    state: State,
-    watchers: list[Observer],
-    on_step: tuple[int, Observer] | None,
-) -> str:
+def _create_file(path: bytes, scene: Scene | None, integrator: Integrator) -> Any:
     if not isinstance(integrator._problem, System):
         raise BadValue("output: a first-order problem has no particles to write")
     pointer = TRAJECTORY()
     lib.hooke_trajectory_create(
         path, integrator._problem._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer)
     )
+    return pointer
 
+
+def _run_to_file(
+    path: bytes,
+    file: Any,
+    run: Callable[..., str],
+    integrator: Integrator,
+    state: State,
+    watchers: list[Observer],
+    on_step: tuple[int, Observer] | None,
+) -> str:
     if not watchers:  # who watches is told of frames that are there
-        lib.hooke_trajectory_write_behind(pointer)
+        lib.hooke_trajectory_write_behind(file)
 
     def write(step: int, state: State) -> None:
-        lib.hooke_trajectory_write(pointer, step, state._handle)
+        lib.hooke_trajectory_write(file, step, state._handle)
+
+    def keep(step: int, state: State) -> None:
+        lib.hooke_trajectory_checkpoint(file, integrator._handle, state._handle)
 
     try:
-        status: str = integrator.run(state, on_frame=_all([write, *watchers]), on_step=on_step)
+        status = run(state, on_frame=_all([write, *watchers]), on_step=on_step, on_checkpoint=keep)
+        if status == "stopped":
+            _keep_place(keep, state)
     except BaseException as exception:
         outcome = getattr(exception, "status", None)
-        lib.hooke_trajectory_close(pointer, outcome if isinstance(outcome, int) else _STOPPED)
+        with contextlib.suppress(Error):  # it is the exception that matters
+            _keep_place(keep, state)
+        lib.hooke_trajectory_close(file, outcome if isinstance(outcome, int) else _STOPPED)
         raise
-    lib.hooke_trajectory_close(pointer, integrator.outcome)
+    lib.hooke_trajectory_close(file, integrator.outcome)
     write_companion(path)
     return status
+
+
+def _keep_place(keep: Callable[[int, State], None], state: State) -> None:
+    """A place to go on from, where the method has one: numbers that are not finite, and error control without
+    checkpoints, give none."""
+    with contextlib.suppress(Unsuited, BadValue, BadCall):
+        keep(0, state)
 
 
 class _Progress:
@@ -230,6 +315,14 @@ class _Progress:
     def __call__(self, step: int, state: State) -> int | None:
         fraction, self._frame = self._frame / self._last, self._frame + 1
         return self._progress(fraction, state)
+
+
+class _TimeProgress:
+    def __init__(self, progress: Progress, first: float, duration: Any):
+        self._progress, self._first, self._duration = progress, first, float(duration)
+
+    def __call__(self, step: int, state: State) -> int | None:
+        return self._progress((state.t - self._first) / self._duration, state)
 
 
 class _Recorder:

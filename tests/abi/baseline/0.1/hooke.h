@@ -220,8 +220,11 @@ HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_
                                             void *ctx);
 HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
                                            hooke_observer *observer, void *ctx);
+HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
+                                                 void *ctx);
 HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
+HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
@@ -475,6 +478,25 @@ HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke
                                            const char *path, const char *scene);
 HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
                                            const char *command);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_CHECKPOINT_H
+#define HOOKE_CHECKPOINT_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+HOOKE_API int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *integrator,
+                                         const hooke_state *state, const char *run);
+HOOKE_API int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *integrator,
+                                        hooke_state *state);
+HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
+                                              const hooke_integrator *integrator, const hooke_state *state);
+HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
+                                          hooke_integrator *integrator, hooke_state *state,
+                                          hooke_trajectory **trajectory);
+HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory);
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,156 @@
+/* Kills a process at one of its writes, to be loaded before all libraries (LD_PRELOAD). Every call that changes a regular file
+ * or a name is a point; HOOKE_CRASH_AT=n kills at the n-th: before it, or with HOOKE_CRASH_TORN=1 in its midst, when half of
+ * the bytes are there, and behind it where there are no bytes. HOOKE_CRASH_LOG names a file that is told what came about:
+ * a line "frame <time>" when the time of a frame is in its file, and at the end "points <count>".
+ *
+ * System calls are made directly. Streams write through a function of ours, since the C library's own do not pass here. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+static atomic_long passed;
+static long at = -1;
+static int torn, journal = -1;
+/* The time is the 8 bytes that are written right after the 4 of the check value. */
+static _Thread_local int after_check;
+
+__attribute__((constructor)) static void begin(void) {
+  const char *number = getenv("HOOKE_CRASH_AT"), *kind = getenv("HOOKE_CRASH_TORN"),
+             *path = getenv("HOOKE_CRASH_LOG");
+  if (number) at = strtol(number, NULL, 10);
+  torn = kind && strcmp(kind, "1") == 0;
+  if (path)
+    journal = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+}
+
+static void tell(const char *line, int length) {
+  if (journal >= 0) syscall(SYS_write, journal, line, (size_t)length);
+}
+
+__attribute__((destructor)) static void end(void) {
+  char line[64];
+  tell(line, snprintf(line, sizeof line, "points %ld\n", atomic_load(&passed)));
+}
+
+static int is_file(int descriptor) {
+  struct stat there;
+  return fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode);
+}
+
+static int is_here(void) {
+  return atomic_fetch_add(&passed, 1) + 1 == at;
+}
+
+static void die(void) {
+  syscall(SYS_kill, getpid(), SIGKILL);
+  for (;;)
+    pause();
+}
+
+static ssize_t write_bytes(int descriptor, const void *bytes, size_t count, off_t place, int has_place) {
+  const int here = is_file(descriptor) && is_here();
+  const size_t some = here ? torn ? count / 2 : 0 : count;
+  ssize_t done = 0;
+  if (some > 0 || !here)
+    done = has_place ? syscall(SYS_pwrite64, descriptor, bytes, some, place)
+                     : syscall(SYS_write, descriptor, bytes, some);
+  if (here) die();
+  return done;
+}
+
+static void see_frame(const void *bytes, size_t count) {
+  char line[64];
+  double time;
+  if (after_check && count == sizeof time) {
+    memcpy(&time, bytes, sizeof time);
+    tell(line, snprintf(line, sizeof line, "frame %a\n", time));
+  }
+  after_check = count == 4;
+}
+
+ssize_t pwrite(int descriptor, const void *bytes, size_t count, off_t place) {
+  const ssize_t done = write_bytes(descriptor, bytes, count, place, 1);
+  if (done == (ssize_t)count) see_frame(bytes, count);
+  return done;
+}
+
+ssize_t pwrite64(int descriptor, const void *bytes, size_t count, off_t place) {
+  return write_bytes(descriptor, bytes, count, place, 1);
+}
+
+ssize_t write(int descriptor, const void *bytes, size_t count) {
+  return write_bytes(descriptor, bytes, count, 0, 0);
+}
+
+/* A call without bytes: what is left of it is nothing or all. */
+#define CALL(counts, call)                                                                                   \
+  const int here = (counts) && is_here();                                                                    \
+  if (here && !torn) die();                                                                                  \
+  const int result = (int)(call);                                                                            \
+  if (here) die();                                                                                           \
+  return result
+
+int ftruncate(int descriptor, off_t length) {
+  CALL(is_file(descriptor), syscall(SYS_ftruncate, descriptor, length));
+}
+
+int ftruncate64(int descriptor, off_t length) {
+  CALL(is_file(descriptor), syscall(SYS_ftruncate, descriptor, length));
+}
+
+int truncate(const char *path, off_t length) {
+  CALL(1, syscall(SYS_truncate, path, length));
+}
+
+int posix_fallocate(int descriptor, off_t first, off_t length) {
+  CALL(1, syscall(SYS_fallocate, descriptor, 0, first, length) == 0 ? 0 : errno);
+}
+
+int fsync(int descriptor) {
+  CALL(1, syscall(SYS_fsync, descriptor));
+}
+
+int fdatasync(int descriptor) {
+  CALL(1, syscall(SYS_fdatasync, descriptor));
+}
+
+int rename(const char *from, const char *to) {
+  CALL(1, syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+}
+
+int unlink(const char *path) {
+  CALL(1, syscall(SYS_unlinkat, AT_FDCWD, path, 0));
+}
+
+/* ---- streams ---- */
+
+static ssize_t write_stream(void *stream, const char *bytes, size_t count) {
+  return write((int)(intptr_t)stream, bytes, count);
+}
+
+static int close_stream(void *stream) {
+  return close((int)(intptr_t)stream);
+}
+
+FILE *fopen(const char *path, const char *mode) {
+  FILE *(*ours)(const char *, const char *);
+  void *symbol = dlsym(RTLD_NEXT, "fopen");
+  memcpy(&ours, &symbol, sizeof ours);
+  struct stat there;
+  if (mode[0] != 'w' || (stat(path, &there) == 0 && !S_ISREG(there.st_mode))) return ours(path, mode);
+  const int fresh = strchr(mode, 'x') != NULL;
+  const int descriptor = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | (fresh ? O_EXCL : O_TRUNC), 0666);
+  if (descriptor < 0) return NULL;
+  return fopencookie((void *)(intptr_t)descriptor, "w",
+                     (cookie_io_functions_t){.write = write_stream, .close = close_stream});
+}

@@ -1,0 +1,409 @@
+/* Going on in the file of a run that was killed or ended early: the same frames as if it never had, and no other file. */
+#include "check.h"
+#include "file_limit.h"
+#include "io/trajectory.h"
+#include "run.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { N = 7, FRAMES = 11, PATH_SIZE = 256 };
+
+static hooke_system *rope(int particles) {
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
+  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
+  check_ok(hooke_options_set_number(options, "segments", particles - 1));
+  check_ok(hooke_options_set_number(options, "mass", 0.5));
+  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
+  check_ok(hooke_options_set_text(options, "pinned", "start"));
+  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+static hooke_integrator *integrator_of(hooke_system *system, double duration) {
+  return start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 0.01});
+}
+
+#if HOOKE_HAVE_HDF5
+
+struct fixture {
+  hooke_system *system;
+  hooke_integrator *integrator;
+  hooke_state *frame[FRAMES]; /* of the run that nobody stops */
+  char folder[PATH_SIZE / 2], path[PATH_SIZE], other[PATH_SIZE];
+};
+
+static int set_up(void **state) {
+  struct fixture *f = new_block(1, sizeof *f);
+  f->system = rope(N);
+  f->integrator = integrator_of(f->system, 0.1);
+  for (int k = 0; k < FRAMES; k++) {
+    f->frame[k] = start_state(f->system);
+    if (k == 0) continue;
+    hooke_state_copy(f->frame[k - 1], f->frame[k]);
+    check_ok(hooke_integrator_step(f->integrator, f->frame[k], 10));
+  }
+  snprintf(f->folder, sizeof f->folder, "%s/hooke-reopen-XXXXXX", P_tmpdir);
+  assert_non_null(mkdtemp(f->folder));
+  snprintf(f->path, sizeof f->path, "%s/out.h5", f->folder);
+  snprintf(f->other, sizeof f->other, "%s/other.h5", f->folder);
+  *state = f;
+  return 0;
+}
+
+static int tear_down(void **state) {
+  struct fixture *f = *state;
+  for (int k = 0; k < FRAMES; k++)
+    hooke_state_destroy(f->frame[k]);
+  hooke_integrator_destroy(f->integrator);
+  hooke_system_destroy(f->system);
+  unlink(f->path);
+  unlink(f->other);
+  const int result = rmdir(f->folder); /* nothing is left behind */
+  free(f);
+  return result;
+}
+
+static hooke_trajectory *create(const struct fixture *f, const char *path) {
+  hooke_trajectory *trajectory;
+  check_ok(hooke_trajectory_create(path, f->system, f->integrator, "{}", &trajectory));
+  return trajectory;
+}
+
+static hooke_trajectory *reopen(const struct fixture *f, int64_t kept) {
+  hooke_trajectory *trajectory;
+  check_ok(hooke_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory));
+  return trajectory;
+}
+
+static void write_frames(const struct fixture *f, hooke_trajectory *trajectory, int64_t first, int64_t end) {
+  for (int64_t k = first; k < end; k++)
+    check_ok(hooke_trajectory_write(trajectory, 10 * k, f->frame[k]));
+}
+
+/* A process that writes so many frames and is killed. */
+static void be_killed(const struct fixture *f, int64_t frames, int64_t kept) {
+  const pid_t child = fork();
+  if (child == 0) {
+    hooke_trajectory *trajectory = kept < 0 ? create(f, f->path) : reopen(f, kept);
+    write_frames(f, trajectory, kept < 0 ? 0 : kept, frames);
+    raise(SIGKILL);
+  }
+  int status;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+static void end_early(const struct fixture *f, int64_t frames) {
+  hooke_trajectory *trajectory = create(f, f->path);
+  write_frames(f, trajectory, 0, frames);
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+}
+
+/* Exactly these frames, each to the bit. */
+static void check_frames(const struct fixture *f, int64_t count, const char *status) {
+  hooke_record *record;
+  hooke_state *state = start_state(f->system);
+  check_ok(hooke_record_open(f->path, &record));
+  assert_int_equal(hooke_record_frame_count(record), count);
+  assert_string_equal(hooke_record_text(record, "status"), status);
+  for (int64_t k = 0; k < count; k++) {
+    check_ok(hooke_record_read(record, k, state));
+    check_same_bits(3 * N, hooke_state_position(state), hooke_state_position(f->frame[k]));
+    check_same_bits(3 * N, hooke_state_velocity(state), hooke_state_velocity(f->frame[k]));
+    assert_true(hooke_state_time(state) == hooke_state_time(f->frame[k]));
+  }
+  hooke_state_destroy(state);
+  hooke_record_close(record);
+}
+
+static int64_t planned(const struct fixture *f) {
+  hooke_record *record;
+  int64_t rows, columns;
+  check_ok(hooke_record_open(f->path, &record));
+  check_ok(hooke_record_size(record, "time", &rows, &columns));
+  hooke_record_close(record);
+  return rows;
+}
+
+static void read_run(const struct fixture *f, char run[64]) {
+  hooke_record *record;
+  check_ok(hooke_record_open(f->path, &record));
+  snprintf(run, 64, "%s", hooke_record_text(record, "run"));
+  hooke_record_close(record);
+}
+
+static char *bytes_of(const char *path, size_t *count) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  assert_int_equal(fseek(file, 0, SEEK_END), 0);
+  *count = (size_t)ftell(file);
+  rewind(file);
+  char *bytes = new_block((int64_t)*count, 1);
+  assert_int_equal(fread(bytes, 1, *count, file), *count);
+  fclose(file);
+  return bytes;
+}
+
+/* Changes byte number `at` of bytes that are found somewhere in the file. */
+static void damage(const char *path, const void *found, size_t length, int64_t at) {
+  size_t count;
+  char *bytes = bytes_of(path, &count);
+  FILE *file = fopen(path, "r+b");
+  size_t k = 0;
+  while (k + length <= count && memcmp(bytes + k, found, length) != 0)
+    k++;
+  assert_true(k + length <= count);
+  assert_int_equal(fseek(file, (long)(k + (size_t)at), SEEK_SET), 0);
+  fputc(bytes[k + (size_t)at] ^ 1, file);
+  assert_int_equal(fclose(file), 0);
+  free(bytes);
+}
+
+static void a_killed_run_ends_as_if_it_never_was(void **state) {
+  const struct fixture *f = *state;
+  const int64_t killed_after[] = {0, 1, 4, 10, FRAMES};
+  for (int k = 0; k < 5; k++) {
+    const int64_t killed = killed_after[k];
+    for (int64_t kept = killed > 2 ? killed - 2 : 0; kept <= killed; kept++) {
+      char run[64];
+      be_killed(f, killed, -1);
+      read_run(f, run);
+      be_killed(f, kept < FRAMES ? kept + 1 : kept, kept); /* once more, soon after it went on */
+      check_frames(f, killed > kept ? killed : kept < FRAMES ? kept + 1 : kept, "running");
+      hooke_trajectory *trajectory = reopen(f, kept);
+      assert_string_equal(hooke_trajectory_run(trajectory), run);
+      write_frames(f, trajectory, kept, FRAMES);
+      check_status(hooke_trajectory_write(trajectory, 0, f->frame[0]), HOOKE_BAD_CALL);
+      check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+      check_frames(f, FRAMES, "finished");
+
+      size_t size, whole_size;
+      trajectory = create(f, f->other);
+      write_frames(f, trajectory, 0, FRAMES);
+      memcpy(run, hooke_trajectory_run(trajectory), 33);
+      check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+      char *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
+      assert_int_equal(size, whole_size);
+      int64_t different = 0;
+      for (size_t at = 0; at < size; at++)
+        different += bytes[at] != whole[at];
+      assert_true(different <= 32); /* the name of the run */
+      free(bytes);
+      free(whole);
+    }
+  }
+}
+
+static void a_run_that_ended_early_goes_on(void **state) {
+  const struct fixture *f = *state;
+  for (int64_t kept = 0; kept <= 6; kept += 3) {
+    char run[64], now[64];
+    end_early(f, 6);
+    assert_int_equal(planned(f), 6);
+    read_run(f, run);
+    hooke_trajectory *trajectory = reopen(f, kept);
+    assert_string_equal(hooke_trajectory_run(trajectory), run);
+    assert_int_equal(planned(f), FRAMES);
+    check_frames(f, 6, "running");
+    write_frames(f, trajectory, kept, FRAMES);
+    check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+    check_frames(f, FRAMES, "finished");
+    read_run(f, now);
+    assert_string_equal(run, now);
+  }
+}
+
+/* What was reported once stays, also when the second run does not come as far as the first. */
+static void no_frame_is_lost(void **state) {
+  const struct fixture *f = *state;
+  be_killed(f, 8, -1);
+  hooke_trajectory *trajectory = reopen(f, 2);
+  write_frames(f, trajectory, 2, 5);
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+  check_frames(f, 8, "stopped");
+  assert_int_equal(planned(f), 8);
+  trajectory = reopen(f, 5);
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+  check_frames(f, 8, "stopped");
+}
+
+static void check_refused(const struct fixture *f, int64_t kept, const char *message) {
+  size_t before_size, size;
+  hooke_trajectory *trajectory;
+  char *before = bytes_of(f->path, &before_size);
+  check_status(hooke_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory),
+               HOOKE_BAD_VALUE);
+  check_message(message);
+  assert_null(trajectory);
+  char *bytes = bytes_of(f->path, &size);
+  assert_int_equal(before_size, size);
+  assert_memory_equal(before, bytes, size);
+  free(before);
+  free(bytes);
+}
+
+static void a_damaged_frame_is_refused_by_name(void **state) {
+  const struct fixture *f = *state;
+  be_killed(f, 8, -1);
+  damage(f->path, hooke_state_velocity(f->frame[3]), 3 * N * sizeof(double), 100);
+  check_refused(f, 8, "frame 3 of ");
+  check_refused(f, 4, "frame 3 of ");
+  /* one that is going to be written again is no harm; those after it are not known to be there */
+  hooke_trajectory *trajectory = reopen(f, 3);
+  write_frames(f, trajectory, 3, FRAMES);
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  check_frames(f, FRAMES, "finished");
+}
+
+static void frames_that_were_never_there_are_missed(void **state) {
+  const struct fixture *f = *state;
+  be_killed(f, 5, -1);
+  check_refused(f, 6, "frame 5 of ");
+  end_early(f, 5);
+  check_refused(f, 6, "it has fewer frames than the run had written");
+}
+
+static void check_other(struct fixture *f, int particles, double duration, const char *message) {
+  hooke_system *system = f->system;
+  hooke_integrator *integrator = f->integrator;
+  f->system = rope(particles);
+  f->integrator = integrator_of(f->system, duration);
+  check_refused(f, 2, message);
+  hooke_integrator_destroy(f->integrator);
+  hooke_system_destroy(f->system);
+  f->system = system;
+  f->integrator = integrator;
+}
+
+static void other_files_are_refused(void **state) {
+  struct fixture *f = *state;
+  hooke_trajectory *trajectory;
+  be_killed(f, 5, -1);
+  check_other(f, N + 1, 0.1, "is not there as a run of this system makes it");
+  check_other(f, N, 0.05, "it was made for more frames");
+  FILE *file = fopen(f->other, "w");
+  fputs("no HDF5", file);
+  fclose(file);
+  const char *const path[] = {f->other, "/dev/null", f->folder, "/no/such/file.h5"};
+  for (int k = 0; k < 4; k++) {
+    check_status(hooke_trajectory_reopen(path[k], f->system, f->integrator, 0, &trajectory), HOOKE_IO_FAILED);
+    check_message(path[k]);
+    assert_null(trajectory);
+  }
+}
+
+static void without_room_the_short_file_stays(void **state) {
+  const struct fixture *f = *state;
+  hooke_trajectory *trajectory;
+  end_early(f, 6);
+  for (int64_t size = 0; size < 30000; size += 1500) {
+    limit_files(size);
+    const int32_t status = hooke_trajectory_reopen(f->path, f->system, f->integrator, 6, &trajectory);
+    lift_file_limit();
+    if (status == HOOKE_OK) {
+      assert_true(size > 5000);
+      check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+      break;
+    }
+    assert_int_equal(status, HOOKE_IO_FAILED);
+    check_message("File too large");
+    check_frames(f, 6, "stopped");
+  }
+  check_frames(f, 6, "stopped");
+}
+
+/* ---- sync ---- */
+
+static void sync_brings_frames_to_the_disk(void **state) {
+  const struct fixture *f = *state;
+  hooke_trajectory *trajectory = create(f, f->path);
+  check_ok(hooke_trajectory_sync(trajectory));
+  write_frames(f, trajectory, 0, 4);
+  check_ok(hooke_trajectory_sync(trajectory));
+  check_frames(f, 4, "running");
+  limit_files(1000);
+  check_status(hooke_trajectory_write(trajectory, 40, f->frame[4]), HOOKE_IO_FAILED);
+  lift_file_limit();
+  check_status(hooke_trajectory_sync(trajectory), HOOKE_IO_FAILED);
+  check_message("write frame 4: File too large");
+  check_status(hooke_trajectory_close(trajectory, HOOKE_OK), HOOKE_IO_FAILED);
+  check_frames(f, 4, "failed");
+}
+
+/* Another file that takes the name while a run goes on is neither written to nor replaced, and the run does not say that its
+ * frames are there. */
+static void another_file_of_the_name_is_left_alone(void **state) {
+  const struct fixture *f = *state;
+  for (int early = 0; early <= 1; early++) {
+    for (int gone = 0; gone <= 1; gone++) {
+      hooke_trajectory *trajectory = create(f, f->path), *second = NULL;
+      write_frames(f, trajectory, 0, early ? 4 : FRAMES);
+      unlink(f->path);
+      if (!gone) {
+        second = create(f, f->path);
+        write_frames(f, second, 0, 2);
+      }
+      check_status(hooke_trajectory_close(trajectory, early ? HOOKE_STOPPED : HOOKE_OK), HOOKE_IO_FAILED);
+      check_message(f->path);
+      if (gone) continue;
+      check_message("another file has taken this name");
+      check_frames(f, 2, "running");
+      check_ok(hooke_trajectory_close(second, HOOKE_STOPPED));
+      check_frames(f, 2, "stopped");
+    }
+  }
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      TEST(a_killed_run_ends_as_if_it_never_was),
+      TEST(a_run_that_ended_early_goes_on),
+      TEST(no_frame_is_lost),
+      TEST(a_damaged_frame_is_refused_by_name),
+      TEST(frames_that_were_never_there_are_missed),
+      TEST(other_files_are_refused),
+      TEST(without_room_the_short_file_stays),
+      TEST(sync_brings_frames_to_the_disk),
+      TEST(another_file_of_the_name_is_left_alone),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+static void it_is_not_in_this_build(void **unused) {
+  (void)unused;
+  hooke_system *system = rope(N);
+  hooke_integrator *integrator = integrator_of(system, 0.1);
+  hooke_trajectory *trajectory;
+  check_status(hooke_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
+  assert_null(trajectory);
+  check_status(hooke_trajectory_sync(NULL), HOOKE_NOT_BUILT);
+  check_status(hooke_record_check(NULL, 0), HOOKE_NOT_BUILT);
+  assert_string_equal(hooke_trajectory_run(NULL), "");
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_not_in_this_build)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
