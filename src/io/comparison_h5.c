@@ -256,17 +256,18 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
 
 /* The same file with room for exactly the frames that there are, and all that does not change with them. */
 static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
-                           struct hooke_recording *recording) {
-  herr_t result = hooke_h5md_copy(old, shorter);
+                           struct hooke_recording *recording, struct hooke_h5_copy *copy) {
+  herr_t result = hooke_h5md_copy(old, shorter, copy);
   for (int64_t k = 0; result >= 0 && k <= file->row_count; k++)
-    result =
-        hooke_recording_copy(&file->recording[k], old, shorter, file->recording[k].written, &recording[k]);
+    result = hooke_recording_copy(&file->recording[k], old, shorter, file->recording[k].written,
+                                  &recording[k], copy);
   if (result >= 0) result = hooke_h5md_refer(shorter, "all");
-  return result < 0 ? result : H5Ocopy(old, "comparison", shorter, "comparison", H5P_DEFAULT, H5P_DEFAULT);
+  return result < 0 ? result : hooke_h5_copy(old, shorter, "comparison", NULL, copy);
 }
 
-static int copy_frames(const hooke_comparison_file *file, int descriptor, struct hooke_recording *recording) {
-  int error = 0;
+static int copy_all(const hooke_comparison_file *file, const struct hooke_h5_copy *copy, int descriptor,
+                    struct hooke_recording *recording) {
+  int error = hooke_h5_copy_bytes(copy, file->file.descriptor, descriptor);
   for (int64_t k = 0; error == 0 && k <= file->row_count; k++) {
     recording[k].file.descriptor = descriptor;
     error = hooke_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
@@ -278,6 +279,7 @@ static int copy_frames(const hooke_comparison_file *file, int descriptor, struct
 static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file,
                        struct hooke_recording *recording) {
   const char *what = "shorten the file to the frames it has";
+  struct hooke_h5_copy copy = {0};
   struct hooke_h5_file shorter;
   hid_t old;
   double bytes = hooke_h5_file_bytes(&file->file);
@@ -286,11 +288,12 @@ static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file
   int32_t status = hooke_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
   status = hooke_h5_file_create(guard, file->file.path, bytes, &shorter);
-  if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording) < 0)
+  if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording, &copy) < 0)
     status = hooke_h5_fail(guard, file->file.path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = hooke_h5_file_settle(guard, &shorter);
-  const int error = status == HOOKE_OK ? copy_frames(file, shorter.descriptor, recording) : 0;
+  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.descriptor, recording) : 0;
+  hooke_h5_copy_release(&copy);
   if (error) status = hooke_place_fail(file->file.path, what, error);
   if (status == HOOKE_OK) status = hooke_h5_file_publish(&shorter);
   if (status == HOOKE_OK) status = hooke_h5_file_close(&shorter);

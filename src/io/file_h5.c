@@ -122,12 +122,19 @@ static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_fil
   return hooke_place_fail(file->path, "make room for all frames", error);
 }
 
+/* What could not be closed must not be closed again, which crashes some versions: it is lost. */
+static int32_t close_for_good(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const herr_t result = H5Fclose(file->id);
+  file->id = -1;
+  return result < 0 ? hooke_h5_fail(guard, file->path, "close the file") : HOOKE_OK;
+}
+
 int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
-  const int32_t status = take_room(guard, file);
+  int32_t status = take_room(guard, file);
   if (status != HOOKE_OK) return status;
   if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) return hooke_h5_fail(guard, file->path, "write");
-  if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
-  file->id = -1;
+  status = close_for_good(guard, file);
+  if (status != HOOKE_OK) return status;
   file->descriptor = open(file->temporary, O_RDWR | O_CLOEXEC);
   return file->descriptor < 0 ? hooke_place_fail(file->path, "open the file again", errno) : HOOKE_OK;
 }
@@ -147,9 +154,8 @@ int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
 }
 
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
-  if (H5Fclose(file->id) < 0) return hooke_h5_fail(guard, file->path, "close the file");
-  file->id = -1;
-  return hooke_place_take(file->path, &file->temporary);
+  const int32_t status = close_for_good(guard, file);
+  return status != HOOKE_OK ? status : hooke_place_take(file->path, &file->temporary);
 }
 
 int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {

@@ -44,7 +44,7 @@ int32_t hooke_h5_file_publish(struct hooke_h5_file *file);
 /* Brings everything to the disk, and closes. HOOKE_IO_FAILED, also if another file has taken the name meanwhile. */
 int32_t hooke_h5_file_close(struct hooke_h5_file *file);
 
-/* Closes for HDF5, brings everything to the disk and takes the place of an older file. HOOKE_IO_FAILED leaves it open. */
+/* Closes for HDF5, brings everything to the disk and takes the place of an older file. HOOKE_IO_FAILED. */
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
 
 /* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name meanwhile. The

@@ -151,14 +151,12 @@ herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *gr
   return result < 0 ? result : write_rest_lengths(file, system);
 }
 
-herr_t hooke_h5md_copy(hid_t from, hid_t to) {
+herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy) {
   const char *const names[] = {"h5md", "hooke", "connectivity"};
   herr_t result = 0;
-  for (int k = 0; result >= 0 && k < 3; k++) {
-    result = H5Ocopy(from, names[k], to, names[k], H5P_DEFAULT, H5P_DEFAULT);
-  }
-  /* a reference does not survive a copy to another file */
-  return result < 0 ? result : H5Adelete_by_name(to, "connectivity/springs", "particles_group", H5P_DEFAULT);
+  for (int k = 0; result >= 0 && k < 3; k++)
+    result = hooke_h5_copy(from, to, names[k], "frame_check", copy);
+  return result;
 }
 
 static const char *outcome_word(int32_t outcome) {

@@ -15,6 +15,7 @@
 #define HOOKE_IO_H5MD_H5_H
 
 #include "hooke/integrator.h"
+#include "io/copy_h5.h"
 
 #include <hdf5.h>
 
@@ -34,9 +35,9 @@ enum { HOOKE_RUN_SIZE = 33 };
 int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]);
 herr_t hooke_h5md_write_run(hid_t file, const char *run);
 
-/* Copies everything but particles and observables to another file; hooke_h5md_refer() has to follow when the particles
- * group is there. */
-herr_t hooke_h5md_copy(hid_t from, hid_t to);
+/* Makes everything but particles, observables and check values again in another file; hooke_h5md_refer() has to follow when
+ * the particles group is there. */
+herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy);
 herr_t hooke_h5md_refer(hid_t file, const char *group);
 
 /* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a

@@ -212,22 +212,17 @@ int hooke_recording_write(struct hooke_recording *recording, int64_t step, const
 
 /* ---- copying ---- */
 
-static herr_t copy_object(hid_t from, hid_t to, const char *group, const char *name) {
-  char path[96];
-  snprintf(path, sizeof path, "/particles/%s/%s", group, name);
-  return H5Ocopy(from, path, to, path, H5P_DEFAULT, H5P_DEFAULT);
-}
-
 herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t from_file, hid_t file,
-                            int64_t frame_count, struct hooke_recording *to) {
-  char check[HOOKE_RECORDING_PATH];
+                            int64_t frame_count, struct hooke_recording *to, struct hooke_h5_copy *copy) {
+  const char *const names[] = {"box", "species", "mass"};
   start(to, from->system, from->group, from->file.particle_count, frame_count);
-  hooke_recording_path(from->group, HOOKE_FRAME_CHECK, check);
-  herr_t result = H5Ldelete(file, check, H5P_DEFAULT); /* it came with /hooke, of another length */
-  if (result >= 0) result = make_arrays(file, to, 1);
-  if (result >= 0) result = copy_object(from_file, file, from->group, "box");
-  if (result >= 0) result = copy_object(from_file, file, from->group, "species");
-  return result < 0 ? result : copy_object(from_file, file, from->group, "mass");
+  herr_t result = make_arrays(file, to, 1);
+  for (int k = 0; result >= 0 && k < 3; k++) {
+    char path[96];
+    snprintf(path, sizeof path, "particles/%s/%s", from->group, names[k]);
+    result = hooke_h5_copy(from_file, file, path, NULL, copy);
+  }
+  return result;
 }
 
 #endif

@@ -15,6 +15,7 @@
 #ifndef HOOKE_IO_RECORDING_H5_H
 #define HOOKE_IO_RECORDING_H5_H
 
+#include "io/copy_h5.h"
 #include "io/frame_file.h"
 
 #include <hdf5.h>
@@ -42,9 +43,9 @@ herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char
 /* Writes the next frame; there has to be room for it. 0, or the number of the system's error. */
 int hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state);
 
-/* Makes the same arrays in another file, into which /hooke was copied, for another number of frames; and copies what does
- * not change with time. hooke_frame_copy() copies frames, when HDF5 is done with the other file. */
+/* Makes the same arrays in another file, which has /hooke, for another number of frames, and what does not change with time.
+ * hooke_frame_copy() copies frames, when HDF5 is done with the other file. */
 herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t from_file, hid_t file,
-                            int64_t frame_count, struct hooke_recording *to);
+                            int64_t frame_count, struct hooke_recording *to, struct hooke_h5_copy *copy);
 
 #endif

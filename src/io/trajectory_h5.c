@@ -160,28 +160,41 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
 
 /* ---- closing ---- */
 
+static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t frame_count,
+                         hooke_trajectory *made, struct hooke_h5_copy *copy) {
+  herr_t result = hooke_h5md_copy(old, made->file.id, copy);
+  if (result >= 0)
+    result =
+        hooke_recording_copy(&trajectory->recording, old, made->file.id, frame_count, &made->recording, copy);
+  return result < 0 ? result : hooke_h5md_refer(made->file.id, "all");
+}
+
+static int copy_all(const hooke_trajectory *trajectory, const struct hooke_h5_copy *copy, int64_t frames,
+                    int32_t outcome, const hooke_trajectory *made) {
+  int error = hooke_h5_copy_bytes(copy, trajectory->file.descriptor, made->file.descriptor);
+  if (error == 0) error = hooke_frame_copy(&trajectory->recording.file, &made->recording.file, frames);
+  return error ? error : hooke_h5md_write_status(made->file.descriptor, made->status_at, outcome);
+}
+
 int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory,
                                 int64_t frame_count, int64_t copied, int32_t outcome,
                                 hooke_trajectory *made) {
-  const struct hooke_recording *recording = &trajectory->recording;
   const char *path = trajectory->file.path, *what = "make it again for another number of frames";
+  const double bytes = hooke_h5_file_bytes(&trajectory->file) -
+                       hooke_recording_bytes_after(&trajectory->recording, frame_count);
+  struct hooke_h5_copy copy = {0};
   hid_t old;
   int32_t status = hooke_h5_file_open(guard, &trajectory->file, &old);
   if (status != HOOKE_OK) return status;
-  const double bytes =
-      hooke_h5_file_bytes(&trajectory->file) - hooke_recording_bytes_after(recording, frame_count);
   status = hooke_h5_file_create(guard, path, bytes, &made->file);
-  herr_t result = status == HOOKE_OK ? hooke_h5md_copy(old, made->file.id) : 0;
-  if (status == HOOKE_OK && result >= 0)
-    result = hooke_recording_copy(recording, old, made->file.id, frame_count, &made->recording);
-  if (status == HOOKE_OK && result >= 0) result = hooke_h5md_refer(made->file.id, "all");
-  if (result < 0) status = hooke_h5_fail(guard, path, what);
+  if (status == HOOKE_OK && make_again(trajectory, old, frame_count, made, &copy) < 0)
+    status = hooke_h5_fail(guard, path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = settle(guard, made);
-  if (status != HOOKE_OK) return status;
-  int error = hooke_frame_copy(&recording->file, &made->recording.file, copied);
-  if (error == 0) error = hooke_h5md_write_status(made->file.descriptor, made->status_at, outcome);
-  return error ? hooke_place_fail(path, what, error) : hooke_h5_file_publish(&made->file);
+  const int error = status == HOOKE_OK ? copy_all(trajectory, &copy, copied, outcome, made) : 0;
+  hooke_h5_copy_release(&copy);
+  if (error) return hooke_place_fail(path, what, error);
+  return status == HOOKE_OK ? hooke_h5_file_publish(&made->file) : status;
 }
 
 /* A new file with exactly the frames that are there takes the place of ours. */

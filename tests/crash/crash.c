@@ -1,6 +1,7 @@
 /* Kills a process at one of its writes, to be loaded before all libraries (LD_PRELOAD). Every call that changes a regular file
  * or a name is a point; HOOKE_CRASH_AT=n kills at the n-th: before it, or with HOOKE_CRASH_TORN=1 in its midst, when half of
- * the bytes are there, and behind it where there are no bytes. HOOKE_CRASH_LOG names a file that is told what came about:
+ * the bytes are there, and behind it where there are no bytes. With HOOKE_CRASH_ERROR=number it is not killed, but told that
+ * the call has failed; with HOOKE_CRASH_FROM=1 every call from there on. HOOKE_CRASH_LOG names a file that is told what came about:
  * a line "frame <time>" when the time of a frame is in its file, and at the end "points <count>".
  *
  * System calls are made directly. Streams write through a function of ours, since the C library's own do not pass here. */
@@ -20,15 +21,21 @@
 
 static atomic_long passed;
 static long at = -1;
-static int torn, journal = -1;
+static int torn, failure, from_here_on, journal = -1;
 /* The time is the 8 bytes that are written right after the 4 of the check value. */
 static _Thread_local int after_check;
 
+static long number_of(const char *name, long fallback) {
+  const char *text = getenv(name);
+  return text ? strtol(text, NULL, 10) : fallback;
+}
+
 __attribute__((constructor)) static void begin(void) {
-  const char *number = getenv("HOOKE_CRASH_AT"), *kind = getenv("HOOKE_CRASH_TORN"),
-             *path = getenv("HOOKE_CRASH_LOG");
-  if (number) at = strtol(number, NULL, 10);
-  torn = kind && strcmp(kind, "1") == 0;
+  const char *path = getenv("HOOKE_CRASH_LOG");
+  at = number_of("HOOKE_CRASH_AT", -1);
+  torn = (int)number_of("HOOKE_CRASH_TORN", 0);
+  failure = (int)number_of("HOOKE_CRASH_ERROR", 0);
+  from_here_on = (int)number_of("HOOKE_CRASH_FROM", 0);
   if (path)
     journal = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
 }
@@ -48,7 +55,13 @@ static int is_file(int descriptor) {
 }
 
 static int is_here(void) {
-  return atomic_fetch_add(&passed, 1) + 1 == at;
+  const long point = atomic_fetch_add(&passed, 1) + 1;
+  return point == at || (from_here_on && at > 0 && point > at);
+}
+
+static int fail(void) {
+  errno = failure;
+  return -1;
 }
 
 static void die(void) {
@@ -59,6 +72,7 @@ static void die(void) {
 
 static ssize_t write_bytes(int descriptor, const void *bytes, size_t count, off_t place, int has_place) {
   const int here = is_file(descriptor) && is_here();
+  if (here && failure) return fail();
   const size_t some = here ? torn ? count / 2 : 0 : count;
   ssize_t done = 0;
   if (some > 0 || !here)
@@ -95,6 +109,7 @@ ssize_t write(int descriptor, const void *bytes, size_t count) {
 /* A call without bytes: what is left of it is nothing or all. */
 #define CALL(counts, call)                                                                                   \
   const int here = (counts) && is_here();                                                                    \
+  if (here && failure) return fail();                                                                        \
   if (here && !torn) die();                                                                                  \
   const int result = (int)(call);                                                                            \
   if (here) die();                                                                                           \
@@ -112,8 +127,12 @@ int truncate(const char *path, off_t length) {
   CALL(1, syscall(SYS_truncate, path, length));
 }
 
+static int fallocate_here(int descriptor, off_t first, off_t length) {
+  CALL(1, syscall(SYS_fallocate, descriptor, 0, first, length));
+}
+
 int posix_fallocate(int descriptor, off_t first, off_t length) {
-  CALL(1, syscall(SYS_fallocate, descriptor, 0, first, length) == 0 ? 0 : errno);
+  return fallocate_here(descriptor, first, length) == 0 ? 0 : errno;
 }
 
 int fsync(int descriptor) {

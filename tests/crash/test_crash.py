@@ -1,9 +1,10 @@
 """A run is killed at each of its writes in turn, before it and in its midst: what was reported is there to the bit, nothing
-else is taken for a frame, and what goes on ends as the run that nobody killed.
+else is taken for a frame, and what goes on ends as the run that nobody killed. The same where a write fails.
 
 The points are those of crash.c. A few of them are taken; HOOKE_LONG=1 takes them all.
 """
 
+import errno
 import json
 import os
 import shutil
@@ -72,10 +73,9 @@ class Place:
         (self.folder / "scene.json").write_text(json.dumps(words))
         self.out.write_bytes(OLD)
 
-    def run(self, *words, at=None, torn=False):
+    def run(self, *words, **crash):
         environment = {**os.environ, "LD_PRELOAD": CRASH, "HOOKE_CRASH_LOG": str(self.journal)}
-        if at is not None:
-            environment.update(HOOKE_CRASH_AT=str(at), HOOKE_CRASH_TORN=str(int(torn)))
+        environment.update({f"HOOKE_CRASH_{name.upper()}": str(int(value)) for name, value in crash.items()})
         command = [CLI, "run", *words, "--json", "--final", "--quiet"]
         return subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=60)
 
@@ -118,7 +118,7 @@ class Whole:
         assert self.reported == set(self.frames["time"].tolist())
         assert code != 0 or "out.h5.checkpoint" not in os.listdir(place.folder), "a run that finished needs none"
 
-    def check_left(self, place, reported):
+    def check_left(self, place, reported, more=()):
         """What a killed process left."""
         began = time.monotonic()
         frames, status = read(place.out)
@@ -131,7 +131,8 @@ class Whole:
         assert reported <= set(frames["time"][:count].tolist()), "a frame that was reported is lost"
         for name, values in frames.items():
             assert np.array_equal(values[:count], self.frames[name][:count]), name
-        assert status == "running" or (status == self.status and count == len(self.frames["time"]))
+        ended = status == self.status and count == len(self.frames["time"])
+        assert ended or status in ("running", *more)
         return status
 
     def check_end(self, place, done, left="running"):
@@ -159,9 +160,9 @@ def case(request, place):
     return SCENES[request.param], Whole(place, SCENES[request.param], code, status)
 
 
-def points_of(count):
+def points_of(count, stride=STRIDE):
     """Every few, and the first and last ones, which make the file and close it."""
-    return sorted({*range(1, count + 1, STRIDE), 2, count - 1, count})
+    return sorted({*range(1, count + 1, stride), 2, count - 1, count})
 
 
 @pytest.mark.parametrize("torn", [False, True], ids=["crash", "torn"])
@@ -216,3 +217,25 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
         left = whole.check_left(place, now)
         whole.check_end(place, place.resume(), left)
     print(f"{count} points")
+
+
+# What comes of a failure: exit code 5, or the run's own where nothing is lost, such as where a file is not there to remove.
+@pytest.mark.parametrize("more", [False, True], ids=["once", "from-then-on"])
+def test_every_failing_write(place, case, more):
+    words, whole = case
+    harmless = 0
+    for at in points_of(whole.points, 1 if LONG else 29):
+        place.fill(words)
+        done = place.start_over(at=at, error=errno.ENOSPC if more else errno.EIO, **{"from": more})
+        assert done.returncode in (5, whole.code), (at, done.returncode, done.stderr)
+        failed = done.returncode == 5
+        assert not failed or ("could not" in done.stderr and "out." in done.stderr), (at, done.stderr)
+        harmless += not failed
+        reported, _ = place.told()
+        if place.out.read_bytes() == OLD:
+            assert failed and not reported, at
+            continue
+        left = whole.check_left(place, reported, more=("failed", "stopped"))
+        assert failed or left == whole.status, at
+        whole.check_end(place, place.resume(), left)
+    print(f"{whole.points} points, {harmless} of them of no consequence")
