@@ -142,7 +142,7 @@ static void write_raw(const char *path) {
 static char folder_to_remove[64];
 
 static void remove_folder(void) {
-  static const char *const file[] = {"c.h5", "other.h5", "raw.bin", "x.xdmf", "v.html"};
+  static const char *const file[] = {"c.h5", "other.h5", "raw.bin", "x.xdmf"};
   char path[96];
   for (size_t k = 0; k < sizeof file / sizeof file[0]; k++) {
     snprintf(path, sizeof path, "%s/%s", folder_to_remove, file[k]);

@@ -74,7 +74,7 @@ static void read_array(const struct wanted *wanted, int by_hdf5) {
                                           &numbers, &rows, &columns);
   hooke_fuzz_require(status <= HOOKE_OK, "an outcome of a run");
   if (status != HOOKE_OK) {
-    hooke_fuzz_require_message(0);
+    hooke_fuzz_require_message();
     hooke_fuzz_require(numbers == NULL, "numbers besides a failure");
     return;
   }

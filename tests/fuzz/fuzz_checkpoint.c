@@ -160,7 +160,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_fuzz_require(status <= HOOKE_OK, "an outcome of a run");
   if (length > HOOKE_CHECKPOINT_HEADER && memcmp(file, own.file, 12) == 0) hooke_fuzz_is_past_syntax();
   if (status != HOOKE_OK) {
-    hooke_fuzz_require_message(0);
+    hooke_fuzz_require_message();
     hooke_fuzz_require(hooke_state_time(own.state) == -1.0 &&
                            memcmp(own.begin, hooke_state_position(own.state), NUMBERS * sizeof(double)) == 0,
                        "a state besides a failure");
