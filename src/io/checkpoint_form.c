@@ -1,6 +1,7 @@
 #include "io/checkpoint_form.h"
 
 #include "core/crc32.h"
+#include "core/option.h"
 #include "core/status.h"
 #include "model/check_value.h"
 
@@ -164,11 +165,30 @@ const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *h, int
 
 /* ---- whether it fits ---- */
 
+/* Far from where counting on would overflow. */
+static int are_counts(const struct hooke_standing *s) {
+  static const int64_t most = INT64_C(1) << 62;
+  const struct hooke_counts *c = &s->count;
+  const int64_t counts[] = {s->k,
+                            s->frames,
+                            c->steps,
+                            c->force_evaluations,
+                            c->derivative_products,
+                            c->nonlinear_iterations,
+                            c->nonlinear_failures,
+                            c->linear_iterations,
+                            c->error_test_failures};
+  int fit = 1;
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
+    fit &= counts[k] >= 0 && counts[k] <= most;
+  return fit;
+}
+
 static int is_possible(const hooke_integrator *it, const struct hooke_standing *s) {
   const struct hooke_schedule *schedule = &it->schedule;
   const int planned = schedule->frames > 0;
   const double t = s->t0 + (double)s->k * schedule->step;
-  if (!isfinite(s->t0) || !isfinite(s->t) || s->k < 0 || s->frames < 0 || !(s->wall_seconds >= 0.0)) return 0;
+  if (!isfinite(s->t0) || !isfinite(s->t) || !are_counts(s) || !(s->wall_seconds >= 0.0)) return 0;
   if (planned && s->frames > schedule->frames) return 0;
   if (it->method->adaptive)
     return s->t >= s->t0 && (!planned || s->t <= s->t0 + schedule->duration) && (s->k > 0) == (s->t > s->t0);
@@ -186,8 +206,11 @@ int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_h
   hooke_checkpoint_describe(it, &h->standing, NULL, &own);
   if (h->size != own.size || h->has_v != own.has_v || h->system != own.system)
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
-  if (strcmp(h->method, own.method) != 0)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run by %s, not by %s", path, h->method, own.method);
+  if (strcmp(h->method, own.method) != 0) {
+    char shown[HOOKE_OPTION_SHOWN];
+    hooke_option_show(h->method, (int64_t)strlen(h->method), shown);
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run by %s, not by %s", path, shown, own.method);
+  }
   if (h->options != own.options)
     return hooke_fail(HOOKE_BAD_VALUE, NULL,
                       "%s: is of a run with other options; only threads may be changed", path);

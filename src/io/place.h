@@ -16,15 +16,15 @@ int32_t hooke_place_find(const char *path, char **place, char **temporary);
 /* Brings the closed file `temporary` to the disk and gives it the name `place`; then frees and clears `temporary`. */
 int32_t hooke_place_take(const char *place, char **temporary);
 
-/* Opens a regular file for reading, a link to one, too; what would block or never end is refused: pipes, devices, folders.
- * A descriptor, or -1 with errno; EINVAL if it is no regular file, EISDIR if it is a folder. */
-int hooke_place_open(const char *path);
-
 /* The same, the file that was there before being kept as `previous`. If that is as far as it comes, there is only the latter. */
 int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary);
 
 /* A path with `ending` added, for the caller to free. HOOKE_NO_MEMORY. */
 int32_t hooke_place_beside(const char *path, const char *ending, char **beside);
+
+/* Opens a regular file for reading, a link to one, too; what would block or never end is refused: pipes, devices, folders.
+ * A descriptor, or -1 with errno; EINVAL if it is no regular file, EISDIR if it is a folder. */
+int hooke_place_open(const char *path);
 
 /* Writes a whole file, which takes its place when it is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hooke_place_write(const char *path, const char *bytes, int64_t length);

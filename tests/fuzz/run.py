@@ -55,7 +55,9 @@ def build(folder):
         sys.exit("fuzzing is left out: there is no clang. On Debian:\n  apt-get install clang libclang-rt-14-dev")
     configure = ["cmake", "--preset", "fuzz", "-B", ROOT / "build" / folder]
     if FLAGS[folder]:
-        configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", "-DHOOKE_KERNEL_OPTIMISATION=-O2"]
+        # the loops as they are in a release, in one of the builds: no sanitizer lets them be vectorised
+        loops = "-O3;-fno-sanitize=all" if folder == "fuzz-fast" else "-O2"
+        configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", f"-DHOOKE_KERNEL_OPTIMISATION={loops}"]
     for command in configure, ["cmake", "--build", ROOT / "build" / folder, "--target", "hooke_fuzz"]:
         done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:

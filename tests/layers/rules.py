@@ -49,12 +49,12 @@ FENCES = [
 # Functions of Fortran, which need no header, and the only files that may call them.
 CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/\w+_lapack\.c")]
 
-# Headers of C17, POSIX and the compiler.
+# Headers of C17, POSIX, Linux and the compiler.
 STANDARD = set(
     "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl libgen pthread sched strings termios unistd "
-    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
+    "sys/inotify sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
     "getopt immintrin".split()
 )
 

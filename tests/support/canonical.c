@@ -401,5 +401,5 @@ double canonical_defect(const struct canonical *canonical, const char *method, d
   free(v);
   free(a);
   free(seen);
-  return defect / (1e-9 * change + rounding(canonical, h, q1, v1));
+  return defect == 0.0 ? 0.0 : defect / (1e-9 * change + rounding(canonical, h, q1, v1));
 }

@@ -1,0 +1,12 @@
+/* Edits of the objects of a container. */
+#ifndef TESTS_FUZZ_CONTAINER_EDIT_H5_H
+#define TESTS_FUZZ_CONTAINER_EDIT_H5_H
+
+#include "container.h"
+
+#include <hdf5.h>
+
+/* What HDF5 refuses is left as it was. */
+void container_edit_structure(hid_t file, const struct container *container, const struct edit *edit);
+
+#endif

@@ -1,0 +1,390 @@
+/* Containers: made once for each list of structures and kept, their numbers patched for each input. */
+#include "container.h"
+
+#include "container_edit_h5.h"
+
+#include "hooke.h"
+
+#include "core/crc32.h"
+#include "io/recording_h5.h"
+
+#include <hdf5.h>
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MOST_NAMES = 192, KEPT = 2048, LARGEST_IMAGE = 1 << 20 };
+
+/* Where the numbers of an object lie; `known` 0: nobody has asked yet. */
+struct place {
+  int32_t known, rank, width;
+  uint64_t data, stored, header, header_size;
+  uint64_t size[4];
+};
+
+struct image {
+  uint64_t hash;
+  uint8_t *bytes;
+  size_t size;
+  struct place *place; /* of each name */
+};
+
+static struct {
+  char *name[MOST_NAMES];
+  int32_t names;
+  uint8_t *base, *patched;
+  size_t base_size;
+  struct image image[KEPT];
+  int descriptor, watch;
+} own;
+
+_Noreturn static void give_up(const char *what) {
+  fprintf(stderr, "container: %s: %s\n", what, hooke_last_error());
+  abort();
+}
+
+/* Blocks are many and short-lived, and most of them HDF5's. */
+const char *__asan_default_options(void);
+const char *__asan_default_options(void) {
+  return "malloc_context_size=6:quarantine_size_mb=8";
+}
+
+/* HDF5 1.10.8 loses the headers of objects that it makes. What hooke leaves open is counted apart. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+  return "leak:libhdf5";
+}
+
+/* ---- the trajectory ---- */
+
+static const char scene[] =
+    "{\"hooke\": 1, \"title\": \"small\", \"gravity\": [0, -9.81, 0], \"drag\": 0.1,\n"
+    " \"particles\": {\"position\": [[0,0,0],[1,0,0],[2,0,0.5],[0,1,0]], \"mass\": [1, 0.5, 0.25, 1], "
+    "\"pinned\": [0]},\n"
+    " \"springs\": [{\"between\": [[0,1],[1,2],[0,3]], \"stiffness\": 10, \"damping\": 0.1}],\n"
+    " \"run\": {\"method\": \"symplectic-euler\", \"step\": 0.01, \"every\": 0.02, \"duration\": 0.06}}\n";
+
+static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
+  return hooke_trajectory_write(ctx, step, state) == HOOKE_OK ? 0 : 1;
+}
+
+static void run_trajectory(const char *path) {
+  hooke_scene *made = NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_state *state = NULL;
+  hooke_trajectory *trajectory = NULL;
+  if (hooke_scene_parse(scene, (int64_t)strlen(scene), "small", NULL, &made) || hooke_scene_commit(made) ||
+      hooke_integrator_create(hooke_scene_system(made), hooke_scene_run_options(made), &integrator) ||
+      hooke_state_create(hooke_scene_system(made), &state) ||
+      hooke_trajectory_create(path, hooke_scene_system(made), integrator, hooke_scene_text(made),
+                              &trajectory) ||
+      hooke_integrator_on_frame(integrator, keep_frame, trajectory) ||
+      hooke_integrator_run(integrator, state) || hooke_trajectory_close(trajectory, HOOKE_OK))
+    give_up("the trajectory");
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_scene_destroy(made);
+}
+
+static uint8_t *read_file(const char *path, size_t *size) {
+  struct stat there;
+  uint8_t *bytes = NULL;
+  const int descriptor = open(path, O_RDONLY);
+  if (descriptor >= 0 && fstat(descriptor, &there) == 0) bytes = malloc((size_t)there.st_size);
+  if (bytes == NULL || read(descriptor, bytes, (size_t)there.st_size) != there.st_size) give_up(path);
+  *size = (size_t)there.st_size;
+  close(descriptor);
+  return bytes;
+}
+
+static herr_t add_name(hid_t file, const char *name, const H5L_info_t *link, void *ctx) {
+  (void)file, (void)link, (void)ctx;
+  char *kept = own.names < MOST_NAMES ? malloc(strlen(name) + 2) : NULL;
+  if (kept == NULL) return -1;
+  sprintf(kept, "/%s", name);
+  own.name[own.names++] = kept;
+  return 0;
+}
+
+/* What no reader of the container may come to. */
+static void write_secret(const char *path) {
+  const hsize_t size[3] = {4, 4, 3};
+  double number[48];
+  for (int k = 0; k < 48; k++)
+    number[k] = SECRET_NUMBER;
+  char text[64] = SECRET_WORD;
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  hid_t space = H5Screate_simple(3, size, NULL), type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, sizeof text);
+  hid_t numbers = H5Dcreate2(file, "numbers", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  hid_t texts = H5Dcreate2(file, "text", type, one, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (H5Dwrite(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, number) < 0 ||
+      H5Dwrite(texts, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
+    give_up(path);
+  H5Dclose(texts), H5Dclose(numbers), H5Sclose(one), H5Tclose(type), H5Sclose(space);
+  if (H5Fclose(file) < 0) give_up(path);
+}
+
+/* Numbers alone, for storage that is no HDF5. */
+static void write_raw(const char *path) {
+  FILE *file = fopen(path, "wb");
+  const double number = SECRET_NUMBER;
+  for (int k = 0; k < 64 && file; k++)
+    fwrite(k < 32 ? (const void *)&number : (const void *)SECRET_WORD, 6, 1, file);
+  if (file == NULL || fclose(file) != 0) give_up(path);
+}
+
+static char folder_to_remove[64];
+
+static void remove_folder(void) {
+  static const char *const file[] = {"c.h5", "other.h5", "raw.bin", "x.xdmf"};
+  char path[96];
+  for (size_t k = 0; k < sizeof file / sizeof file[0]; k++) {
+    snprintf(path, sizeof path, "%s/%s", folder_to_remove, file[k]);
+    unlink(path);
+  }
+  rmdir(folder_to_remove);
+}
+
+/* HDF5 takes half a megabyte for each file that it opens; it may keep them. */
+static void keep_memory(void) {
+  const int limit = 1 << 26;
+  H5set_free_list_limits(limit, limit, limit, limit, limit, limit);
+}
+
+void container_begin(struct container *container) {
+  char path[96];
+  keep_memory();
+  snprintf(container->folder, sizeof container->folder, "%s/hooke-fuzz-XXXXXX",
+           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : P_tmpdir);
+  if (mkdtemp(container->folder) == NULL) give_up(container->folder);
+  memcpy(folder_to_remove, container->folder, sizeof folder_to_remove);
+  atexit(remove_folder);
+  snprintf(container->path, sizeof container->path, "%s/c.h5", container->folder);
+  run_trajectory(container->path);
+  own.base = read_file(container->path, &own.base_size);
+  own.patched = malloc(LARGEST_IMAGE);
+  hid_t file = H5Fopen(container->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0 || H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, add_name, NULL) < 0) give_up("names");
+  H5Fclose(file);
+  container->name = (const char *const *)own.name;
+  container->names = own.names;
+  snprintf(path, sizeof path, "%s/other.h5", container->folder);
+  write_secret(path);
+  snprintf(path, sizeof path, "%s/raw.bin", container->folder);
+  write_raw(path);
+  own.descriptor = open(container->path, O_RDWR);
+  if (own.descriptor < 0) give_up(container->path);
+  own.watch = inotify_init1(IN_NONBLOCK);
+  snprintf(path, sizeof path, "%s/other.h5", container->folder);
+  inotify_add_watch(own.watch, path, IN_OPEN);
+  snprintf(path, sizeof path, "%s/raw.bin", container->folder);
+  inotify_add_watch(own.watch, path, IN_OPEN);
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+/* ---- images ---- */
+
+static hid_t open_image(const void *bytes, size_t size, unsigned flags) {
+  hid_t list = H5Pcreate(H5P_FILE_ACCESS), file = -1;
+  if (H5Pset_fapl_core(list, 1 << 16, 0) >= 0 && H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0 &&
+      H5Pset_file_image(list, (void *)(uintptr_t)bytes, size) >= 0)
+    file = H5Fopen("image", flags, list);
+  H5Pclose(list);
+  return file;
+}
+
+static void make_image(const struct container *container, const struct edits *edits, struct image *image) {
+  hid_t file = open_image(own.base, own.base_size, H5F_ACC_RDWR);
+  if (file < 0) give_up("the base");
+  for (int32_t k = 0; k < edits->count; k++) {
+    if (edits->edit[k].kind < EDIT_STRUCTURES) container_edit_structure(file, container, &edits->edit[k]);
+  }
+  H5Fflush(file, H5F_SCOPE_GLOBAL);
+  const ssize_t size = H5Fget_file_image(file, NULL, 0);
+  image->bytes = size > 0 && size <= LARGEST_IMAGE ? malloc((size_t)size) : NULL;
+  if (image->bytes) {
+    image->size = (size_t)H5Fget_file_image(file, image->bytes, (size_t)size);
+  } else {
+    image->bytes = malloc(own.base_size);
+    memcpy(image->bytes, own.base, own.base_size);
+    image->size = own.base_size;
+  }
+  image->place = calloc(MOST_NAMES, sizeof *image->place);
+  H5Fclose(file);
+}
+
+static uint64_t hash_of(const struct edits *edits) {
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (int32_t k = 0; k < edits->count && edits->edit[k].kind < EDIT_STRUCTURES; k++) {
+    const struct edit *edit = &edits->edit[k];
+    const uint64_t words[] = {edit->kind, edit->where, edit->what, edit->how, edit->value};
+    for (int w = 0; w < 5; w++)
+      hash = (hash ^ words[w]) * UINT64_C(0x9e3779b97f4a7c15), hash ^= hash >> 29;
+  }
+  return hash | 1;
+}
+
+static struct image *find_image(const struct container *container, const struct edits *edits) {
+  const uint64_t hash = hash_of(edits);
+  struct image *image = &own.image[hash % KEPT];
+  if (image->hash == hash) return image;
+  free(image->bytes);
+  free(image->place);
+  *image = (struct image){.hash = hash};
+  make_image(container, edits, image);
+  return image;
+}
+
+/* ---- numbers ---- */
+
+static void look_up(const struct image *image, int32_t number, struct place *place) {
+  hid_t file = open_image(image->bytes, image->size, H5F_ACC_RDONLY);
+  hid_t data = file < 0 ? -1 : H5Dopen2(file, own.name[number], H5P_DEFAULT);
+  place->known = 1;
+  if (data >= 0) {
+    H5O_info_t info;
+    hid_t space = H5Dget_space(data), type = H5Dget_type(data);
+    const haddr_t at = H5Dget_offset(data);
+    place->rank = H5Sget_simple_extent_ndims(space);
+    if (place->rank > 0 && place->rank <= 4) H5Sget_simple_extent_dims(space, (hsize_t *)place->size, NULL);
+    place->width = (int32_t)H5Tget_size(type);
+    place->stored = H5Dget_storage_size(data);
+    place->data = at;
+    if (at == HADDR_UNDEF || at + place->stored > image->size) place->stored = 0;
+    if (H5Oget_info2(data, &info, H5O_INFO_HDR) >= 0 && info.addr + info.hdr.space.total <= image->size) {
+      place->header = info.addr;
+      place->header_size = info.hdr.space.total;
+    }
+    H5Tclose(type), H5Sclose(space), H5Dclose(data);
+  }
+  if (file >= 0) H5Fclose(file);
+}
+
+static void patch_value(const struct place *place, const struct edit *edit) {
+  const uint64_t width = (uint64_t)place->width, numbers = width ? place->stored / width : 0;
+  if (numbers == 0) return;
+  memcpy(own.patched + place->data + (edit->what + 256u * (edit->how & 3u)) % numbers * width, &edit->value,
+         width < sizeof edit->value ? width : sizeof edit->value);
+}
+
+static void replace_words(const struct place *place, uint64_t from, uint64_t to) {
+  uint8_t *header = own.patched + place->header;
+  for (uint64_t at = 0; at + 8 <= place->header_size; at++) {
+    if (memcmp(header + at, &from, 8) == 0) memcpy(header + at, &to, 8);
+  }
+}
+
+/* Both the extent and the room that go with it, so that one alone does not give it away; or one of them. */
+static void patch_extent(const struct place *place, const struct edit *edit) {
+  if (place->rank < 1 || place->rank > 4 || place->header_size == 0) return;
+  const uint64_t old = place->size[edit->what % place->rank];
+  if (edit->how & 1) replace_words(place, old, edit->value);
+  if ((edit->how & 2) && old > 0) replace_words(place, place->stored, place->stored / old * edit->value);
+}
+
+/* ---- check values ---- */
+
+static const struct place *place_of(const struct image *image, const char *name) {
+  for (int32_t k = 0; k < own.names; k++) {
+    if (strcmp(own.name[k], name) != 0) continue;
+    if (!image->place[k].known) look_up(image, k, &image->place[k]);
+    return &image->place[k];
+  }
+  return NULL;
+}
+
+/* Row `frame` of an array of the run, NULL if it is no longer where and what it was. */
+static uint8_t *row_of(const struct image *image, int array, int64_t frame) {
+  char name[HOOKE_RECORDING_PATH];
+  hooke_recording_path("all", array, name);
+  const struct place *place = place_of(image, name);
+  const uint64_t bytes = (uint64_t)hooke_frame_bytes(4, array), begin = (uint64_t)frame * bytes;
+  if (place == NULL || begin + bytes > place->stored) return NULL;
+  return own.patched + place->data + begin;
+}
+
+static void patch_check(const struct image *image, int64_t frame) {
+  uint32_t check = 0;
+  for (int k = 0; k < HOOKE_FRAME_CHECK; k++) {
+    const uint8_t *row = row_of(image, k, frame);
+    if (row) check = hooke_crc32(check, row, hooke_frame_bytes(4, k));
+  }
+  uint8_t *row = row_of(image, HOOKE_FRAME_CHECK, frame);
+  if (row) memcpy(row, &check, sizeof check);
+}
+
+void container_edit(struct container *container, const struct edits *edits) {
+  struct image *image = find_image(container, edits);
+  memcpy(own.patched, image->bytes, image->size);
+  container->structures = 0;
+  for (int32_t k = 0; k < edits->count; k++) {
+    const struct edit *edit = &edits->edit[k];
+    container->structures += edit->kind < EDIT_STRUCTURES;
+    struct place *place = &image->place[edit->where % own.names];
+    if (edit->kind < EDIT_STRUCTURES) continue;
+    if (!place->known) look_up(image, edit->where % own.names, place);
+    if (edit->kind == EDIT_CHECK) patch_check(image, edit->what % 4);
+    if (edit->kind == EDIT_VALUE) patch_value(place, edit);
+    if (edit->kind == EDIT_EXTENT) patch_extent(place, edit);
+  }
+  if (pwrite(own.descriptor, own.patched, image->size, 0) != (ssize_t)image->size ||
+      ftruncate(own.descriptor, (off_t)image->size) != 0)
+    give_up(container->path);
+}
+
+/* ---- asking ---- */
+
+double *container_read(const struct container *container, const char *dataset, int32_t *rank,
+                       int64_t size[4]) {
+  enum { MOST_NUMBERS = 100000 };
+  double *numbers = NULL;
+  hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fclose_degree(list, H5F_CLOSE_STRONG);
+  hid_t file = H5Fopen(container->path, H5F_ACC_RDONLY, list), data = -1, space = -1;
+  H5Pclose(list);
+  if (file >= 0) data = H5Dopen2(file, dataset, H5P_DEFAULT);
+  if (data >= 0) space = H5Dget_space(data);
+  *rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
+  const hssize_t count = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
+  if (*rank >= 0 && *rank <= 4 && count >= 0 && count <= MOST_NUMBERS) {
+    hsize_t extent[4] = {0};
+    H5Sget_simple_extent_dims(space, extent, NULL);
+    for (int k = 0; k < 4; k++)
+      size[k] = (int64_t)extent[k];
+    numbers = calloc((size_t)count + 1, sizeof *numbers);
+    if (H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) < 0) {
+      free(numbers);
+      numbers = NULL;
+    }
+  }
+  if (space >= 0) H5Sclose(space);
+  if (data >= 0) H5Dclose(data);
+  if (file >= 0) H5Fclose(file);
+  return numbers;
+}
+
+int32_t container_others_opened(void) {
+  char events[4096];
+  int32_t opened = 0;
+  while (read(own.watch, events, sizeof events) > 0)
+    opened = 1;
+  return opened;
+}
+
+int64_t container_open_objects(void) {
+  static const H5I_type_t kind[] = {H5I_FILE,    H5I_GROUP, H5I_DATATYPE,   H5I_DATASPACE,
+                                    H5I_DATASET, H5I_ATTR,  H5I_GENPROP_LST};
+  int64_t sum = 0;
+  for (size_t k = 0; k < sizeof kind / sizeof kind[0]; k++) {
+    hsize_t members = 0;
+    if (H5Itype_exists(kind[k]) > 0) H5Inmembers(kind[k], &members);
+    sum += (int64_t)members;
+  }
+  return sum;
+}

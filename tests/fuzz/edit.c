@@ -1,0 +1,129 @@
+#include "edit.h"
+
+#include <math.h>
+#include <string.h>
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
+
+static struct edit decode(const uint8_t *at) {
+  struct edit edit = {at[0] % EDIT_KINDS, at[1], at[2], at[3], 0};
+  memcpy(&edit.value, at + 4, sizeof edit.value);
+  return edit;
+}
+
+void edits_decode(const uint8_t *data, size_t size, struct edits *edits) {
+  memset(edits, 0, sizeof *edits);
+  memcpy(edits->head, data, size < EDIT_HEAD ? size : EDIT_HEAD);
+  for (int part = 0; part <= 2; part++) {
+    int32_t seen = 0;
+    for (size_t at = EDIT_HEAD; at + EDIT_BYTES <= size && seen < MOST_EDITS; at += EDIT_BYTES, seen++) {
+      const struct edit edit = decode(data + at);
+      if ((edit.kind >= EDIT_STRUCTURES) + (edit.kind >= EDIT_CHECKS) == part)
+        edits->edit[edits->count++] = edit;
+    }
+  }
+}
+
+static const double doubles[] = {
+    0.0,    -0.0,         1.0,          -1.0,          0.01,
+    0.02,   0.04,         1e-300,       5e-324,        1e300,
+    -1e300, INFINITY,     -INFINITY,    NAN,           2.0,
+    3.0,    4.0,          5.0,          0.5,           1e-9,
+    1e9,    2147483647.0, 2147483648.0, -2147483649.0, 9007199254740993.0,
+    9.3e18, 1e19,         0.03,         255.0,         65536.0,
+};
+
+double edit_double(uint64_t drawn) {
+  return doubles[drawn % (sizeof doubles / sizeof doubles[0])];
+}
+
+/* ---- mutating ---- */
+
+static uint64_t next(uint64_t *state) {
+  uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return z ^ (z >> 31);
+}
+
+static uint64_t draw_value(uint64_t *state) {
+  static const uint64_t whole[] = {0,
+                                   1,
+                                   2,
+                                   3,
+                                   4,
+                                   5,
+                                   6,
+                                   7,
+                                   12,
+                                   100,
+                                   255,
+                                   1u << 20,
+                                   UINT64_C(1) << 31,
+                                   UINT64_C(1) << 32,
+                                   UINT64_C(1) << 40,
+                                   UINT64_C(1) << 61,
+                                   INT64_MAX,
+                                   UINT64_MAX};
+  const uint64_t kind = next(state) % 4;
+  if (kind == 0) return next(state);
+  if (kind == 1) return whole[next(state) % (sizeof whole / sizeof whole[0])];
+  const double number = edit_double(next(state));
+  uint64_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  return bits;
+}
+
+/* Values four times as often as structures, which cost a new container. */
+static void draw_edit(uint64_t *state, uint8_t *at) {
+  const uint64_t value = draw_value(state), r = next(state);
+  at[0] = (uint8_t)(r % 5 ? EDIT_STRUCTURES + (r >> 8) % (EDIT_KINDS - EDIT_STRUCTURES)
+                          : (r >> 8) % EDIT_STRUCTURES);
+  at[1] = (uint8_t)(r >> 16);
+  at[2] = (uint8_t)(r >> 24);
+  at[3] = (uint8_t)(r >> 32);
+  memcpy(at + 4, &value, sizeof value);
+}
+
+static void change_edit(uint64_t *state, uint8_t *at) {
+  const uint64_t value = draw_value(state);
+  switch (next(state) % 6) {
+  case 0:
+    draw_edit(state, at);
+    break;
+  case 1:
+    memcpy(at + 4, &value, sizeof value);
+    break;
+  case 2:
+    LLVMFuzzerMutate(at + 4, 8, 8);
+    break;
+  default: /* mostly of the fields that leave the structure */
+    at[at[0] % EDIT_KINDS >= EDIT_STRUCTURES ? 1 + next(state) % 3 : 4 + next(state) % 8] =
+        (uint8_t)next(state);
+  }
+}
+
+size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
+  uint64_t state = seed;
+  if (most < EDIT_HEAD) return 0;
+  if (size < EDIT_HEAD) memset(data + size, 0, EDIT_HEAD - size);
+  if (most > EDIT_HEAD + MOST_EDITS * EDIT_BYTES) most = EDIT_HEAD + MOST_EDITS * EDIT_BYTES;
+  size_t count = size < EDIT_HEAD ? 0 : (size - EDIT_HEAD) / EDIT_BYTES;
+  const size_t room = (most - EDIT_HEAD) / EDIT_BYTES;
+  if (count > room) count = room;
+  uint8_t *list = data + EDIT_HEAD;
+  for (uint64_t times = 1 + next(&state) % 3; times > 0; times--) {
+    const uint64_t what = next(&state) % 8;
+    uint8_t *at = count > 0 ? list + next(&state) % count * EDIT_BYTES : list;
+    if (what == 0) {
+      data[next(&state) % EDIT_HEAD] = (uint8_t)next(&state);
+    } else if ((what <= 2 || count == 0) && count < room) {
+      draw_edit(&state, list + count++ * EDIT_BYTES);
+    } else if (what == 3 && count > 0) {
+      memmove(at, list + --count * EDIT_BYTES, EDIT_BYTES);
+    } else if (count > 0) {
+      change_edit(&state, at);
+    }
+  }
+  return EDIT_HEAD + count * EDIT_BYTES;
+}

@@ -1,0 +1,333 @@
+/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by lanes, nets and runs, as the
+ * library does it, and by the plain loop of tests/support/canonical.c: the same bits. Energies and derivatives against
+ * differences.
+ *
+ * Lines of: src/kernel/[a-z]*.c src/model/force*.c src/model/lane*.c src/model/net*.c src/model/motion*.c src/model/spring*.c src/model/altitude*.c src/model/bending*.c src/model/energy.c src/model/commit.c src/model/drive.c src/integrate/forward_euler.c src/integrate/symplectic_euler.c src/integrate/rk4.c src/integrate/verlet.c
+ * Longest input: 104 */
+#include "fuzz.h"
+#include "small_scene.h"
+
+#include "kernel/spring_loops.h"
+#include "model/motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed) {
+  return small_scene_mutate(data, size, most, seed);
+}
+
+/* The linker puts the second in place of the first everywhere else. */
+const struct hooke_spring_set *__real_hooke_spring_set(int32_t set);
+const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set);
+
+static int32_t first_set;
+
+const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set) {
+  return __real_hooke_spring_set(first_set + set);
+}
+
+/* A number that is none has no sign that means anything. */
+static void require_same(int64_t count, const double *found, const double *expected, const char *what) {
+  for (int64_t k = 0; k < count; k++) {
+    if (memcmp(found + k, expected + k, sizeof *found) == 0 || (isnan(found[k]) && isnan(expected[k])))
+      continue;
+    fprintf(stderr, "%s, loops for %s: number %lld is %a, expected %a\n", what,
+            __wrap_hooke_spring_set(0)->name, (long long)k, found[k], expected[k]);
+    hooke_fuzz_require(0, what);
+  }
+}
+
+static int all_finite(int64_t count, const double *x) {
+  for (int64_t k = 0; k < count; k++) {
+    if (!isfinite(x[k])) return 0;
+  }
+  return 1;
+}
+
+static double largest(int64_t count, const double *x) {
+  double most = 0.0;
+  for (int64_t k = 0; k < count; k++)
+    most = fmax(most, fabs(x[k]));
+  return most;
+}
+
+/* ---- sums ---- */
+
+static void check_acceleration(const struct small_scene *scene, int first, double *expected) {
+  double found[3 * MOST_PARTICLES];
+  const int64_t size = 3 * scene->particles;
+  hooke_fuzz_require(hooke_system_acceleration(scene->system, 0.125, scene->q, scene->v, found) == HOOKE_OK,
+                     "accelerations");
+  if (first) canonical_acceleration(&scene->canonical, 0.125, scene->q, scene->v, expected);
+  require_same(size, found, expected, "accelerations");
+}
+
+/* Forces by three threads, which the library does not spend on a scene this small, and by one. */
+static void check_members(const struct small_scene *scene) {
+  static struct hooke_crew *crew;
+  const hooke_system *system = scene->system;
+  if (system->lanes.count == 0 && system->net.particles == 0) return;
+  if (crew == NULL) crew = hooke_crew_create(3);
+  hooke_fuzz_require(crew != NULL, "a crew");
+  double found[2][3 * MOST_PARTICLES];
+  for (int k = 0; k < 2; k++) {
+    struct hooke_motion *motion = NULL;
+    hooke_fuzz_require(hooke_motion_create(system, 0, k ? crew : NULL, &motion) == HOOKE_OK, "a motion");
+    hooke_motion_load(system, motion, scene->q, scene->v);
+    hooke_fuzz_require(hooke_motion_forces(system, motion, 0.0) == HOOKE_OK, "forces");
+    hooke_rows_from_components(scene->particles, motion->f, found[k]);
+    hooke_motion_destroy(motion);
+  }
+  require_same(3 * scene->particles, found[1], found[0], "forces by three threads");
+}
+
+/* ---- steps ---- */
+
+struct stepping {
+  const char *method;
+  double step;
+  int64_t steps;
+  int32_t result;
+  double q[3 * MOST_PARTICLES], v[3 * MOST_PARTICLES];
+};
+
+static int32_t take_steps(const struct small_scene *scene, const struct stepping *by, hooke_state *state) {
+  hooke_options *options = NULL;
+  hooke_integrator *integrator = NULL;
+  int32_t status = hooke_run_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", by->method);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", by->step);
+  if (status == HOOKE_OK) status = hooke_integrator_create(scene->system, options, &integrator);
+  if (status == HOOKE_OK) status = hooke_integrator_step(integrator, state, by->steps);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* By the plain loop. */
+struct expected {
+  double acceleration[3 * MOST_PARTICLES];
+  struct stepping by;
+};
+
+static void step_plainly(const struct small_scene *scene, struct stepping *by) {
+  by->result = CANONICAL_STEPPED;
+  for (int64_t k = 0; k < by->steps && by->result == CANONICAL_STEPPED; k++) {
+    by->result = canonical_step(&scene->canonical, by->method, (double)k * by->step,
+                                (double)(k + 1) * by->step, by->step, by->q, by->v);
+  }
+  hooke_fuzz_require(by->result != CANONICAL_UNKNOWN, "a step that has no definition");
+}
+
+/* A step that is solved for: one, from where it began. Where springs that only pull are damped there may be no solution. */
+static void check_solved(const struct small_scene *scene, const struct stepping *by, const double *q,
+                         const double *v) {
+  const double defect =
+      canonical_defect(&scene->canonical, by->method, 0.0, by->step, by->step, by->q, by->v, q, v);
+  if (!(defect <= 1.0)) fprintf(stderr, "%s: %g times what is allowed\n", by->method, defect);
+  hooke_fuzz_require(defect <= 1.0, "a step that solves its equations");
+}
+
+static void check_steps(const struct small_scene *scene, int first, struct stepping *by) {
+  const int64_t size = 3 * scene->particles;
+  hooke_state *state = NULL;
+  hooke_fuzz_require(hooke_state_create(scene->system, &state) == HOOKE_OK, "a state");
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  if (first) {
+    memcpy(by->q, q, (size_t)size * sizeof *q);
+    memcpy(by->v, v, (size_t)size * sizeof *v);
+    step_plainly(scene, by);
+    if (by->result == CANONICAL_SOLVED) by->steps = 1;
+  }
+  const int solved = by->result == CANONICAL_SOLVED;
+  const int32_t status = take_steps(scene, by, state);
+  const int finite = solved || (all_finite(size, by->q) && all_finite(size, by->v));
+  if (status == HOOKE_OK && solved) {
+    if (!scene->extreme) check_solved(scene, by, q, v);
+  } else if (status == HOOKE_OK) {
+    require_same(size, q, by->q, "positions after some steps");
+    require_same(size, v, by->v, "velocities after some steps");
+  } else {
+    const int allowed = status == HOOKE_DIVERGED || (solved && status == HOOKE_SOLVER_FAILED);
+    if (!allowed) fprintf(stderr, "%s: %s: %s\n", by->method, hooke_status_name(status), hooke_last_error());
+    hooke_fuzz_require(allowed, "steps that end");
+    hooke_fuzz_require(!finite || scene->extreme || solved || by->step > 0.01, "steps that did not diverge");
+    hooke_fuzz_require(all_finite(size, q) && all_finite(size, v), "the last good state");
+  }
+  hooke_state_destroy(state);
+}
+
+/* ---- energies and derivatives ---- */
+
+static double dot(int64_t count, const double *a, const double *b) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < count; k++)
+    sum += a[k] * b[k];
+  return sum;
+}
+
+static void move(int64_t size, const double *from, double by, const double *along, double *to) {
+  for (int64_t k = 0; k < size; k++)
+    to[k] = from[k] + by * along[k];
+}
+
+/* Where a spring has no length a force has no derivative; so with tetrahedra at which two altitudes are nearly as short. */
+static int is_smooth(const struct small_scene *scene) {
+  const struct canonical *c = &scene->canonical;
+  if (scene->pulls || scene->extreme) return 0;
+  for (int64_t s = 0; s < c->spring_count; s++) {
+    const double *a = scene->q + 3 * c->ends[2 * s], *b = scene->q + 3 * c->ends[2 * s + 1];
+    if (hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) < 0.1) return 0;
+  }
+  for (int64_t t = 0; t < c->tetrahedron_count; t++) {
+    const double *x[4];
+    double square[7], first = 0.0, second = 0.0;
+    for (int e = 0; e < 4; e++)
+      x[e] = scene->q + 3 * c->corners[4 * t + e];
+    canonical_altitudes(x, square);
+    for (int k = 0; k < 7; k++) {
+      second = fmax(second, fmin(first, square[k]));
+      first = fmax(first, square[k]);
+    }
+    if (!(second < 0.9 * first) || first < 0.01) return 0;
+  }
+  return 1;
+}
+
+/* What forces take from motion at q is what potential energy gains, and what damping takes besides is heat. The difference over
+ * a step of half the size tells how far a difference is off. */
+static void check_energy(const struct small_scene *scene) {
+  const int64_t size = 3 * scene->particles;
+  const double *q = scene->q, *v = scene->v, far = 1e-3;
+  double at[3 * MOST_PARTICLES], still[3 * MOST_PARTICLES] = {0}, force[3 * MOST_PARTICLES], slope[2],
+                                           v_free[3 * MOST_PARTICLES];
+  const double *w = scene->canonical.inverse_mass;
+  for (int64_t k = 0; k < size; k++)
+    v_free[k] = w[k / 3] != 0.0 ? v[k] : 0.0;
+  double scale = 0.0;
+  for (int k = 0; k < 2; k++) {
+    const double by = far / (1 << k);
+    move(size, q, by, v_free, at);
+    const double ahead = hooke_system_potential_energy(scene->system, at);
+    move(size, q, -by, v_free, at);
+    const double behind = hooke_system_potential_energy(scene->system, at);
+    slope[k] = (ahead - behind) / (2.0 * by);
+    scale = fmax(scale, fmax(fabs(ahead), fabs(behind)));
+  }
+  hooke_fuzz_require(hooke_system_force(scene->system, 0.0, q, still, force) == HOOKE_OK, "forces");
+  const double power = dot(size, force, v_free);
+  const double allowed = 4.0 * fabs(slope[1] - slope[0]) + 1e-11 * scale / far +
+                         1e-9 * (fabs(power) + largest(size, force) * largest(size, v) * (double)size);
+  if (!(fabs(power + slope[1]) <= allowed))
+    fprintf(stderr, "power %.17g, slope of the potential energy %.17g, allowed %.3g\n", power, slope[1],
+            allowed);
+  hooke_fuzz_require(fabs(power + slope[1]) <= allowed, "forces are the slope of the potential energy");
+
+  hooke_fuzz_require(hooke_system_force(scene->system, 0.0, q, v_free, at) == HOOKE_OK, "forces");
+  const double lost = power - dot(size, at, v_free),
+               heat = hooke_system_dissipated_power(scene->system, q, v_free);
+  const double room =
+      1e-11 * (double)size * fmax(largest(size, at), largest(size, force)) * largest(size, v) + 1e-300;
+  if (!(fabs(lost - heat) <= room)) fprintf(stderr, "lost %.17g, heat %.17g\n", lost, heat);
+  hooke_fuzz_require(heat >= 0.0 && fabs(lost - heat) <= room, "what damping takes is heat");
+}
+
+static void check_derivative(const struct small_scene *scene) {
+  const int64_t size = 3 * scene->particles;
+  double dq[3 * MOST_PARTICLES], dv[3 * MOST_PARTICLES], product[3 * MOST_PARTICLES];
+  double ahead[3 * MOST_PARTICLES], behind[3 * MOST_PARTICLES], at_q[3 * MOST_PARTICLES],
+      at_v[3 * MOST_PARTICLES];
+  double slope[2][3 * MOST_PARTICLES];
+  const double far = 1e-3;
+  for (int64_t k = 0; k < size; k++) {
+    dq[k] = 0.5 * (double)((k * 7 + 3) % 5) - 1.0;
+    dv[k] = 0.5 * (double)((k * 11 + 1) % 7) - 1.5;
+  }
+  double scale = 0.0;
+  for (int k = 0; k < 2; k++) {
+    const double by = far / (1 << k);
+    move(size, scene->q, by, dq, at_q), move(size, scene->v, by, dv, at_v);
+    hooke_fuzz_require(hooke_system_force(scene->system, 0.0, at_q, at_v, ahead) == HOOKE_OK, "forces");
+    move(size, scene->q, -by, dq, at_q), move(size, scene->v, -by, dv, at_v);
+    hooke_fuzz_require(hooke_system_force(scene->system, 0.0, at_q, at_v, behind) == HOOKE_OK, "forces");
+    scale = fmax(scale, fmax(largest(size, ahead), largest(size, behind)));
+    for (int64_t p = 0; p < size; p++)
+      slope[k][p] = (ahead[p] - behind[p]) / (2.0 * by);
+  }
+  hooke_fuzz_require(
+      hooke_system_derivative_product(scene->system, 0.0, scene->q, scene->v, dq, dv, product) == HOOKE_OK,
+      "a product");
+  const double whole = largest(size, product);
+  for (int64_t p = 0; p < size; p++) {
+    const double allowed = 4.0 * fabs(slope[1][p] - slope[0][p]) + 1e-10 * scale / far + 1e-6 * whole;
+    if (!(fabs(product[p] - slope[1][p]) <= allowed))
+      fprintf(stderr, "number %lld: %.17g, difference %.17g, allowed %.3g\n", (long long)p, product[p],
+              slope[1][p], allowed);
+    hooke_fuzz_require(fabs(product[p] - slope[1][p]) <= allowed, "derivatives are what differences say");
+  }
+}
+
+/* ---- one input ---- */
+
+static const char *const methods[] = {"symplectic-euler", "forward-euler", "verlet", "rk4"};
+
+/* Backward Euler's costs as much as all others. */
+static struct stepping choose_steps(uint8_t code) {
+  struct stepping by = {.method = code % 64 == 63 ? "backward-euler" : methods[code % 4],
+                        .steps = 1 + code / 4 % 3};
+  by.step = code & 64 ? 0.0009765 : code & 128 ? 0.05 : 1e-5;
+  return by;
+}
+
+static uint64_t hash_of(const uint8_t *data, size_t size) {
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (size_t k = 0; k < size; k++)
+    hash = (hash ^ data[k]) * UINT64_C(0x100000001b3);
+  return hash ^ hash >> 29;
+}
+
+static int32_t set_count(void) {
+  int32_t count = 0;
+  while (__real_hooke_spring_set(count))
+    count++;
+  return count;
+}
+
+/* With the loops of one instruction set. */
+static void check_with(const uint8_t *data, size_t size, int first, int differences,
+                       struct expected *expected) {
+  struct small_scene scene; /* runs take their loops when a system is committed */
+  if (!small_scene_create(data, size, &scene)) return;
+  if (first) hooke_fuzz_is_past_syntax();
+  check_acceleration(&scene, first, expected->acceleration);
+  if (differences) check_members(&scene);
+  check_steps(&scene, first, &expected->by);
+  if (first && differences && is_smooth(&scene)) {
+    hooke_fuzz_is_accepted();
+    check_energy(&scene);
+    check_derivative(&scene);
+  }
+  small_scene_destroy(&scene);
+}
+
+/* An input that is kept goes through all of it, one of millions through a part that its bytes choose. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  enum { ALL_OF_IT = 500 };
+  static int32_t sets, inputs;
+  hooke_fuzz_begin();
+  if (sets == 0) sets = set_count();
+  const int whole = inputs < ALL_OF_IT;
+  inputs += whole;
+  const uint64_t hash = hash_of(data, size);
+  struct expected expected;
+  expected.by = choose_steps(size > 2 ? data[2] : 0);
+  const int32_t from = whole ? 0 : (int32_t)(hash % (uint64_t)sets), to = whole ? sets - 1 : from;
+  for (first_set = from; first_set <= to; first_set++)
+    check_with(data, size, first_set == from, whole || hash / 16 % 8 == 0, &expected);
+  first_set = 0;
+  return 0;
+}

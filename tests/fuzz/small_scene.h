@@ -1,0 +1,33 @@
+/* Small scenes made of any bytes: a head, records of what is in the scene, and numbers that are put in the place of others.
+ * What the library refuses is left out, so the scene is valid. */
+#ifndef TESTS_FUZZ_SMALL_SCENE_H
+#define TESTS_FUZZ_SMALL_SCENE_H
+
+#include "canonical.h"
+
+#include "hooke.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SCENE_HEAD = 8, SCENE_RECORD = 8, MOST_PARTICLES = 128, MOST_SPRINGS = 400, MOST_RECORDS = 12 };
+
+struct small_scene {
+  hooke_system *system; /* committed */
+  struct canonical canonical;
+  int64_t particles;
+  double q[3 * MOST_PARTICLES], v[3 * MOST_PARTICLES], mass[MOST_PARTICLES], gravity[3];
+  int32_t extreme;          /* numbers may be of any size: forces may overflow, and differences say nothing */
+  int32_t pulls;            /* something only pulls */
+  hooke_integrator *driver; /* puts driven particles in their places; NULL: there are none */
+  hooke_state *driven;
+};
+
+/* 0 if there is no scene in it. */
+int small_scene_create(const uint8_t *data, size_t size, struct small_scene *scene);
+void small_scene_destroy(struct small_scene *scene);
+
+/* For LLVMFuzzerCustomMutator: keeps records records. */
+size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed);
+
+#endif
