@@ -11,6 +11,7 @@ LAYERS = {
     "integrate": {"core", "kernel", "model"},
     "measure": {"core", "kernel", "model", "integrate"},
     "io": {"core", "kernel", "model", "build", "integrate", "measure"},
+    "guard": {"core", "kernel", "model", "build", "integrate", "measure", "io"},
 }
 
 # The layer to which each public header belongs.
@@ -43,7 +44,7 @@ FENCES = [
     (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
     (r"malloc\.h", r"tests/physics/test_scale\.c"),  # of glibc
-    (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
+    (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest)/\w+\.[ch]"),
 ]
 
 # Functions of Fortran, which need no header, and the only files that may call them.
@@ -59,7 +60,7 @@ STANDARD = set(
 )
 
 # Folders that see the library as a user does.
-OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/support/",
+OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/guest/", "tests/support/",
            "tests/abi/", "tests/fortran/", "bindings/")
 
 LINE_LIMIT = 800
@@ -152,6 +153,20 @@ def call_complaints(path, text):
     return [f"{path}: {call.group()} is fenced into {allowed}"
             for pattern, allowed in CALLS if path.startswith(("src/", "cli/")) and not re.fullmatch(allowed, path)
             for call in re.finditer(pattern, clean)]
+
+
+# Numbers with a fraction are printed by what keeps the point of the caller's locale out.
+PRINTED = re.compile(r'\b(?:v?s(?:n)?printf|fprintf)\s*\((?:[^;"]|"(?:[^"\\]|\\.)*")*?;', re.DOTALL)
+FRACTION = re.compile(r"%[-+ 0#]*(?:\d+|\*)?(?:\.(?:\d+|\*))?l?[aefg]")
+
+
+def locale_complaints(path, text):
+    """Numbers that are printed in the caller's locale; `path` in src/."""
+    if not path.startswith("src/") or path in ("src/core/print.c", "src/core/number.c"):
+        return []
+    clean = without_comments(text)
+    return [f"{path}:{clean.count(chr(10), 0, call.start()) + 1}: take hooke_print() for numbers with a fraction"
+            for call in PRINTED.finditer(clean) if FRACTION.search(call.group().replace("%%", ""))]
 
 
 def leak_complaints(files):

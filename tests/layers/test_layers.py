@@ -33,6 +33,18 @@ def test_planted_call():
     assert rules.call_complaints("src/measure/dense_lapack.c", call) == []
 
 
+def test_numbers_are_printed_in_no_locale():
+    complaints = [c for path, text in tree(".c", ".h") for c in rules.locale_complaints(path, text)]
+    assert not complaints, "\n".join(complaints)
+
+
+def test_planted_number():
+    call = 'snprintf(text, size, "%d of %.3g",\n  k, value);\n'
+    assert rules.locale_complaints("src/io/text.c", call)
+    assert rules.locale_complaints("src/io/text.c", call.replace("%.3g", "%s")) == []
+    assert rules.locale_complaints("src/io/text.c", "hooke_print" + call[8:]) == []
+
+
 def test_fences_do_not_leak():
     complaints = rules.leak_complaints(dict(tree(".c", ".h")))
     assert not complaints, "\n".join(complaints)

@@ -1,0 +1,292 @@
+/* Numbers have a decimal point, whatever the locale of the process or of the thread: what is read gives the same bits, and
+ * what is written the same bytes, under a locale with a comma as in C. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- a locale with a comma, made here: a machine need not have one ---- */
+
+static const char folder[] = "guest_locale", name[] = "comma.UTF-8";
+static const char source[] =
+    "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n";
+
+static int make_locale(void **unused) {
+  (void)unused;
+  char command[256];
+  snprintf(command, sizeof command, "mkdir -p %s", folder);
+  if (system(command) != 0) return 0;
+  snprintf(command, sizeof command, "%s/comma", folder);
+  FILE *file = fopen(command, "w");
+  if (file == NULL) return 0;
+  fputs(source, file);
+  fclose(file);
+  snprintf(command, sizeof command, "localedef -c -i %s/comma -f UTF-8 ./%s/%s >%s/log 2>&1", folder, folder,
+           name, folder);
+  const int ignored = system(command); /* 1 for the categories that are missing */
+  (void)ignored;
+  setenv("LOCPATH", folder, 1);
+  return 0;
+}
+
+static int remove_locale(void **unused) {
+  (void)unused;
+  char command[64];
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  return system(command) != 0;
+}
+
+static int has_comma(void) {
+  char text[8];
+  snprintf(text, sizeof text, "%.1f", 0.5);
+  return strcmp(text, "0,5") == 0;
+}
+
+/* ---- everything that is read and written ---- */
+
+enum { ROOM = 1 << 22 };
+struct output {
+  char *text; /* all of it */
+  size_t length;
+};
+
+static void add(struct output *out, const char *text) {
+  const size_t length = strlen(text ? text : "(none)");
+  if (out->length + length + 2 > ROOM) check_failed("too much output");
+  memcpy(out->text + out->length, text ? text : "(none)", length);
+  out->length += length;
+  out->text[out->length++] = '\n';
+  out->text[out->length] = '\0';
+}
+
+static void add_bits(struct output *out, int64_t count, const double *value) {
+  char text[32];
+  for (int64_t k = 0; k < count; k++) {
+    uint64_t bits;
+    memcpy(&bits, &value[k], sizeof bits);
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)bits);
+    add(out, text);
+  }
+}
+
+static void add_file(struct output *out, const char *path) {
+  FILE *file = fopen(path, "rb");
+  if (file == NULL) check_failed("no file %s", path);
+  out->length += fread(out->text + out->length, 1, ROOM - out->length - 1, file);
+  out->text[out->length] = '\0';
+  fclose(file);
+  remove(path);
+}
+
+static void refusals(struct output *out) {
+  hooke_options *options;
+  hooke_system *system;
+  const double q[] = {0, 0, 0}, bad[] = {0.5, NAN, 1.5};
+  check_ok(hooke_run_options_create(&options));
+  check_status(hooke_options_set_text(options, "step", "-1.25e-3"), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_status(hooke_options_set_text(options, "step", "1,5"), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_status(hooke_options_set_number(options, "rtol", 0.25), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_ok(hooke_options_set_text(options, "step", "1.25e-3"));
+  add_bits(out, 1, hooke_options_numbers(options, "step"));
+  check_ok(hooke_options_set_number(options, "atol", 0.125));
+  add(out, hooke_options_text(options, "atol"));
+  for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
+    add(out, hooke_options_row(options, row, "default"));
+    add(out, hooke_options_row(options, row, "allowed"));
+  }
+  hooke_options_destroy(options);
+  check_ok(hooke_system_create(&system));
+  check_status(hooke_system_set_drag(system, -0.5), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_status(hooke_system_add_particles(system, 1, bad, NULL, 1, q, NULL), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  hooke_system_destroy(system);
+}
+
+static void divergence(struct output *out) {
+  hooke_system *system = small_oscillator(100.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "forward-euler", .step = 0.0625, .duration = 100.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  add(out, hooke_last_error());
+#if HOOKE_HAVE_LAPACK
+  hooke_why *why;
+  check_ok(hooke_why_create(integrator, &why));
+  add(out, hooke_why_text(why, "sentence"));
+  for (int64_t k = 0; k < hooke_why_advice_count(why); k++) {
+    add(out, hooke_why_advice_text(why, k, "change"));
+    add(out, hooke_why_advice_text(why, k, "value"));
+  }
+  hooke_why_destroy(why);
+#endif
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+#if HOOKE_HAVE_JANSSON && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS && HOOKE_HAVE_HDF5
+
+static const char scene_text[] =
+    "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"drag\": 1.5e-3, \"particles\": {\"position\": [[0.1, "
+    "2.5e-1, -3e2]],"
+    " \"mass\": 0.3}, \"parts\": [{\"kind\": \"rope\", \"from\": [0, 0, 0], \"to\": [1, 0, 0.25], "
+    "\"segments\": 6,"
+    " \"mass\": 0.1, \"pinned\": \"start\", \"stretch\": {\"stiffness\": 50.5, \"damping\": 1e-2}}],"
+    " \"run\": {\"method\": \"verlet\", \"step\": 0.0005, \"duration\": 0.05, \"every\": 0.01}}";
+
+static void scenes(struct output *out) {
+  hooke_scene *scene, *copy;
+  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": -0.75}", 27, "bad", NULL, &scene),
+               HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": 0,75}", 26, "bad", NULL, &scene), HOOKE_BAD_VALUE);
+  add(out, hooke_last_error());
+  check_ok(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, &scene));
+  check_ok(hooke_scene_commit(scene));
+  hooke_system *system = hooke_scene_system(scene);
+  hooke_options *run = hooke_scene_run_options(scene), *options;
+  hooke_state *state = start_state(system);
+  add_bits(out, hooke_state_size(state), hooke_state_position(state));
+  add_bits(out, 1, hooke_options_numbers(run, "step"));
+  add_bits(out, hooke_system_particle_count(system), hooke_system_mass(system));
+  check_ok(hooke_scene_of_system(system, "of a system", run, "copy", NULL, &copy));
+  add(out, hooke_scene_text(copy));
+  hooke_scene_destroy(copy);
+  check_ok(hooke_scene_write("guest_locale.json", system, "written", run));
+  add_file(out, "guest_locale.json");
+
+  hooke_limit *limit;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1));
+  check_ok(hooke_limit_create(system, run, options, &limit));
+  check_ok(hooke_limit_find(limit, state));
+  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
+    add(out, hooke_limit_text(limit, row, "note"));
+  add(out, hooke_limit_remedy_text(limit, "sentence"));
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(options);
+
+  hooke_study *study;
+  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", "verlet"));
+  check_ok(hooke_options_set_text(options, "steps", "0.0005,0.00025"));
+  check_ok(hooke_study_create(system, run, options, &study));
+  check_ok(hooke_study_run(study));
+  check_ok(hooke_study_recommend(study, 1e-13));
+  add(out, hooke_study_recommendation_text(study, "note"));
+  check_ok(hooke_study_write_csv(study, "guest_locale.csv"));
+  /* some of its columns are times on the clock: what counts is how many there are */
+  FILE *table = fopen("guest_locale.csv", "r");
+  char line[1024];
+  assert_non_null(table);
+  while (fgets(line, sizeof line, table)) {
+    char columns[16];
+    int64_t commas = 0;
+    for (const char *c = line; *c; c++)
+      commas += *c == ',';
+    snprintf(columns, sizeof columns, "%d columns", (int)commas);
+    add(out, columns);
+  }
+  fclose(table);
+  remove("guest_locale.csv");
+  hooke_study_destroy(study);
+  hooke_options_destroy(options);
+
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "verlet", .step = 0.0005, .duration = 0.001});
+  hooke_trajectory *trajectory;
+  hooke_record *record;
+  check_ok(hooke_trajectory_create("guest_locale.h5", system, integrator, scene_text, &trajectory));
+  check_ok(hooke_trajectory_write(trajectory, 0, state));
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  check_ok(hooke_record_open("guest_locale.h5", &record));
+  check_ok(hooke_record_write_xdmf(record, "guest_locale.xdmf"));
+  add_file(out, "guest_locale.xdmf");
+  add_bits(out, 1, hooke_options_numbers(hooke_record_options(record), "step"));
+#if HOOKE_HAVE_CHARTJS && HOOKE_HAVE_THREEJS
+  hooke_view *view;
+  check_ok(hooke_view_create(record, NULL, &view));
+  check_ok(hooke_view_write(view, "guest_locale.html", "title"));
+  add_file(out, "guest_locale.html");
+  hooke_view_destroy(view);
+#endif
+  hooke_record_close(record);
+  remove("guest_locale.h5");
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  hooke_scene_destroy(scene);
+}
+
+#else
+
+static void scenes(struct output *out) {
+  (void)out, (void)add_file;
+}
+
+#endif
+
+static struct output everything(void) {
+  struct output out = {.text = new_block(ROOM, 1)};
+  refusals(&out);
+  divergence(&out);
+  scenes(&out);
+  return out;
+}
+
+static void check_same_output(const struct output *found, const struct output *expected) {
+  size_t k = 0;
+  while (k < found->length && k < expected->length && found->text[k] == expected->text[k])
+    k++;
+  if (k == found->length && k == expected->length) return;
+  const size_t from = k > 60 ? k - 60 : 0;
+  check_failed("other bytes under a locale with a comma:\n  %.100s\ninstead of\n  %.100s", found->text + from,
+               expected->text + from);
+}
+
+static void test_locale_of_the_process(void **unused) {
+  (void)unused;
+  const struct output expected = everything();
+  if (setlocale(LC_NUMERIC, name) == NULL) {
+    free(expected.text);
+    print_message("there is no localedef to make a locale with a comma\n");
+    skip();
+  }
+  assert_true(has_comma());
+  const struct output found = everything();
+  assert_true(has_comma());
+  setlocale(LC_NUMERIC, "C");
+  check_same_output(&found, &expected);
+  free(found.text);
+  free(expected.text);
+}
+
+static void test_locale_of_the_thread(void **unused) {
+  (void)unused;
+  const locale_t comma = newlocale(LC_NUMERIC_MASK, name, (locale_t)0);
+  if (comma == (locale_t)0) skip();
+  const struct output expected = everything();
+  uselocale(comma);
+  assert_true(has_comma());
+  const struct output found = everything();
+  assert_true(has_comma());
+  uselocale(LC_GLOBAL_LOCALE);
+  freelocale(comma);
+  check_same_output(&found, &expected);
+  free(found.text);
+  free(expected.text);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_locale_of_the_process),
+                                     cmocka_unit_test(test_locale_of_the_thread)};
+  return cmocka_run_group_tests(tests, make_locale, remove_locale);
+}

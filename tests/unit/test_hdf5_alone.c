@@ -1,0 +1,100 @@
+/* HDF5 takes one thread at a time unless it was built for more, so hooke lets in one: threads with files of their own never
+ * meet in it. H5Fopen() is stood in for, to see who is there. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <time.h>
+
+#if HOOKE_HAVE_HDF5
+
+static atomic_int inside, most_inside;
+
+int64_t __real_H5Fopen(const char *name, unsigned flags, int64_t list);
+int64_t __wrap_H5Fopen(const char *name, unsigned flags, int64_t list);
+int64_t __wrap_H5Fopen(const char *name, unsigned flags, int64_t list) {
+  const int now = atomic_fetch_add(&inside, 1) + 1;
+  if (now > most_inside) most_inside = now;
+  nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+  const int64_t file = __real_H5Fopen(name, flags, list);
+  atomic_fetch_sub(&inside, 1);
+  return file;
+}
+
+enum { THREADS = 4, OPENINGS = 8 };
+static pthread_barrier_t together;
+
+struct reader {
+  int number, fine_count;
+  pthread_t thread;
+};
+
+static void *open_often(void *arg) {
+  struct reader *reader = arg;
+  char path[64];
+  double time[1];
+  int64_t rows, columns;
+  snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", reader->number);
+  pthread_barrier_wait(&together);
+  for (int k = 0; k < OPENINGS; k++) {
+    hooke_record *record = NULL;
+    if (hooke_record_open(path, &record) != HOOKE_OK) continue;
+    const int fine = hooke_record_size(record, "time", &rows, &columns) == HOOKE_OK && rows == 1 &&
+                     hooke_record_numbers(record, "time", time) == HOOKE_OK && time[0] == reader->number;
+    reader->fine_count += fine;
+    hooke_record_close(record);
+  }
+  return NULL;
+}
+
+static void test_files_at_once(void **unused) {
+  (void)unused;
+  struct reader reader[THREADS];
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "verlet", .step = 0.125, .duration = 0.25});
+  hooke_state *state = start_state(system);
+  char path[64];
+  for (int t = 0; t < THREADS; t++) {
+    hooke_trajectory *trajectory;
+    snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", t);
+    hooke_state_set_time(state, t);
+    check_ok(hooke_trajectory_create(path, system, integrator, NULL, &trajectory));
+    check_ok(hooke_trajectory_write(trajectory, 0, state));
+    check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+  }
+  pthread_barrier_init(&together, NULL, THREADS);
+  for (int t = 0; t < THREADS; t++) {
+    reader[t] = (struct reader){.number = t};
+    assert_int_equal(pthread_create(&reader[t].thread, NULL, open_often, &reader[t]), 0);
+  }
+  for (int t = 0; t < THREADS; t++)
+    pthread_join(reader[t].thread, NULL);
+  pthread_barrier_destroy(&together);
+  assert_int_equal(most_inside, 1);
+  for (int t = 0; t < THREADS; t++) {
+    snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", t);
+    remove(path);
+    assert_int_equal(reader[t].fine_count, OPENINGS);
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+#else
+
+static void test_files_at_once(void **unused) {
+  (void)unused;
+  skip();
+}
+
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_files_at_once)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
