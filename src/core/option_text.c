@@ -53,19 +53,6 @@ static void add_words(const char *words, const char *quote, char *text, int64_t 
   }
 }
 
-void hooke_option_list_words(const char *words, char *text, int64_t size) {
-  text[0] = '\0';
-  add_words(words, "", text, size);
-}
-
-void hooke_option_list_names(const struct hooke_option_table *table, char *text, int64_t size) {
-  text[0] = '\0';
-  for (int32_t k = 0; k < table->row_count; k++) {
-    const char *joint = k == 0 ? "" : k + 1 < table->row_count ? ", " : " or ";
-    add(text, size, "%s%s", joint, table->rows[k].name);
-  }
-}
-
 void hooke_option_show(const char *text, int64_t length, char *shown) {
   int64_t used = 0, most = HOOKE_OPTION_SHOWN - 4;
   for (; used < length && used < most; used++) {
