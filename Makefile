@@ -2,6 +2,8 @@
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make test   sets up, builds, and runs every test
+#   make test-long  runs what takes hours, in four parts that go on where they were: soak, fuzz, sanitizers, arm64;
+#                   make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -35,6 +37,13 @@ test: $(PRESETS:%=build-%) build/fuzz/packages
 	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
 	exit $$failed
+
+# Each part keeps what is done in build/long and writes its figures into docs/reliability.md.
+LONG_PARTS = soak fuzz sanitizers arm64
+PART = $(LONG_PARTS)
+
+test-long: $(PART:%=build/long/%.packages) | build/venv/done
+	$(PYTHON) tests/long/run.py $(PART)
 
 # Nothing is compiled; bench needs the header that says what commit it is of.
 tidy: build/tidy/packages
@@ -86,19 +95,23 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 # What is missing is installed as root or through sudo; without either, the line to type is printed.
 build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
-build/tidy/packages build/fuzz/packages: | build/packages
-build/packages build/tidy/packages build/fuzz/packages: Makefile
+build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
+build/long/arm64.packages: private FOREIGN = arm64
+$(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
+build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): | build/packages
+build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): Makefile
 	@mkdir -p $(@D)
 	@missing=$$(for package in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
 	if [ -n "$$missing" ]; then \
 	  if [ $$(id -u) = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
-	  command -v $${as_root%% *} >/dev/null && $$as_root apt-get update && $$as_root \
+	  command -v $${as_root%% *} >/dev/null && \
+	    { [ -z "$(FOREIGN)" ] || $$as_root dpkg --add-architecture $(FOREIGN); } && $$as_root apt-get update && $$as_root \
 	    DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $$missing || \
-	  { printf 'Debian packages are missing. As root:\n\n  apt-get install %s\n\n' "$$missing"; exit 1; }; \
+	  { printf 'Debian packages are missing. As root:\n\n  $(if $(FOREIGN),dpkg --add-architecture $(FOREIGN); apt-get update; )apt-get install %s\n\n' "$$missing"; exit 1; }; \
 	fi
 	@touch $@
 
-.PHONY: all demo test tidy wheel wheel-test $(PRESETS:%=build-%)
+.PHONY: all demo test test-long tidy wheel wheel-test $(PRESETS:%=build-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -64,10 +64,6 @@ int32_t hooke_options_add_word(hooke_options *options, const char *name, const c
 /* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
 int32_t hooke_options_check_required(const hooke_options *options);
 
-/* Writes "a, b or c" for the words of a row; for a table, its row names. Truncates to `size`. */
-void hooke_option_list_words(const char *words, char *text, int64_t size);
-void hooke_option_list_names(const struct hooke_option_table *table, char *text, int64_t size);
-
 /* 1 if `word` is one of `words`, which are separated by blanks (NULL: none). */
 int32_t hooke_option_has_word(const char *words, const char *word, int64_t length);
 

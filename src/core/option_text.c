@@ -54,19 +54,6 @@ static void add_words(const char *words, const char *quote, char *text, int64_t 
   }
 }
 
-void hooke_option_list_words(const char *words, char *text, int64_t size) {
-  text[0] = '\0';
-  add_words(words, "", text, size);
-}
-
-void hooke_option_list_names(const struct hooke_option_table *table, char *text, int64_t size) {
-  text[0] = '\0';
-  for (int32_t k = 0; k < table->row_count; k++) {
-    const char *joint = k == 0 ? "" : k + 1 < table->row_count ? ", " : " or ";
-    add(text, size, "%s%s", joint, table->rows[k].name);
-  }
-}
-
 /* Bytes of the character of UTF-8 (RFC 3629) that `text` begins with; 0 if it begins with none. */
 static int64_t character(const char *text, int64_t length) {
   const unsigned char *c = (const unsigned char *)text;

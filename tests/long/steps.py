@@ -107,8 +107,8 @@ def last_line(log: Path) -> str:
     return lines[-1][:100] if lines else ""
 
 
-def run(step: Step, log: Path, folder: Path, told: Callable[[str], None]) -> int:
-    environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "OPENBLAS_NUM_THREADS": "1"} | step.environment
+def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], None]) -> int:
+    environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "SOURCES": mark, "OPENBLAS_NUM_THREADS": "1"} | step.environment
     with log.open("w") as output:
         process = subprocess.Popen(
             ["bash", "-e", "-u", "-o", "pipefail", "-c", step.command],
@@ -153,14 +153,14 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
         spent = time.monotonic() - began
         print(f"    {words(spent)}, about {words(max(left - spent, 0))} left: {line}", flush=True)
 
-    status = run(step, log, folder, tell)
+    status = run(step, log, folder, state["sources"][:12], tell)
     took = time.monotonic() - began
     try:
         if status != 0:
             raise ValueError(f"ended with status {status}")
         figures = step.figures(log.read_text(errors="replace"))
     except (ValueError, LookupError, OSError) as error:
-        print(f"    FAILED after {words(took)}: {error}; {log.relative_to(ROOT)} ends with")
+        print(f"    FAILED after {words(took)}: {error}; {os.path.relpath(log, ROOT)} ends with")
         print("\n".join("    | " + line for line in log.read_text(errors="replace").splitlines()[-15:]), flush=True)
         return False
     state["took"][step.name] = round(took, 1)
@@ -189,9 +189,9 @@ def write_figures(part: Part, state: dict[str, Any]) -> None:
     marks = re.compile(rf"(<!-- figures of {part.name} -->\n).*?(<!-- end -->)", re.DOTALL)
     text, count = marks.subn(lambda found: found[1] + "\n".join(lines) + "\n" + found[2], PAGE.read_text())
     if count != 1:
-        raise SystemExit(f"{PAGE.relative_to(ROOT)} has no place for the figures of {part.name}")
+        raise SystemExit(f"{os.path.relpath(PAGE, ROOT)} has no place for the figures of {part.name}")
     write_whole(PAGE, text)
-    print(f"figures of {part.name}: {PAGE.relative_to(ROOT)}", flush=True)
+    print(f"figures of {part.name}: {os.path.relpath(PAGE, ROOT)}", flush=True)
 
 
 def number(pattern: str, text: str) -> int:

@@ -332,8 +332,73 @@ static void what_cannot_be_is_refused(void **state) {
   hooke_system_destroy(alone);
 }
 
+/* ---- groups of triples and tetrahedra that no part brings ---- */
+
+enum { SPRINGS = 1, TRIPLES = 2, TETRAHEDRA = 4, DAMPING = 8, DRAG = 16, GROUPS = 31 };
+
+/* A tetrahedron on a pinned corner, with two more particles on a line from it; what it has is in `has`. */
+static hooke_system *body_and_line(int has) {
+  const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 0.6, 0.02, 0, 0.9, 0, 0.03};
+  const double speed[] = {0, 0, 0, 0, 0.1, 0, 0, 0, 0.2, 0.1, 0, 0, 0, -0.2, 0, 0, 0.3, 0.1}, coefficient = 2;
+  const int64_t ends[] = {0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3, 1, 4, 4, 5};
+  const int64_t triples[] = {0, 1, 4, 1, 4, 5}, corners[] = {0, 1, 2, 3};
+  hooke_system *system = small_system(6, place, speed, 0.1, 1);
+  hooke_options *options = NULL;
+  const double damping = has & DAMPING ? 0.02 : 0.0;
+  if (has & SPRINGS) {
+    small_springs(system, 8, ends,
+                  (struct springs){.stiffness = 5.0, .damping = damping, .rest_length = -1.0});
+  }
+  if (has & TRIPLES) check_ok(hooke_system_add_bending(system, NULL, 2, triples, 1, &coefficient));
+  if (has & TETRAHEDRA) {
+    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_set_number(options, "stiffness", 20.0));
+    check_ok(hooke_options_set_number(options, "damping", damping));
+    check_ok(hooke_options_set_number(options, "rest_scale", 1.3));
+    check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
+    hooke_options_destroy(options);
+  }
+  if (has & DRAG) check_ok(hooke_system_set_drag(system, 0.05));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void groups_without_parts_are_ingredients(void **unused) {
+  (void)unused;
+  static const struct {
+    const char *without;
+    int left;
+  } rows[] = {{"body", GROUPS - TETRAHEDRA},
+              {"bending[0]", GROUPS - TRIPLES},
+              {"damping", GROUPS - DAMPING},
+              {"drag", GROUPS - DRAG}};
+  const double want = 1e-3;
+  hooke_system *system = body_and_line(GROUPS);
+  hooke_needs *needs = start(system, half_a_second, want, NULL);
+  check_ok(hooke_needs_find(needs));
+  struct frames *full = run_fine(system, 1e-4, 1);
+  const double judged = hooke_needs_figure(needs, "judged_until"); /* altitude springs jump */
+  check_between(judged, 0.1, 0.5);
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+    hooke_system *without = body_and_line(rows[k].left);
+    struct frames *frames = run_fine(without, 1e-4, 1);
+    full->count = frames->count = 1 + llround(judged / half_a_second.every);
+    const double change = distance(full, frames);
+    const int64_t row = row_of(needs, rows[k].without);
+    check_between(change, 1e-3, 1.0);
+    check_close(hooke_needs_number(needs, row, "error"), change, 0.2 * want);
+    assert_true(hooke_needs_number(needs, row, "needed") == (change > want));
+    free(frames);
+    hooke_system_destroy(without);
+  }
+  free(full);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(groups_without_parts_are_ingredients),
       cmocka_unit_test(changes_are_those_of_runs_made_apart),
       cmocka_unit_test(refinement_predicts_a_much_finer_rope),
       cmocka_unit_test(a_callback_is_an_ingredient),

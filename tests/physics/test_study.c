@@ -373,8 +373,52 @@ static void a_stopped_study_keeps_its_rows(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Rows that run side by side come to the same numbers as one after the other, and stop when they are asked to. */
+static void rows_side_by_side_are_the_same(void **unused) {
+  (void)unused;
+  hooke_system *system = build_reference(find_reference("oscillator"));
+  hooke_study *study[3] = {NULL};
+  for (int k = 0; k < 3; k++) {
+    hooke_options *run = run_options((struct run){.duration = 1.0, .every = 0.1, .threads = k == 0 ? 1 : 2});
+    const int32_t status = hooke_study_create(system, run, NULL, &study[k]);
+    hooke_options_destroy(run);
+    if (status == HOOKE_NOT_BUILT) {
+      hooke_system_destroy(system);
+      skip();
+    }
+    check_status(status, HOOKE_OK);
+  }
+  check_ok(hooke_study_run(study[0]));
+  check_ok(hooke_study_run(study[1]));
+  const int64_t rows = hooke_study_row_count(study[0]);
+  assert_int_equal(hooke_study_row_count(study[1]), rows);
+  int64_t found = 0;
+  for (int64_t k = 0; k < rows; k++) {
+    for (int64_t other = 0; other < rows; other++) {
+      const char *words[] = {"step", "rtol", "error", "error_final", "force_evaluations"};
+      int same =
+          strcmp(hooke_study_text(study[0], k, "method"), hooke_study_text(study[1], other, "method")) == 0;
+      for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) {
+        const double a = hooke_study_number(study[0], k, words[w]),
+                     b = hooke_study_number(study[1], other, words[w]);
+        same = same && (a == b || (isnan(a) && isnan(b)));
+      }
+      found += same;
+    }
+  }
+  assert_int_equal(found, rows);
+  int64_t calls = 0;
+  hooke_study_on_progress(study[2], stop_after_some, &calls);
+  check_status(hooke_study_run(study[2]), HOOKE_STOPPED);
+  assert_true(hooke_study_row_count(study[2]) < rows);
+  for (int k = 0; k < 3; k++)
+    hooke_study_destroy(study[k]);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_side_by_side_are_the_same),
       cmocka_unit_test(errors_are_true),
       cmocka_unit_test(agreement_is_honest),
       cmocka_unit_test(orders_are_those_of_the_theory),

@@ -530,8 +530,49 @@ static void test_without_lapack(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- overflow by what is no spring ---- */
+
+static void check_overflow(hooke_system *system, int64_t particle, const char *words) {
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 10.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_why *why = explain(integrator);
+  check_text(hooke_why_text(why, "cause"), "overflow");
+  if (strstr(hooke_why_text(why, "sentence"), words) == NULL)
+    check_failed("%s", hooke_why_text(why, "sentence"));
+  assert_int_equal(hooke_why_blame_count(why), 0);
+  assert_true(hooke_why_number(why, "particle") == (double)particle);
+  hooke_why_destroy(why);
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+/* Bending and altitude springs of 1e300: the first step leaves the range of numbers, and no spring is blamed. */
+static void test_overflow_without_springs(void **unused) {
+  (void)unused;
+  const double line[] = {0, 0, 0, 1, 0.5, 0, 2, 0, 0}, coefficient = 1e300;
+  const int64_t triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
+  hooke_system *bent = small_system(3, line, NULL, 1.0, 1);
+  check_ok(hooke_system_add_bending(bent, "stiff", 1, triple, 1, &coefficient));
+  check_overflow(bent, 1, "on 1 kg, with a step of 0.1 s");
+
+  const double body[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  hooke_options *options = NULL;
+  hooke_system *stiff = small_system(4, body, NULL, 1.0, 1);
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1e300));
+  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
+  check_ok(hooke_system_add_altitude(stiff, "stiff", 1, corners, options));
+  hooke_options_destroy(options);
+  check_overflow(stiff, 1, "on 1 kg, with a step of 0.1 s");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_overflow_without_springs),
       cmocka_unit_test(test_force_callbacks),
       cmocka_unit_test(test_drive_callback),
       cmocka_unit_test(test_innocent_callback),

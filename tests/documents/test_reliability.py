@@ -1,0 +1,102 @@
+"""The promises of docs/reliability.md name tests that are there, and its figures have a place that `make test-long` fills."""
+
+import importlib.util
+import os
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
+PAGE = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+LONG = ROOT / "tests/long"
+
+
+def promises(page):
+    """Rows of the table of promises: what, how, tests."""
+    table = page.split("## Promises")[1].split("\n## ")[0]
+    rows = [line.strip("|").split(" | ") for line in table.splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in row] for row in rows if not set(row[0].strip()) <= {"-"}][1:]
+
+
+def attackers(row):
+    return [name.split("::") for name in re.findall(r"`(tests/[^`*]+?\.(?:c|py)(?:::\w+)?)`", row[-1])]
+
+
+def missing(page):
+    found = []
+    for row in promises(page):
+        if not attackers(row):
+            found.append(f"no test attacks: {row[0]}")
+        for path, *test in attackers(row):
+            file = ROOT / path
+            if not file.is_file() or any(f"def {name}(" not in file.read_text(encoding="utf-8") for name in test):
+                found.append("::".join([path, *test]))
+    return found
+
+
+def test_promises_have_their_tests():
+    assert len(promises(PAGE)) >= 9
+    assert all(len(row) == 3 for row in promises(PAGE))
+    assert not missing(PAGE)
+
+
+@pytest.mark.parametrize("planted", ["| A | b | `tests/unit/test_nothing.c` |", "| A | b | c |",
+                                     "| A | b | `tests/documents/test_reliability.py::test_nothing` |"])  # fmt: skip
+def test_planted(planted):
+    assert missing(PAGE.replace("\n\n## Figures", f"\n{planted}\n\n## Figures"))
+
+
+@pytest.fixture
+def steps(monkeypatch, tmp_path):
+    monkeypatch.syspath_prepend(str(LONG))
+    for name in ("steps", "soak", "fuzz", "sanitizers", "arm64", "bits"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    spec = importlib.util.spec_from_file_location("steps", LONG / "steps.py")
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, "steps", module)
+    spec.loader.exec_module(module)
+    monkeypatch.setattr(module, "KEPT", tmp_path / "long")
+    monkeypatch.setattr(module, "PAGE", tmp_path / "page.md")
+    monkeypatch.setattr(module, "sources", lambda: ("digest", "1234abc"))
+    module.PAGE.write_text("<!-- figures of a part -->\nNot run yet.\n<!-- end -->\n<!-- figures of b -->\n<!-- end -->\n")
+    return module
+
+
+def test_parts_have_their_place(steps):
+    for name in ("soak", "fuzz", "sanitizers", "arm64"):
+        assert re.search(rf"<!-- figures of {name} -->\n(?:(?!<!--).)*\n<!-- end -->", PAGE, re.DOTALL)
+        part = importlib.import_module(name).PART
+        assert part.name == name
+        assert sum(step.seconds for step in part.steps) < steps.LIMIT
+
+
+def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
+    """Steps done are not run again, one that failed is, and other sources begin anew."""
+    ran, wrong = steps.PAGE.parent / "ran", steps.PAGE.parent / "wrong"
+    part = steps.Part(
+        "a part",
+        [],
+        [
+            steps.Step("one", f"echo one >>{ran}; echo 7", 1, lambda text: {"tests": int(text)}),
+            steps.Step("two", f"echo two >>{ran}; test ! -e {wrong}", 1),
+            steps.Step("three", f"echo three >>{ran}; echo $HOOKE_LONG; false | cat", 1),
+        ],
+        lambda done: [(name, str(figures)) for name, figures in done.items()],
+    )
+    wrong.touch()
+    assert steps.run_part(part) == 2  # `two`, and `three`, whose pipe failed
+    assert ran.read_text().split() == ["one", "two", "three"]
+    assert "Not run yet, or failed: two, three." in steps.PAGE.read_text()
+    assert "FAILED" in capsys.readouterr().out
+    wrong.unlink()
+    part.steps[2].command = f"echo three >>{ran}"
+    assert steps.run_part(part) == 0
+    assert ran.read_text().split() == ["one", "two", "three", "two", "three"]
+    page = steps.PAGE.read_text()
+    assert "commit 1234abc, 3 of 3 steps" in page and "| one | {'tests': 7} |" in page and "failed" not in page
+    assert "<!-- figures of b -->\n<!-- end -->" in page
+    assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 5
+    monkeypatch.setattr(steps, "sources", lambda: ("another", "5678def"))
+    assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 8

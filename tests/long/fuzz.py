@@ -1,0 +1,30 @@
+"""The counted campaign of tests/fuzz: 1e7 executions of each target, 1e8 of scenes. Its driver keeps where it was."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from steps import ROOT, Part, Step
+
+
+def counted(_: str) -> dict[str, Any]:
+    return json.loads((ROOT / "build/fuzz/figures.json").read_text())["targets"]
+
+
+def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
+    told = []
+    for name, f in done.get("campaign", {}).items():
+        lines = f"{f['lines']['percent']} % of the lines of its files, " if f.get("lines") else ""
+        told.append((name, f"{f['executions']:.3g} executions, {f['past_syntax_percent']} % past the syntax, {lines}"
+                     f"{f['edges']} edges, none new in the last {f['executions_since_last_edge']:.3g} executions "
+                     f"({f['seconds_since_last_edge'] / 60:.0f} min of processor), {f['findings']} findings"))  # fmt: skip
+    return told
+
+
+PART = Part(
+    "fuzz",
+    ["clang", "libclang-rt-14-dev"],
+    [Step("campaign", "python3 tests/fuzz/run.py --executions 1e7 --minutes 140", 8400, counted)],
+    rows,
+)

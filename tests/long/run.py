@@ -1,0 +1,26 @@
+"""What `make test-long` runs: python tests/long/run.py [PART ...]; all parts without arguments.
+
+--packages PART ... prints what Debian has to have for them, --figures PART ... writes the figures of what is done so far.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import arm64
+import fuzz
+import sanitizers
+import soak
+from steps import load, main, write_figures
+
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, sanitizers, arm64)}
+
+if __name__ == "__main__":
+    option, *names = sys.argv[1:] or [""]
+    if option == "--packages":
+        print(" ".join(dict.fromkeys(package for name in names or PARTS for package in PARTS[name].packages)))
+    elif option == "--figures":
+        for name in names or PARTS:
+            write_figures(PARTS[name], load(PARTS[name]))
+    else:
+        main(PARTS, [name for name in sys.argv[1:] if name])

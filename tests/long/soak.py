@@ -1,0 +1,91 @@
+"""Eight hours' worth of work, compressed: 1e9 steps, 1e4 lives of every object, a thousand kills, long runs."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from steps import Part, Step, tests_passed
+
+BUILD = "build/long/release"
+STEPS, CYCLES = 10**9, 10**4
+SLOW = {"why": 700, "study": 600}  # [s] of processor for all cycles
+QUICK = (
+    "system scene refused forward-euler symplectic-euler verlet rk4 backward-euler cvode-bdf cvode-adams rk8pd "
+    "arkode-esdirk trajectory write-behind limit cost comparison needs"
+).split()
+
+
+def billion(method: str) -> Step:
+    place = f"$WORK/$SOURCES-{method}"
+    whole, pieces = (f"{BUILD}/tests/long/steps {place}-{how} {method} {how} {STEPS}" for how in ("whole", "pieces"))
+    command = f"{whole} >$WORK/{method}-whole.txt 2>&1 & {pieces} 2>&1; wait $!; cat $WORK/{method}-whole.txt"
+    return Step(f"1e9 steps, {method}", command, 500, equal_to_the_end)
+
+
+def equal_to_the_end(text: str) -> dict[str, Any]:
+    hashes = re.findall(r"^final hash (\w+)$", text, re.MULTILINE)
+    if len(hashes) != 2 or hashes[0] != hashes[1]:
+        raise ValueError(f"in one piece and in many the steps come to {hashes}")
+    marks: dict[str, set[str]] = {}
+    for step, found in re.findall(r"^step (\d+) hash (\w+)$", text, re.MULTILINE):
+        marks.setdefault(step, set()).add(found)
+    if any(len(found) > 1 for found in marks.values()):
+        raise ValueError("the two come to different numbers on the way")
+    energy = re.search(r"energy off by (\S+) in the first tenth, (\S+) in the last; angular momentum by (\S+);", text)
+    if not energy:
+        raise ValueError("no line of energies")
+    return {"hash": hashes[0], "first": energy[1], "last": energy[2], "spin": energy[3]}
+
+
+def lives(kinds: list[str], seconds: float) -> Step:
+    command = (
+        f"mkdir -p $WORK/files; printf '%s\\n' {' '.join(kinds)} "
+        f"| GLIBC_TUNABLES=glibc.malloc.tcache_count=0 xargs -P 2 -I KIND {BUILD}/tests/long/cycles KIND {CYCLES} $WORK/files"
+    )
+
+    def figures(text: str) -> dict[str, Any]:
+        found = re.findall(r"^(\S+): (\d+) cycles, .* heap (\d+) -> (\d+) bytes", text, re.MULTILINE)
+        if {kind for kind, *_ in found} != set(kinds):
+            raise ValueError(f"not all of {', '.join(kinds)} came to their end")
+        return {"kinds": len(found), "cycles": min(int(cycles) for _, cycles, *_ in found),
+                "grown": max(int(now) - int(start) for *_, start, now in found)}  # fmt: skip
+
+    return Step(f"1e4 lives: {', '.join(kinds) if len(kinds) < 3 else f'{len(kinds)} kinds'}", command, seconds, figures)
+
+
+def ctest(name: str, pattern: str, seconds: float) -> Step:
+    return Step(name, f"ctest --test-dir {BUILD} -j2 --output-on-failure -R '{pattern}'", seconds, tests_passed)
+
+
+def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
+    told = []
+    for name, figures in done.items():
+        if name.startswith("1e9"):
+            told.append((f"{name}, a free chain of 8 particles", "equal bits in one piece and in many, image in the origin "
+                         f"exact to the last step (momentum 0), energy off by {figures['first']} at most in the first tenth "
+                         f"and {figures['last']} in the last, angular momentum by {figures['spin']}, memory flat"))  # fmt: skip
+    lived = [figures for name, figures in done.items() if name.startswith("1e4")]
+    if lived:
+        told.append(("lives of objects (made, used, destroyed)",
+                     f"{sum(f['kinds'] for f in lived)} kinds, {min(f['cycles'] for f in lived)} each: equal results, "
+                     f"the heap grows by {max(f['grown'] for f in lived)} bytes, no file and no thread is left"))  # fmt: skip
+    told += [(name, f"{figures['tests']} test programs passed") for name, figures in done.items() if "tests" in figures]
+    return told
+
+
+PART = Part(
+    "soak",
+    [],
+    [
+        Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
+                      f"cmake --build {BUILD}", 240),
+        billion("verlet"),
+        billion("symplectic-euler"),
+        lives(QUICK, 300),
+        lives(list(SLOW), max(SLOW.values())),
+        ctest("crashes and kills", "crash|kill|frame_check", 1800),
+        ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 900),
+    ],
+    rows,
+)  # fmt: skip
