@@ -2,6 +2,7 @@
 #include "hooke/io.h"
 
 #include "core/handle.h"
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/record.h"
@@ -193,6 +194,7 @@ static int32_t read_times(struct hooke_record *record) {
 }
 
 int32_t hooke_record_open(const char *path, hooke_record **out) {
+  HOOKE_KEEP_ERRNO;
   *out = NULL;
   struct hooke_record *record = hooke_handle_new("hooke_record", sizeof *record);
   if (record == NULL) return HOOKE_NO_MEMORY;

@@ -1,5 +1,6 @@
 /* Trajectories: one run in one H5MD file. */
 #include "core/handle.h"
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "hooke/io.h"
@@ -231,6 +232,7 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
+  HOOKE_KEEP_ERRNO;
   end_thread(trajectory);
   const int32_t status = finish(trajectory, outcome);
   if (status == HOOKE_OK && outcome == HOOKE_OK) hooke_trajectory_drop_checkpoint(trajectory->file.path);

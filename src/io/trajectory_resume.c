@@ -1,5 +1,6 @@
 /* Going on with the run of a trajectory: which place that is, and the file opened for the frames that are missing. */
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "integrate/run_loop.h"
 #include "io/checkpoint_file.h"
@@ -130,7 +131,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
   hooke_trajectory_keep(going->trajectory, frames);
-  snprintf(going->origin, sizeof going->origin, "%s at t = %.17g s: %s",
+  hooke_print(going->origin, sizeof going->origin, "%s at t = %.17g s: %s",
            frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
@@ -148,7 +149,7 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
                                      &going->trajectory);
     if (status == HOOKE_OK) {
       hooke_recent_set_first(&going->integrator->recent, going->first);
-      snprintf(going->origin, sizeof going->origin, "the checkpoint, at t = %.17g s", *going->state->t);
+      hooke_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.17g s", *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
   }

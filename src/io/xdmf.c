@@ -176,7 +176,9 @@ static int32_t check_replaced(const char *path) {
   const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hooke_place_fail(path, "look what is there", errno);
   const ssize_t got = read(descriptor, begin, sizeof head - 1);
+  const int error = errno;
   close(descriptor);
+  if (got < 0) return hooke_place_fail(path, "look what is there", error);
   return got == 0 || strcmp(begin, head) == 0
              ? HOOKE_OK
              : hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is there already and is no XDMF; it is left as it is",

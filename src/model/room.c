@@ -1,6 +1,7 @@
 /* Whether a system may grow: its numbers have 32 bits, and memory ends. Asked before anything is allocated. */
 #include "model/system.h"
 
+#include "core/print.h"
 #include "core/room.h"
 #include "core/status.h"
 
@@ -36,7 +37,7 @@ int32_t hooke_system_check_room(const hooke_system *system, struct hooke_more mo
     const size_t used = strlen(list);
     fits = fits && counts[k].all <= INT32_MAX;
     if (counts[k].all > 0.0)
-      snprintf(list + used, sizeof list - used, "%s%.10g %s", used ? ", " : "", counts[k].all,
+      hooke_print(list + used, sizeof list - used, "%s%.10g %s", used ? ", " : "", counts[k].all,
                counts[k].name);
   }
   if (what == NULL) what = "this scene";

@@ -35,7 +35,7 @@ PUBLIC = {
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.
 FENCES = [
-    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]|tests/fuzz/mutate_\w+\.c"),
+    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]|tests/fuzz/mutate_\w+\.c|tests/fault/memory_faults\.c"),
     (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]|tests/fuzz/\w+_h5\.[ch]"),
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
@@ -43,7 +43,7 @@ FENCES = [
     (r"lapacke?\w*\.h", r"src/measure/\w+_lapack\.c"),
     (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
-    (r"malloc\.h", r"tests/physics/test_scale\.c"),  # of glibc
+    (r"malloc\.h", r"tests/physics/test_scale\.c|tests/long/\w+\.c"),  # of glibc
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest)/\w+\.[ch]"),
 ]
 
@@ -55,7 +55,7 @@ STANDARD = set(
     "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl libgen pthread sched strings termios unistd "
-    "sys/inotify sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
+    "sys/inotify sys/ioctl sys/mman sys/resource sys/stat sys/syscall sys/time sys/types sys/utsname sys/wait "
     "getopt immintrin".split()
 )
 

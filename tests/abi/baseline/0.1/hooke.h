@@ -7,10 +7,12 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifndef HOOKE_API
 #if defined(_WIN32)
 #define HOOKE_API
 #else
 #define HOOKE_API __attribute__((visibility("default")))
+#endif
 #endif
 #define HOOKE_VERSION "0.1.0"
 #define HOOKE_ABI     0
