@@ -30,6 +30,7 @@ PLAIN_NUMBERS = {
 }
 OUTCOMES = {
     "hooke_integrator_run",
+    "hooke_integrator_resume",
     "hooke_integrator_step",
     "hooke_comparison_run",
     "hooke_study_run",
