@@ -160,13 +160,17 @@ static int integrate(struct run *run) {
   run->trajectory = NULL;
   if (run->write_failed) return hooke_report(run->arguments, HOOKE_EXIT_IO, "%s", run->message);
   int code = hooke_exit_code(run->outcome);
+  if (status != HOOKE_OK && (run->outcome >= 0 || code == HOOKE_EXIT_DIVERGED)) {
+    if (run->outcome != HOOKE_OK) hooke_report_words(run->arguments, "%s", run->message);
+    return hooke_report_status(run->arguments, status);
+  }
   if (code == HOOKE_EXIT_DIVERGED && hooke_why_create(run->integrator, &run->why) == HOOKE_OK) {
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
   }
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
-  if (status == HOOKE_OK && run->output) status = write_companion(run);
+  if (run->output) status = write_companion(run);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
 }
 

@@ -3,14 +3,15 @@
 #include "core/crc32.h"
 
 #define SUM(b, x0, x1, x2, x3, x4, x5, x6, x7)                                                               \
-  (((b)&1 ? x0 : 0u) ^ ((b)&2 ? x1 : 0u) ^ ((b)&4 ? x2 : 0u) ^ ((b)&8 ? x3 : 0u) ^ ((b)&16 ? x4 : 0u) ^      \
-   ((b)&32 ? x5 : 0u) ^ ((b)&64 ? x6 : 0u) ^ ((b)&128 ? x7 : 0u))
+  (((b)&1 ? (x0) : 0u) ^ ((b)&2 ? (x1) : 0u) ^ ((b)&4 ? (x2) : 0u) ^ ((b)&8 ? (x3) : 0u) ^                   \
+   ((b)&16 ? (x4) : 0u) ^ ((b)&32 ? (x5) : 0u) ^ ((b)&64 ? (x6) : 0u) ^ ((b)&128 ? (x7) : 0u))
 #define OF_4(b, ...)                                                                                         \
-  SUM(b, __VA_ARGS__), SUM(b + 1, __VA_ARGS__), SUM(b + 2, __VA_ARGS__), SUM(b + 3, __VA_ARGS__)
+  SUM(b, __VA_ARGS__), SUM((b) + 1, __VA_ARGS__), SUM((b) + 2, __VA_ARGS__), SUM((b) + 3, __VA_ARGS__)
 #define OF_16(b, ...)                                                                                        \
-  OF_4(b, __VA_ARGS__), OF_4(b + 4, __VA_ARGS__), OF_4(b + 8, __VA_ARGS__), OF_4(b + 12, __VA_ARGS__)
+  OF_4(b, __VA_ARGS__), OF_4((b) + 4, __VA_ARGS__), OF_4((b) + 8, __VA_ARGS__), OF_4((b) + 12, __VA_ARGS__)
 #define OF_64(b, ...)                                                                                        \
-  OF_16(b, __VA_ARGS__), OF_16(b + 16, __VA_ARGS__), OF_16(b + 32, __VA_ARGS__), OF_16(b + 48, __VA_ARGS__)
+  OF_16(b, __VA_ARGS__), OF_16((b) + 16, __VA_ARGS__), OF_16((b) + 32, __VA_ARGS__),                         \
+      OF_16((b) + 48, __VA_ARGS__)
 #define OF_ALL(...)                                                                                          \
   { OF_64(0, __VA_ARGS__), OF_64(64, __VA_ARGS__), OF_64(128, __VA_ARGS__), OF_64(192, __VA_ARGS__) }
 

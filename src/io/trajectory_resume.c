@@ -152,8 +152,10 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
       hooke_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.17g s", *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
+    going->integrator->count = (struct hooke_counts){0}; /* those of the checkpoint are of another place */
+    going->integrator->wall_seconds = 0.0;
   }
-  if (finding == HOOKE_CHECKPOINT_ABSENT)
+  if (status != HOOKE_OK && finding == HOOKE_CHECKPOINT_ABSENT)
     snprintf(why, sizeof why, "there is no checkpoint");
   else
     snprintf(why, sizeof why, "%s", hooke_last_error());

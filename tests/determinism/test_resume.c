@@ -36,6 +36,7 @@ struct course {
   hooke_integrator *integrator;
   char path[64];
   int64_t calls, stop_at; /* step observers so far, and the one that stops; 0: none */
+  int64_t kept;           /* frames that were there when the checkpoint was written */
   int32_t at_points;      /* 1: checkpoints are written where they fall due, else where the run stops */
 };
 
@@ -66,10 +67,15 @@ static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   return ++course->calls == course->stop_at;
 }
 
+static void write_checkpoint(struct course *course, const hooke_state *state) {
+  check_ok(hooke_checkpoint_write(course->path, course->integrator, state, "a run"));
+  course->kept = course->trace->frames;
+}
+
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
   struct course *course = ctx;
   (void)step;
-  if (course->at_points) check_ok(hooke_checkpoint_write(course->path, course->integrator, state, "a run"));
+  if (course->at_points) write_checkpoint(course, state);
   return 0;
 }
 
@@ -97,8 +103,9 @@ static int64_t run_whole(const hooke_system *system, struct run run, struct trac
   return course.calls;
 }
 
-/* Frames after the checkpoint are reported again. */
-static void forget_after(struct trace *trace, double t) {
+/* Frames after the checkpoint are reported again; an error-controlled run may have come past it before it was written. */
+static void forget_after(struct trace *trace, int64_t kept, double t) {
+  trace->frames = kept;
   while (trace->frames > 0 && trace->row[(trace->frames - 1) * trace->size] > t)
     trace->frames--;
 }
@@ -111,7 +118,7 @@ static int run_stopped(const hooke_system *system, struct run run, struct course
   int32_t status;
   if (resume) {
     check_ok(hooke_checkpoint_read(course->path, "a run", course->integrator, state));
-    forget_after(course->trace, hooke_state_time(state));
+    forget_after(course->trace, course->kept, hooke_state_time(state));
     status = hooke_integrator_resume(course->integrator, state);
   } else {
     status = hooke_integrator_run(course->integrator, state);
@@ -121,7 +128,7 @@ static int run_stopped(const hooke_system *system, struct run run, struct course
     check_status(status, HOOKE_OK);
     finish(course, state);
   } else if (!course->at_points || access(course->path, F_OK) != 0) {
-    check_ok(hooke_checkpoint_write(course->path, course->integrator, state, "a run"));
+    write_checkpoint(course, state);
   }
   hooke_integrator_destroy(course->integrator);
   hooke_state_destroy(state);
