@@ -21,7 +21,7 @@ hooke = pytest.importorskip("hooke")
 
 CLI, CRASH = os.environ["HOOKE_CLI"], os.environ["HOOKE_CRASH"]
 LONG = os.environ.get("HOOKE_LONG") == "1"
-STRIDE = 1 if LONG else 17
+STRIDE = 1 if LONG else 23
 OLD = b"a file of before, which stays until the new one is ready\n" * 100
 
 ROPE = {
@@ -224,7 +224,7 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
 def test_every_failing_write(place, case, more):
     words, whole = case
     harmless = 0
-    for at in points_of(whole.points, 1 if LONG else 29):
+    for at in points_of(whole.points, 1 if LONG else 41):
         place.fill(words)
         done = place.start_over(at=at, error=errno.ENOSPC if more else errno.EIO, **{"from": more})
         assert done.returncode in (5, whole.code), (at, done.returncode, done.stderr)
