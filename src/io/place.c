@@ -103,6 +103,8 @@ static int sync_folder_of(const char *path) {
 int32_t hooke_place_take(const char *place, char **temporary) {
   if (sync_path(*temporary, O_RDONLY) != 0)
     return hooke_place_fail(place, "bring the data to the disk", errno);
+  /* a folder that cannot do this is found out before anything is replaced */
+  if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
   if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);
   hooke_free(*temporary);
   *temporary = NULL;

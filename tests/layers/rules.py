@@ -32,7 +32,7 @@ PUBLIC = {
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.
 FENCES = [
-    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]"),
+    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]|tests/fault/memory_faults\.c"),
     (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]"),
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
@@ -40,8 +40,9 @@ FENCES = [
     (r"lapacke?\w*\.h", r"src/measure/\w+_lapack\.c"),
     (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
+    (r"execinfo\.h", r"tests/fault/process_faults\.c"),  # of glibc
     (r"malloc\.h", r"tests/physics/test_scale\.c"),  # of glibc
-    (r"cmocka\.h", r"tests/(support|unit|physics|determinism)/\w+\.[ch]"),
+    (r"cmocka\.h", r"tests/(support|unit|physics|determinism|fault)/\w+\.[ch]"),
 ]
 
 # Functions of Fortran, which need no header, and the only files that may call them.
@@ -57,7 +58,7 @@ STANDARD = set(
 )
 
 # Folders that see the library as a user does.
-OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/support/",
+OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/physics/", "tests/determinism/", "tests/fault/", "tests/support/",
            "tests/abi/", "tests/fortran/", "bindings/")
 
 LINE_LIMIT = 800
