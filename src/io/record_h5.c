@@ -62,9 +62,13 @@ static char *attribute_text(hid_t attribute) {
   return word;
 }
 
+static int32_t unreadable(const char *name) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
+}
+
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
   char *word = attribute_text(attribute);
-  const int32_t status = word ? hooke_options_set_text(options, name, word) : HOOKE_OK;
+  const int32_t status = word ? hooke_options_set_text(options, name, word) : unreadable(name);
   if (word) H5free_memory(word);
   return status;
 }
@@ -96,8 +100,9 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
   double number = NAN;
   int32_t status = HOOKE_OK;
   if (single && (class == H5T_FLOAT || class == H5T_INTEGER)) {
-    if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0)
-      status = hooke_options_set_number(options, name, number);
+    status = H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0
+                 ? hooke_options_set_number(options, name, number)
+                 : unreadable(name);
   } else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0) {
     status = read_word(attribute, options, name);
   }
@@ -138,6 +143,8 @@ static int32_t read_hooke(struct hooke_record *record) {
     if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     if (status == HOOKE_OK) status = read_options(file, record->options);
+    /* what could not be read is not what is not there */
+    if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
     hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);

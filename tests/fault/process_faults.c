@@ -22,19 +22,25 @@ static struct fault_trace *kept;
 /* The first failure keeps where it came from. */
 static int fails(void) {
   if (!fault_strikes()) return 0;
-  if (kept && kept->depth == 0) {
+  if (kept) {
     fault_pause();
-    kept->depth = backtrace(kept->frame, sizeof kept->frame / sizeof kept->frame[0]);
+    kept->last_depth = backtrace(kept->last, sizeof kept->last / sizeof kept->last[0]);
+    if (kept->depth == 0) {
+      memcpy(kept->frame, kept->last, sizeof kept->frame);
+      kept->depth = kept->last_depth;
+    }
     fault_resume();
   }
   errno = ENOMEM;
   return 1;
 }
 
-const char *process_fault_owner(const struct fault_trace *trace) {
+const char *process_fault_owner(const struct fault_trace *trace, int last) {
+  void *const *frame = last ? trace->last : trace->frame;
+  const int depth = last ? trace->last_depth : trace->depth;
   Dl_info info;
-  for (int k = 1; k < trace->depth; k++) {
-    if (dladdr(trace->frame[k], &info) == 0 || info.dli_fname == NULL) continue;
+  for (int k = 1; k < depth; k++) {
+    if (dladdr(frame[k], &info) == 0 || info.dli_fname == NULL) continue;
     const char *slash = strrchr(info.dli_fname, '/'), *name = slash ? slash + 1 : info.dli_fname;
     if (strncmp(name, "lib", 3) != 0) {
       if (k > 2) return "hooke"; /* the frames before are those of this file */

@@ -12,14 +12,14 @@
 
 /* Where the first allocation that failed was asked for. */
 struct fault_trace {
-  void *frame[24];
-  int depth;
+  void *frame[24], *last[24]; /* of the first, and of the last */
+  int depth, last_depth;
 };
 
 /* `trace` is kept by the first failure. */
 void process_faults_prepare(struct fault_trace *trace);
 
 /* Which library that was: "hooke", or the name of its file. What the C library was asked for is its caller's. */
-const char *process_fault_owner(const struct fault_trace *trace);
+const char *process_fault_owner(const struct fault_trace *trace, int last);
 
 #endif

@@ -87,7 +87,7 @@ static void try_point(const struct scenario *scenario, int64_t k, enum fault_rea
   assert_true(child >= 0);
   if (child == 0) be_child(scenario, k, reach);
   assert_int_equal(waitpid(child, &status, 0), child);
-  const char *owner = process_fault_owner(&shared->trace);
+  const char *owner = process_fault_owner(&shared->trace, !shared->done);
   *a = shared->attempt;
   fault_take_counts(shared->points, shared->failures);
   if (!shared->done)
