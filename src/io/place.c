@@ -130,6 +130,8 @@ int32_t hooke_place_take_and_keep(const char *place, const char *previous, char 
   HOOKE_KEEP_ERRNO;
   if (sync_path(*temporary, O_RDONLY) != 0)
     return hooke_place_fail(place, "bring the data to the disk", errno);
+  /* a folder that cannot do this is found out before anything is replaced */
+  if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
   if (previous && rename(place, previous) != 0 && errno != ENOENT)
     return hooke_place_fail(place, "keep the file that was there", errno);
   if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);

@@ -84,9 +84,13 @@ static int32_t refuse_option(const char *name) {
   return hooke_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
 }
 
+static int32_t unreadable(const char *name) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
+}
+
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
   char *word = attribute_text(attribute);
-  const int32_t status = word ? hooke_options_set_text(options, name, word) : refuse_option(name);
+  const int32_t status = word ? hooke_options_set_text(options, name, word) : unreadable(name);
   if (word) H5free_memory(word);
   return status;
 }
@@ -118,8 +122,10 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
   const int is_number = class == H5T_FLOAT || class == H5T_INTEGER;
   double number = NAN;
   int32_t status;
-  if (single && is_number && H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0)
-    status = hooke_options_set_number(options, name, number);
+  if (single && is_number)
+    status = H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0
+                 ? hooke_options_set_number(options, name, number)
+                 : unreadable(name);
   else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0)
     status = read_word(attribute, options, name);
   else
@@ -175,6 +181,8 @@ static int32_t read_hooke(struct hooke_record *record) {
     }
     record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
     if (status == HOOKE_OK) status = read_options(file, record->options);
+    /* what could not be read is not what is not there */
+    if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
     hooke_record_find_places(record, file);
   }
   if (file >= 0) H5Fclose(file);

@@ -33,6 +33,7 @@ int32_t attempt_failed(struct attempt *a, int32_t status, int32_t expected, cons
     return 1;
   }
   if (hooke_last_error()[0] == '\0') attempt_wrong(a, "%.200s failed without a message", call);
+  if (a->refused == 0) a->status = status;
   if (a->refused++ == 0) snprintf(a->message, sizeof a->message, "%s", hooke_last_error());
   if (a->reach == FAULT_FROM_THEN_ON) a->gave_up = 1;
   return 1;

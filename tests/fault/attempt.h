@@ -19,6 +19,7 @@ struct attempt {
   int64_t seen;    /* failures planned that were met by a call so far */
   int32_t gave_up;
   int64_t planned, committed; /* frames that were reported as written */
+  int32_t status;             /* of the first call that failed for a fault, and its message */
   char message[512];          /* of the first call that failed for a fault */
   char wrong[640];            /* what must not be; "" if nothing */
 };

@@ -21,4 +21,7 @@ int32_t fault_strikes(void);
 int64_t fault_points(void);
 int64_t fault_failures(void);
 
+/* Those of another process, in place of them. */
+void fault_take_counts(int64_t points, int64_t failures);
+
 #endif

@@ -75,8 +75,10 @@ static void check_clean(const struct scenario *scenario, sweep_point *try_point,
 }
 
 static int64_t share_of(const struct sweep *sweep, const struct scenario *scenario) {
-  if (getenv("HOOKE_LONG")) return 1;
-  const int64_t share = sweep->share > 0 ? sweep->share : scenario->share;
+  /* one that makes whole studies would take hours */
+  if (getenv("HOOKE_LONG")) return scenario->share >= 1000 ? scenario->share / 100 : 1;
+  int64_t share = sweep->share > 0 ? sweep->share : scenario->share;
+  if (sweep->times > 0 && sweep->times * scenario->share > share) share = sweep->times * scenario->share;
   return HOOKE_SANITIZED ? 3 * share : share;
 }
 

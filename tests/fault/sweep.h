@@ -8,6 +8,7 @@ struct sweep {
   char folder[128]; /* of this test alone */
   int32_t share,
       first; /* if given: one in so many points of every scenario with many, from this one (0, 1, ...) on */
+  int32_t times; /* if given: what the scenario says, so many times over, if that is more */
   int64_t wrong;
 };
 

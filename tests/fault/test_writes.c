@@ -58,6 +58,21 @@ static int is_old(const char *path) {
   return got == sizeof old - 1 && strcmp(text, old) == 0;
 }
 
+/* A new file is there as a whole or not at all. */
+static int is_whole(const char *path) {
+  static const char *const ends[] = {"</html>\n", "</Xdmf>\n", "}\n", "finished\n", "diverged\n"};
+  char last[16] = "";
+  FILE *file = fopen(path, "r");
+  if (file == NULL) return 0;
+  const size_t got = fseek(file, -9, SEEK_END) == 0 ? fread(last, 1, 9, file) : 0;
+  fclose(file);
+  for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+    const size_t length = strlen(ends[k]);
+    if (got >= length && memcmp(last + got - length, ends[k], length) == 0) return 1;
+  }
+  return 0;
+}
+
 static int64_t open_descriptors(void) {
   int64_t count = 0;
   for (int descriptor = 3; descriptor < 256; descriptor++)
@@ -98,7 +113,10 @@ static void look_after(struct attempt *a, const struct scenario *scenario, const
   if (!is_there) attempt_wrong(a, "what was there before is gone");
   if (count_files() > 1) attempt_wrong(a, "something is left beside the file");
   if (!is_there || is_old(path)) return;
-  if (strstr(scenario->name, "trajectory")) check_frames(a, path);
+  if (strstr(scenario->name, "trajectory"))
+    check_frames(a, path);
+  else if (strstr(scenario->file, ".h5") == NULL && !is_whole(path))
+    attempt_wrong(a, "what is there now is no whole file");
 }
 
 static void try_point(const struct scenario *scenario, int64_t k, enum fault_reach reach, struct attempt *a) {
