@@ -146,17 +146,97 @@ static void change_lines(struct lines *lines, char *made) {
   }
 }
 
+/* ---- whole files ---- */
+
+static char pool[MOST_LINES][LINE_SIZE];
+static size_t pooled;
+
+static char *new_text(void) {
+  return pool[pooled++ % MOST_LINES];
+}
+
+static void append(struct lines *lines, const char *text) {
+  if (lines->count >= MOST_LINES) return;
+  lines->line[lines->count].text = text;
+  lines->line[lines->count++].length = strlen(text);
+}
+
+static int has_only(const char *text, size_t length, const char *letters) {
+  for (size_t k = 0; k < length; k++)
+    if (strchr(letters, text[k]) == NULL || text[k] == '\0') return 0;
+  return 1;
+}
+
+static void copy_line(const struct lines *lines, size_t k, char *text) {
+  const size_t length = lines->line[k].length < LINE_SIZE - 1 ? lines->line[k].length : LINE_SIZE - 1;
+  memcpy(text, lines->line[k].text, length);
+  text[length] = '\0';
+}
+
+static int is_vertex(const char *text) {
+  double x, y, z;
+  return strncmp(text, "v ", 2) == 0 && has_only(text + 2, strlen(text + 2), "0123456789.- ") &&
+         sscanf(text + 2, "%lf %lf %lf", &x, &y, &z) == 3;
+}
+
+static int is_face(const char *text, int64_t vertices, uint8_t *used) {
+  long long v[3];
+  if (strncmp(text, "f ", 2) != 0 || !has_only(text + 2, strlen(text + 2), "0123456789 ") ||
+      sscanf(text + 2, "%lld %lld %lld", &v[0], &v[1], &v[2]) != 3)
+    return 0;
+  for (int k = 0; k < 3; k++)
+    if (v[k] < 1 || v[k] > vertices) return 0;
+  for (int k = 0; k < 3; k++)
+    used[v[k]] = 1;
+  return 1;
+}
+
+static char *new_face(long long a, long long b, long long c) {
+  char *text = new_text();
+  snprintf(text, LINE_SIZE, "f %lld %lld %lld", a, b, c);
+  return text;
+}
+
+/* What is left is a file without mistakes in its lines: plain vertices, then faces of three, every vertex in one. */
+static void tidy(struct lines *lines) {
+  static struct lines tidied;
+  static uint8_t used[MOST_LINES + 1];
+  char text[LINE_SIZE];
+  int64_t vertices = 0;
+  tidied.count = 0;
+  memset(used, 0, sizeof used);
+  for (size_t k = 0; k < lines->count; k++) {
+    copy_line(lines, k, text);
+    if (is_vertex(text)) tidied.line[tidied.count++] = lines->line[k], vertices++;
+  }
+  for (; vertices < 3; vertices++) {
+    char *vertex = new_text();
+    snprintf(vertex, LINE_SIZE, "v %d %d %d", (int)vertices, (int)draw(3), (int)(vertices * vertices));
+    append(&tidied, vertex);
+  }
+  for (size_t k = 0; k < lines->count && tidied.count < MOST_LINES; k++) {
+    copy_line(lines, k, text);
+    if (is_face(text, vertices, used)) tidied.line[tidied.count++] = lines->line[k];
+  }
+  for (int64_t v = 1; v <= vertices; v++) {
+    if (!used[v]) append(&tidied, new_face(v, v % vertices + 1, (v + 1) % vertices + 1));
+    if (!used[v]) used[v] = used[v % vertices + 1] = used[(v + 1) % vertices + 1] = 1;
+  }
+  *lines = tidied;
+}
+
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned int seed) {
   static struct lines lines;
   chance = (uint64_t)seed * UINT64_C(0x9e3779b97f4a7c15) + 1;
   draw(2);
-  if (size < HEAD || max_size < 64 || draw(8) == 0) return LLVMFuzzerMutate(data, size, max_size);
+  if (size < HEAD || max_size < 64 || draw(16) == 0) return LLVMFuzzerMutate(data, size, max_size);
   if (draw(4) == 0) data[draw(HEAD)] = (uint8_t)draw(256);
   char made[4][LINE_SIZE], *out = malloc(max_size);
   if (out == NULL) return size;
   split((const char *)data + HEAD, size - HEAD, &lines);
   for (uint64_t k = draw(4) + 1; k > 0; k--)
     change_lines(&lines, made[k - 1]);
+  if (draw(3)) tidy(&lines);
   const size_t length = join(&lines, out, max_size - HEAD);
   memcpy(data + HEAD, out, length);
   free(out);
