@@ -131,11 +131,11 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hooke_lane_
 HOOKE_INLINE void move(const struct hooke_lane_pass *pass, const struct hooke_move how, ptrdiff_t p,
                        const vec sum[3]) {
   const ptrdiff_t stride = pass->stride;
-  double *q = pass->q + p, *v = pass->v + p, *f = pass->f + p;
+  double *q = pass->q + p, *v = pass->v + p;
   if (how.kind == HOOKE_MOVE_NOTHING) return;
   if (how.kind == HOOKE_MOVE_KEEP) {
     for (int a = 0; a < 3; a++)
-      hooke_store(f + a * stride, sum[a]);
+      hooke_store(pass->f + p + a * stride, sum[a]);
     return;
   }
   const vec w = hooke_load(pass->w + p), h = hooke_all(how.step);
