@@ -17,13 +17,6 @@ enum { THREADS = 4, PARTICLES = 400 };
 static struct random_scene shared;       /* by all threads, committed */
 static hooke_system *oscillator, *chain; /* likewise */
 
-static const char scene_text[] =
-    "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"cloth\", \"size\": [6, 6], "
-    "\"edges\":"
-    " [[1, 0, 0], [0, 0, 1.125]], \"mass\": 0.25, \"pinned\": \"top-corners\","
-    " \"structural\": {\"stiffness\": 50.5, \"damping\": 1e-2}}],"
-    " \"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 0.02, \"every\": 0.01}}";
-
 /* Work whose result is a hash. No assertion of cmocka: it would jump out of the thread. 0 is a failure. */
 typedef uint64_t job(int thread);
 
@@ -166,6 +159,13 @@ static uint64_t explanations(int thread) {
 #endif
 
 #if HOOKE_HAVE_JANSSON
+
+static const char scene_text[] =
+    "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"cloth\", \"size\": [6, 6], "
+    "\"edges\":"
+    " [[1, 0, 0], [0, 0, 1.125]], \"mass\": 0.25, \"pinned\": \"top-corners\","
+    " \"structural\": {\"stiffness\": 50.5, \"damping\": 1e-2}}],"
+    " \"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 0.02, \"every\": 0.01}}";
 
 static uint64_t scenes(int thread) {
   (void)thread;
