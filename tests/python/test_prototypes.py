@@ -31,6 +31,7 @@ PLAIN_NUMBERS = {
 OUTCOMES = {
     "hooke_integrator_run",
     "hooke_integrator_step",
+    "hooke_verify_run",
     "hooke_comparison_run",
     "hooke_study_run",
     "hooke_study_recommend",
