@@ -32,6 +32,7 @@ OUTCOMES = {
     "hooke_integrator_run",
     "hooke_integrator_resume",
     "hooke_integrator_step",
+    "hooke_verify_run",
     "hooke_comparison_run",
     "hooke_study_run",
     "hooke_study_recommend",
