@@ -30,7 +30,7 @@ PART = Part(
         Step("bits", f"{HERE}/tests/long/bits >$WORK/here.txt && qemu-aarch64-static {BUILD}/tests/long/bits >$WORK/there.txt",
              100),
         Step("equal bits", "python3 tests/long/bits.py fixed $WORK/here.txt $WORK/there.txt", 1, compared),
-        Step("unit tests", "ctest --preset arm64 -j2", 2400, tests_passed),
+        Step("unit tests", "ctest --preset arm64 -j2", 900, tests_passed),
     ],
     rows,
 )  # fmt: skip

@@ -17,7 +17,7 @@ def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
     for name, f in done.get("campaign", {}).items():
         lines = f"{f['lines']['percent']} % of the lines of its files, " if f.get("lines") else ""
         told.append((name, f"{f['executions']:.3g} executions, {f['past_syntax_percent']} % past the syntax, {lines}"
-                     f"{f['edges']} edges, none new in the last {f['executions_since_last_edge']:.3g} executions "
+                     f"{f['edges']['fuzz']} edges, none new in the last {f['executions_since_last_edge']:.3g} executions "
                      f"({f['seconds_since_last_edge'] / 60:.0f} min of processor), {f['findings']} findings"))  # fmt: skip
     return told
 

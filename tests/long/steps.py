@@ -30,13 +30,17 @@ LIMIT = 150 * 60  # [s] a part has
 
 @dataclass
 class Step:
-    """A line for the shell, run in the root, and what its output says."""
+    """A line for the shell, run in the root, and what its output says.
+
+    It finds HOOKE_LONG set, in WORK a folder that stays from one start to the next, and in SOURCES a name of the sources as
+    they are.
+    """
 
     name: str
     command: str
     seconds: float  # that it takes on two processors; the next time, what it took
     figures: Callable[[str], dict[str, Any]] = lambda text: {}  # from the output; raises where it is not as it should be
-    environment: dict[str, str] = field(default_factory=dict)
+    environment: dict[str, str] = field(default_factory=dict)  # "": not set
 
 
 @dataclass
@@ -45,7 +49,6 @@ class Part:
     packages: list[str]
     steps: list[Step]
     rows: Callable[[dict[str, dict[str, Any]]], list[tuple[str, str]]]  # what and figure, from the figures of steps done
-    shared: str = ""  # steps see it as $WORK: a folder that stays from one start to the next
 
 
 def git(*arguments: str) -> str:
@@ -109,6 +112,7 @@ def last_line(log: Path) -> str:
 
 def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], None]) -> int:
     environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "SOURCES": mark, "OPENBLAS_NUM_THREADS": "1"} | step.environment
+    environment = {name: value for name, value in environment.items() if value}
     with log.open("w") as output:
         process = subprocess.Popen(
             ["bash", "-e", "-u", "-o", "pipefail", "-c", step.command],
