@@ -5,7 +5,9 @@
 #include "core/handle.h"
 #include "hooke/build.h"
 #include "hooke/cost.h"
+#include "hooke/checkpoint.h"
 #include "hooke/io.h"
+#include "hooke/verify.h"
 #include "hooke/why.h"
 
 #include <math.h>

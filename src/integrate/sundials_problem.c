@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 
+#include <cvode/cvode.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -118,7 +119,8 @@ static int complaint_length(const char *message) {
 int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
   const struct hooke_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
-  if (own->spare.taken) return no_memory(it, own->unknowns.size);
+  /* GMRES takes its scratch before the first step; the number is that of ARKODE as well */
+  if (own->spare.taken || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
                       "%s gave up at t = %.17g s: %.*s; try other tolerances, or a fixed-step method", solver,

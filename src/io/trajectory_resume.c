@@ -132,7 +132,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   if (status != HOOKE_OK) return status;
   hooke_trajectory_keep(going->trajectory, frames);
   hooke_print(going->origin, sizeof going->origin, "%s at t = %.17g s: %s",
-           frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
+              frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
 

@@ -38,7 +38,7 @@ int32_t hooke_system_check_room(const hooke_system *system, struct hooke_more mo
     fits = fits && counts[k].all <= INT32_MAX;
     if (counts[k].all > 0.0)
       hooke_print(list + used, sizeof list - used, "%s%.10g %s", used ? ", " : "", counts[k].all,
-               counts[k].name);
+                  counts[k].name);
   }
   if (what == NULL) what = "this scene";
   if (fits) return hooke_room_require(system->memory_limit, bytes, what);
