@@ -2,6 +2,7 @@
 
 #include "core/keep_errno.h"
 
+#include <langinfo.h>
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,8 +12,8 @@ struct plain {
   locale_t locale, callers;
 };
 
-static struct plain begin_plain(void) {
-  struct plain plain = {.locale = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
+static struct plain begin_plain(int needed) {
+  struct plain plain = {.locale = needed ? newlocale(LC_ALL_MASK, "C", (locale_t)0) : (locale_t)0};
   if (plain.locale) plain.callers = uselocale(plain.locale);
   return plain;
 }
@@ -25,7 +26,8 @@ static void end_plain(struct plain plain) {
 
 int hooke_print_list(char *text, size_t size, const char *format, va_list args) {
   HOOKE_KEEP_ERRNO;
-  const struct plain plain = begin_plain();
+  /* glibc loses a few bytes in newlocale() where LOCPATH is set: it is called where there is something to mend */
+  const struct plain plain = begin_plain(strcmp(nl_langinfo(RADIXCHAR), ".") != 0);
   const int length = vsnprintf(text, size, format, args);
   end_plain(plain);
   return length;
@@ -41,7 +43,7 @@ int hooke_print(char *text, size_t size, const char *format, ...) {
 
 const char *hooke_print_error(int error, char *text) {
   HOOKE_KEEP_ERRNO;
-  const struct plain plain = begin_plain();
+  const struct plain plain = begin_plain(1);
   if (strerror_r(error, text, HOOKE_ERROR_SIZE) != 0) snprintf(text, HOOKE_ERROR_SIZE, "error %d", error);
   end_plain(plain);
   return text;

@@ -3,6 +3,7 @@
 
 #include "core/crc32.h"
 #include "core/figure.h"
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
@@ -116,7 +117,7 @@ int32_t hooke_verify_create(const char *path, const hooke_options *options, cons
                             hooke_verify **out) {
   *out = NULL;
   if (path == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path given");
-  struct hooke_verify *verify = hooke_new(1, sizeof *verify);
+  struct hooke_verify *verify = hooke_handle_new("hooke_verify", sizeof *verify);
   if (verify == NULL) return HOOKE_NO_MEMORY;
   verify->balance = "not-checked";
   verify->path = hooke_copy_text(path);
@@ -139,7 +140,7 @@ void hooke_verify_destroy(hooke_verify *verify) {
   hooke_record_close(verify->record);
   hooke_options_destroy(verify->options);
   hooke_free(verify->path);
-  hooke_free(verify);
+  hooke_handle_free(verify);
 }
 
 void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, void *ctx) {

@@ -119,8 +119,9 @@ static int32_t append_drive(hooke_system *system, struct hooke_drive_group drive
 static int32_t check_driven(const hooke_system *system, int64_t count, const int64_t *particles) {
   int32_t status = hooke_system_require_open(system);
   if (status != HOOKE_OK) return status;
-  if (count < 0)
-    return hooke_fail(HOOKE_BAD_VALUE, "particles", "%lld particles; allowed: 0 or more", (long long)count);
+  if (count < 0 || count > INT32_MAX)
+    return hooke_fail(HOOKE_BAD_VALUE, "particles", "%lld particles; allowed: 0 to 2147483647, each once",
+                      (long long)count);
   /* of more than there are, one of the first is named twice */
   if (count > system->particle_count) count = system->particle_count + 1;
   status = hooke_system_check_particles(system, "particles", count, particles,

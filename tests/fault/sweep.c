@@ -79,7 +79,7 @@ static int64_t share_of(const struct sweep *sweep, const struct scenario *scenar
   if (getenv("HOOKE_LONG")) return scenario->share >= 1000 ? scenario->share / 100 : 1;
   int64_t share = sweep->share > 0 ? sweep->share : scenario->share;
   if (sweep->times > 0 && sweep->times * scenario->share > share) share = sweep->times * scenario->share;
-  return HOOKE_SANITIZED ? 3 * share : share;
+  return HOOKE_SANITIZED ? 6 * share : share;
 }
 
 static void sweep_scenario(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point) {

@@ -56,7 +56,7 @@ CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/\w+_lapack\.c")]
 STANDARD = set(
     "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
-    "dirent dlfcn fcntl libgen pthread sched strings termios unistd "
+    "dirent dlfcn fcntl langinfo libgen pthread sched strings termios unistd "
     "sys/inotify sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
     "getopt immintrin".split()
 )

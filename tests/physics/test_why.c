@@ -553,6 +553,7 @@ static void check_overflow(hooke_system *system, int64_t particle, const char *w
 /* Bending and altitude springs of 1e300: the first step leaves the range of numbers, and no spring is blamed. */
 static void test_overflow_without_springs(void **unused) {
   (void)unused;
+  needs_lapack();
   const double line[] = {0, 0, 0, 1, 0.5, 0, 2, 0, 0}, coefficient = 1e300;
   const int64_t triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
   hooke_system *bent = small_system(3, line, NULL, 1.0, 1);
