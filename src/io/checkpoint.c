@@ -2,6 +2,7 @@
 #include "hooke/checkpoint.h"
 
 #include "core/crc32.h"
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/checkpoint_file.h"
@@ -77,6 +78,7 @@ static int32_t write_file(const char *path, const char *temporary,
 
 int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, const hooke_state *state,
                                const char *run) {
+  HOOKE_KEEP_ERRNO;
   struct hooke_standing standing;
   const hooke_state *from = NULL;
   int32_t status = find_place(it, state, &standing, &from);
@@ -142,7 +144,6 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
   struct stat there;
   uint32_t check = 0;
   if (fstat(fileno(file), &there) != 0) return hooke_place_fail(path, "read the file", errno);
-  if (!S_ISREG(there.st_mode)) return damaged(path, "is not a regular file");
   if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
   hooke_checkpoint_unpack(bytes, &found->header);
   const char *damage = hooke_checkpoint_damage(&found->header, there.st_size);
@@ -161,10 +162,15 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
 }
 
 static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
-  FILE *file = fopen(path, "rb");
-  found->finding = errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
-  if (file == NULL) return hooke_place_fail(path, "open the checkpoint", errno);
-  found->finding = HOOKE_CHECKPOINT_DAMAGED;
+  const int descriptor = hooke_place_open(path);
+  FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
+  found->finding = file == NULL && errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
+  if (file == NULL) {
+    const int error = errno;
+    if (descriptor >= 0) close(descriptor);
+    return error == EINVAL || error == EISDIR ? damaged(path, "is not a regular file")
+                                              : hooke_place_fail(path, "open the checkpoint", error);
+  }
   int32_t status = read_open(path, file, it, found);
   fclose(file);
   if (status != HOOKE_OK) return status;
@@ -206,6 +212,7 @@ static int32_t find(const char *path, const char *run, const hooke_integrator *i
 
 int32_t hooke_checkpoint_take(const char *path, const char *run, hooke_integrator *it, hooke_state *state,
                               enum hooke_checkpoint_finding *finding) {
+  HOOKE_KEEP_ERRNO;
   *finding = HOOKE_CHECKPOINT_OTHER;
   if (state->size != it->size || state->has_v != (it->system != NULL))
     return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",

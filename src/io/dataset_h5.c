@@ -5,10 +5,12 @@
 
 #include "io/dataset_h5.h"
 #include "io/object_h5.h"
+#include "io/place.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 /* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is a
  * trap. */
@@ -19,11 +21,12 @@ int32_t hooke_dataset_refuse(const char *path, const char *name, const char *wha
 }
 
 int32_t hooke_dataset_file(struct hooke_h5_guard *guard, const char *path, hid_t *file) {
-  struct stat there;
+  const int descriptor = hooke_place_open(path);
   *file = -1;
-  if (stat(path, &there) == 0 && !S_ISREG(there.st_mode)) {
+  /* HDF5 would wait for somebody to write into a pipe */
+  if (descriptor < 0 && (errno == EINVAL || errno == EISDIR))
     return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: is not a regular file", path);
-  }
+  if (descriptor >= 0) close(descriptor);
   hid_t list = H5Pcreate(H5P_FILE_ACCESS);
   if (list >= 0 && H5Pset_metadata_read_attempts(list, 1) >= 0 &&
       H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0) {

@@ -13,13 +13,10 @@
 #include "io/dataset_h5.h"
 #include "io/frame_check_h5.h"
 #include "io/object_h5.h"
-#include "io/place.h"
 #include "io/record_h5.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 
@@ -152,21 +149,11 @@ static int32_t read_options(hid_t file, hooke_options *options) {
 
 /* ---- a record ---- */
 
-/* HDF5 would wait for somebody to write into a pipe. */
-static int32_t require_regular(const char *path) {
-  const int descriptor = hooke_place_open(path);
-  if (descriptor < 0 && errno == EINVAL)
-    return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: is not a regular file", path);
-  if (descriptor >= 0) close(descriptor);
-  return HOOKE_OK;
-}
-
 static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
                                                       "machine"};
 
 static int32_t read_hooke(struct hooke_record *record) {
   struct hooke_h5_guard guard;
-  if (require_regular(record->path) != HOOKE_OK) return HOOKE_IO_FAILED;
   hooke_h5_guard_begin(&guard);
   hid_t file;
   int32_t status = hooke_dataset_file(&guard, record->path, &file);

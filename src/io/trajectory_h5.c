@@ -110,6 +110,7 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 }
 
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
+  HOOKE_KEEP_ERRNO;
   struct hooke_recording *recording = &trajectory->recording;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (hooke_state_size(state) != 3 * recording->file.particle_count) {
@@ -152,6 +153,7 @@ const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
 }
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
+  HOOKE_KEEP_ERRNO;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   const int error = trajectory->thread ? hooke_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);

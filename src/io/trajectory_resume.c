@@ -1,4 +1,5 @@
 /* Going on with the run of a trajectory: which place that is, and the file opened for the frames that are missing. */
+#include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
@@ -189,6 +190,7 @@ static int32_t resume(struct going *going) {
 
 int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, hooke_integrator *integrator,
                                 hooke_state *state, hooke_trajectory **trajectory) {
+  HOOKE_KEEP_ERRNO;
   *trajectory = NULL;
   if (integrator->system != system)
     return hooke_fail(HOOKE_BAD_CALL, NULL, "the integrator is not one of this system");

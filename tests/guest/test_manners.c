@@ -127,7 +127,7 @@ static void expect(int32_t status, int32_t expected, const char *call) {
 
 static const char trajectory_path[] = "guest_manners.h5", report_path[] = "guest_manners.html",
                   table_path[] = "guest_manners.csv", scene_path[] = "guest_manners.json",
-                  nowhere[] = "no/such/folder/file";
+                  checkpoint_path[] = "guest_manners.checkpoint", nowhere[] = "no/such/folder/file";
 static const char scene_text[] =
     "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"rope\", \"from\": [0, 0, 0],"
     " \"to\": [1, 0, 0.25], \"segments\": 8, \"mass\": 0.1, \"pinned\": \"start\","
@@ -240,6 +240,7 @@ static void tour_files(hooke_system *system, const hooke_options *run) {
   OK(hooke_trajectory_write_behind(trajectory));
   OK(hooke_trajectory_write(trajectory, 0, state));
   OK(hooke_trajectory_write(trajectory, 10, state));
+  OK(hooke_trajectory_sync(trajectory));
   OK(hooke_trajectory_close(trajectory, HOOKE_OK));
   REFUSED(hooke_record_open(nowhere, &record), HOOKE_IO_FAILED);
   OK(hooke_record_open(trajectory_path, &record));
@@ -254,6 +255,12 @@ static void tour_files(hooke_system *system, const hooke_options *run) {
   ASK(hooke_view_destroy(view));
   REFUSED(hooke_record_write_xdmf(record, nowhere), HOOKE_IO_FAILED);
   ASK(hooke_record_close(record));
+  OK(hooke_integrator_step(integrator, state, 2));
+  REFUSED(hooke_checkpoint_write(nowhere, integrator, state, "run"), HOOKE_IO_FAILED);
+  OK(hooke_checkpoint_write(checkpoint_path, integrator, state, "run"));
+  REFUSED(hooke_checkpoint_read(nowhere, "run", integrator, state), HOOKE_IO_FAILED);
+  REFUSED(hooke_checkpoint_read(checkpoint_path, "another", integrator, state), HOOKE_BAD_VALUE);
+  OK(hooke_checkpoint_read(checkpoint_path, "run", integrator, state));
   OK(hooke_scene_write(scene_path, system, "title", run));
   REFUSED(hooke_scene_write(nowhere, system, "title", run), HOOKE_IO_FAILED);
   ASK(hooke_integrator_destroy(integrator));
@@ -327,6 +334,7 @@ static void tour_scenes(void) {
   remove(report_path);
   remove(table_path);
   remove(scene_path);
+  remove(checkpoint_path);
 }
 
 #else
@@ -335,7 +343,8 @@ static void tour_scenes(void) {
   hooke_scene *scene = NULL;
   ASK(hooke_scene_load(nowhere, &scene));
   ASK(hooke_scene_parse("{", 1, "a", NULL, &scene));
-  (void)go_on, (void)trajectory_path, (void)report_path, (void)table_path, (void)scene_path, (void)scene_text;
+  (void)go_on, (void)trajectory_path, (void)report_path, (void)table_path, (void)scene_path, (void)scene_text,
+      (void)checkpoint_path;
 }
 
 #endif

@@ -356,12 +356,22 @@ static void a_failed_write_harms_nothing(void **state) {
   drop(&writer);
 }
 
+static void a_pipe_is_not_waited_for(void **state) {
+  (void)state;
+  struct reader reader = reader_of(none, fixed);
+  remove(path);
+  remove(previous);
+  assert_int_equal(mkfifo(path, 0600), 0);
+  check_refused(&reader, "first", "is not a regular file");
+  drop(&reader);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_byte_is_watched),          cmocka_unit_test(every_length_is_watched),
       cmocka_unit_test(impossible_numbers_are_refused), cmocka_unit_test(other_problems_are_refused),
       cmocka_unit_test(the_one_before_stands_in),       cmocka_unit_test(only_a_place_of_the_run_is_written),
-      cmocka_unit_test(a_failed_write_harms_nothing),
+      cmocka_unit_test(a_failed_write_harms_nothing),   cmocka_unit_test(a_pipe_is_not_waited_for),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
