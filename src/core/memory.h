@@ -18,7 +18,7 @@ void *hooke_reserve(int64_t count, size_t size);
  * leaves it. */
 int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size);
 
-/* A copy of a string; NULL stays NULL only if there is no memory. */
+/* A copy of a string, "" of NULL, aligned as malloc() does; NULL, with the message recorded, if there is no memory. */
 char *hooke_copy_text(const char *text);
 
 void hooke_free(void *block);

@@ -64,7 +64,7 @@ enum hooke_number_result hooke_number_parse(const char *text, int64_t length, do
   int nonzero = 0;
   if (!is_number(text, length, &point, &nonzero)) return HOOKE_NUMBER_JUNK;
   char local_point[POINT_SIZE], buffer[SHORT_NUMBER + POINT_SIZE];
-  size_t point_bytes = decimal_point(local_point);
+  size_t point_bytes = point < 0 ? 0 : decimal_point(local_point);
   char *copy = buffer;
   if (length >= SHORT_NUMBER) copy = hooke_new(length + POINT_SIZE, 1);
   if (copy == NULL) return HOOKE_NUMBER_NO_MEMORY;

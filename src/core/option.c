@@ -14,9 +14,9 @@ enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
 /* One row of the table or of a family in it, flattened: a family is followed by its members. */
 struct slot {
   const struct hooke_option_row *row;
-  int64_t family; /* slot of the family that it belongs to; -1: none */
-  char *name;     /* with dots */
-  char *allowed;
+  int64_t family;   /* slot of the family that it belongs to; -1: none */
+  const char *name; /* with dots: the row's own, or one of `names` */
+  char *allowed;    /* NULL until it is asked for */
   int32_t is_set;
   struct hooke_option_value value, fallback;
 };
@@ -25,6 +25,7 @@ struct hooke_options {
   const struct hooke_option_table *table;
   int64_t slot_count;
   struct slot *slot;
+  char *names; /* of members of families, one after the other */
 };
 
 static int64_t count_rows(const struct hooke_option_table *table) {
@@ -34,30 +35,35 @@ static int64_t count_rows(const struct hooke_option_table *table) {
   return count;
 }
 
-static int32_t fill_slot(struct slot *slot, const struct hooke_option_row *row, const char *prefix,
-                         int64_t family) {
-  char name[NAME_SIZE], allowed[TEXT_SIZE];
-  snprintf(name, sizeof name, "%s%s", prefix, row->name);
-  hooke_option_describe(row, allowed, sizeof allowed);
-  slot->row = row;
-  slot->family = family;
-  slot->name = hooke_copy_text(name);
-  slot->allowed = hooke_copy_text(allowed);
-  if (slot->name == NULL || slot->allowed == NULL) return HOOKE_NO_MEMORY;
-  if (row->fallback == NULL) return HOOKE_OK;
-  return hooke_option_value_from_text(row, name, row->fallback, &slot->fallback);
+/* Bytes that the dotted names of the members of families take, behind a prefix of so many. */
+static int64_t name_bytes(const struct hooke_option_table *table, int64_t prefix) {
+  int64_t bytes = 0;
+  for (int32_t k = 0; k < table->row_count; k++) {
+    const int64_t length = prefix + (int64_t)strlen(table->rows[k].name);
+    if (prefix > 0) bytes += length + 1;
+    if (table->rows[k].family) bytes += name_bytes(table->rows[k].family, length + 1);
+  }
+  return bytes;
 }
 
-static int32_t fill_slots(hooke_options *options, const struct hooke_option_table *table, const char *prefix,
-                          int64_t family) {
+/* `names` is where the next name goes; it is moved on. */
+static int32_t fill_slots(hooke_options *options, const struct hooke_option_table *table, int64_t family,
+                          char **names) {
   for (int32_t k = 0; k < table->row_count; k++) {
-    int64_t at = options->slot_count++;
-    int32_t status = fill_slot(&options->slot[at], &table->rows[k], prefix, family);
-    if (status) return status;
-    if (table->rows[k].family == NULL) continue;
-    char inner[NAME_SIZE];
-    snprintf(inner, sizeof inner, "%s%s.", prefix, table->rows[k].name);
-    status = fill_slots(options, table->rows[k].family, inner, at);
+    const struct hooke_option_row *row = &table->rows[k];
+    const int64_t at = options->slot_count++;
+    struct slot *slot = &options->slot[at];
+    slot->row = row;
+    slot->family = family;
+    slot->name = row->name;
+    if (family >= 0) {
+      slot->name = *names;
+      *names += sprintf(*names, "%s.%s", options->slot[family].name, row->name) + 1;
+    }
+    int32_t status = HOOKE_OK;
+    if (row->fallback)
+      status = hooke_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
+    if (status == HOOKE_OK && row->family) status = fill_slots(options, row->family, at, names);
     if (status) return status;
   }
   return HOOKE_OK;
@@ -69,7 +75,8 @@ int32_t hooke_options_create(const struct hooke_option_table *table, hooke_optio
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->table = table;
   made->slot = hooke_new(count_rows(table), sizeof *made->slot);
-  int32_t status = made->slot ? fill_slots(made, table, "", -1) : HOOKE_NO_MEMORY;
+  char *names = made->names = hooke_reserve(name_bytes(table, 0), 1);
+  int32_t status = made->slot && names ? fill_slots(made, table, -1, &names) : HOOKE_NO_MEMORY;
   if (status)
     hooke_options_destroy(made);
   else
@@ -83,10 +90,10 @@ void hooke_options_destroy(hooke_options *options) {
     struct slot *slot = &options->slot[k];
     hooke_option_value_clear(&slot->value);
     hooke_option_value_clear(&slot->fallback);
-    hooke_free(slot->name);
     hooke_free(slot->allowed);
   }
   hooke_free(options->slot);
+  hooke_free(options->names);
   hooke_handle_free(options);
 }
 
@@ -154,7 +161,7 @@ static int32_t fail_unknown(const hooke_options *options, const char *name) {
 static struct slot *find_slot(const hooke_options *options, const char *name) {
   if (options == NULL || name == NULL) return NULL;
   for (int64_t k = 0; k < options->slot_count; k++)
-    if (strcmp(options->slot[k].name, name) == 0) return &options->slot[k];
+    if (options->slot[k].name[0] == name[0] && strcmp(options->slot[k].name, name) == 0) return &options->slot[k];
   return NULL;
 }
 
@@ -206,10 +213,10 @@ int32_t hooke_options_add_word(hooke_options *options, const char *name, const c
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   size_t length = strlen(word);
   if (!slot->row->word_lists || !hooke_option_has_word(slot->row->words, word, (int64_t)length)) {
-    char shown[HOOKE_OPTION_SHOWN];
+    char shown[HOOKE_OPTION_SHOWN], allowed[TEXT_SIZE];
     hooke_option_show(word, (int64_t)length, shown);
-    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown,
-                      slot->allowed);
+    hooke_option_describe(slot->row, allowed, sizeof allowed);
+    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown, allowed);
   }
   size_t used = slot->value.words ? strlen(slot->value.words) : 0;
   char *words = hooke_new((int64_t)(used + length + 2), 1);
@@ -281,8 +288,10 @@ int32_t hooke_options_check_required(const hooke_options *options) {
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
     const char *unit = slot->row->unit ? slot->row->unit : "";
-    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s",
-                      slot->allowed, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+    char allowed[TEXT_SIZE];
+    hooke_option_describe(slot->row, allowed, sizeof allowed);
+    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s", allowed,
+                      unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
   }
   return HOOKE_OK;
 }
@@ -309,13 +318,22 @@ static const char *type_name(enum hooke_option_type type) {
   return "";
 }
 
+/* What a slot allows. Few ask, so it is put into words at the first time. */
+static const char *allowed_of(struct slot *slot) {
+  char allowed[TEXT_SIZE];
+  if (slot->allowed) return slot->allowed;
+  hooke_option_describe(slot->row, allowed, sizeof allowed);
+  slot->allowed = hooke_copy_text(allowed);
+  return slot->allowed ? slot->allowed : "what there is no memory to say";
+}
+
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
   if (row < 0 || row >= options->slot_count || property == NULL) return NULL;
-  const struct slot *slot = &options->slot[row];
+  struct slot *slot = &options->slot[row];
   const char *text = NULL;
   if (strcmp(property, "name") == 0) return slot->name;
   if (strcmp(property, "type") == 0) return type_name(slot->row->type);
-  if (strcmp(property, "allowed") == 0) return slot->allowed;
+  if (strcmp(property, "allowed") == 0) return allowed_of(slot);
   if (strcmp(property, "unit") == 0)
     text = slot->row->unit;
   else if (strcmp(property, "default") == 0)

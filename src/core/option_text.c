@@ -4,6 +4,7 @@
 #include "core/number.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "core/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -54,34 +55,16 @@ static void add_words(const char *words, const char *quote, char *text, int64_t 
   }
 }
 
-/* Bytes of the character of UTF-8 (RFC 3629) that `text` begins with; 0 if it begins with none. */
-static int64_t character(const char *text, int64_t length) {
-  const unsigned char *c = (const unsigned char *)text;
-  if (c[0] < 0x80) return 1;
-  const int64_t bytes = c[0] >= 0xC2 && c[0] <= 0xDF   ? 2
-                        : (c[0] & 0xF0) == 0xE0        ? 3
-                        : c[0] >= 0xF0 && c[0] <= 0xF4 ? 4
-                                                       : 0;
-  if (bytes == 0 || bytes > length) return 0;
-  const unsigned char lowest = c[0] == 0xE0 ? 0xA0 : c[0] == 0xF0 ? 0x90 : 0x80;
-  const unsigned char highest = c[0] == 0xED ? 0x9F : c[0] == 0xF4 ? 0x8F : 0xBF;
-  if (c[1] < lowest || c[1] > highest) return 0;
-  for (int64_t k = 2; k < bytes; k++)
-    if ((c[k] & 0xC0) != 0x80) return 0;
-  return bytes;
-}
-
 void hooke_option_show(const char *text, int64_t length, char *shown) {
   int64_t used = 0, most = HOOKE_OPTION_SHOWN - 4;
   for (int64_t at = 0; at < length;) {
-    const int64_t bytes = character(text + at, length - at), count = bytes > 0 ? bytes : 1;
+    const int64_t bytes = hooke_utf8_character(text + at, length - at), count = bytes > 0 ? bytes : 1;
     if (used + count > most) {
       memcpy(shown + used, "...", 3);
       used += 3;
       break;
     }
-    const int control = (unsigned char)text[at] < 32 || text[at] == 127;
-    if (bytes == 0 || control)
+    if (bytes == 0 || hooke_utf8_is_control(text[at]))
       shown[used] = '?';
     else
       memcpy(shown + used, text + at, (size_t)bytes);

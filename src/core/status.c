@@ -1,6 +1,7 @@
 #include "core/status.h"
 
 #include "core/print.h"
+#include "core/utf8.h"
 
 #undef hooke_fail
 #undef hooke_fail_within
@@ -35,6 +36,8 @@ int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
   va_end(args);
   snprintf(last.place, sizeof last.place, "%s", place ? place : "");
   memcpy(last.message, message, sizeof message);
+  hooke_utf8_make_plain(last.place); /* libraries repeat what they were given, and long text is cut */
+  hooke_utf8_make_plain(last.message);
   last.before[0] = '\0';
   last.count++;
   last.status = status;
@@ -52,6 +55,7 @@ int32_t hooke_fail_within(int32_t status, const char *format, ...) {
   const char *joint = last.place[0] && last.place[0] != '[' ? "." : "";
   snprintf(place, sizeof place, "%s%s%s", outer, joint, last.place);
   snprintf(last.place, sizeof last.place, "%.*s", PLACE_SIZE - 1, place);
+  hooke_utf8_make_plain(last.place);
   compose();
   return status;
 }
@@ -61,6 +65,7 @@ int32_t hooke_fail_before(int32_t status, const char *format, ...) {
   va_start(args, format);
   hooke_print_list(last.before, sizeof last.before, format, args);
   va_end(args);
+  hooke_utf8_make_plain(last.before);
   compose();
   return status;
 }

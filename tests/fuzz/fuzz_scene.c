@@ -155,11 +155,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_OK) {
     hooke_fuzz_is_accepted();
-    if (hooke_fuzz_is_chosen(text, size, 2)) go_around(scene); /* takes as long as all the rest */
+    if (hooke_fuzz_is_chosen(text, size, 8)) go_around(scene); /* takes as long as all the rest */
   } else {
     require_failure(status, text, size);
   }
   hooke_scene_destroy(scene);
-  if (hooke_fuzz_is_chosen(text, size, 64)) load(text, size);
+  if (hooke_fuzz_is_chosen(text, size, 256)) load(text, size);
   return 0;
 }
