@@ -61,8 +61,7 @@ static int32_t fill_slots(hooke_options *options, const struct hooke_option_tabl
       *names += sprintf(*names, "%s.%s", options->slot[family].name, row->name) + 1;
     }
     int32_t status = HOOKE_OK;
-    if (row->fallback)
-      status = hooke_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
+    if (row->fallback) status = hooke_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
     if (status == HOOKE_OK && row->family) status = fill_slots(options, row->family, at, names);
     if (status) return status;
   }
@@ -161,7 +160,8 @@ static int32_t fail_unknown(const hooke_options *options, const char *name) {
 static struct slot *find_slot(const hooke_options *options, const char *name) {
   if (options == NULL || name == NULL) return NULL;
   for (int64_t k = 0; k < options->slot_count; k++)
-    if (options->slot[k].name[0] == name[0] && strcmp(options->slot[k].name, name) == 0) return &options->slot[k];
+    if (options->slot[k].name[0] == name[0] && strcmp(options->slot[k].name, name) == 0)
+      return &options->slot[k];
   return NULL;
 }
 

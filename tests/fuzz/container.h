@@ -7,9 +7,10 @@
 
 #include <stdint.h>
 
-/* A number and a word that are in the file beside the container alone: no reader may come to it. */
+/* A number and a text that are in the file beside the container alone: no reader may come to it. The text is longer than an
+ * edit can be, as libFuzzer puts what is compared into its inputs. */
 #define SECRET_NUMBER 7777.25
-#define SECRET_WORD   "secret"
+#define SECRET_TEXT   "what nobody asked for and no one is told"
 
 struct container {
   char folder[64], path[80];

@@ -1,4 +1,7 @@
-/* Containers: made once for each list of structures and kept, their numbers patched for each input. */
+/* Containers: made once for each list of structures and kept, their numbers patched for each input.
+ *
+ * Opening a file takes HDF5 longer than all that hooke does with it, so images stay open: what hooke opens as the file is the
+ * image, opened once more, unless its headers were patched, which HDF5 would not read again. */
 #include "container.h"
 
 #include "container_edit_h5.h"
@@ -18,7 +21,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_NAMES = 192, KEPT = 2048, LARGEST_IMAGE = 1 << 20 };
+enum { MOST_NAMES = 192, KEPT = 4096, OPEN = 512, LARGEST_IMAGE = 1 << 20 };
 
 /* Where the numbers of an object lie; `known` 0: nobody has asked yet. */
 struct place {
@@ -34,14 +37,31 @@ struct image {
   struct place *place; /* of each name */
 };
 
+/* An image that HDF5 has open, and the bytes that it reads. */
+struct opened {
+  uint64_t hash;
+  hid_t file;
+  uint8_t *bytes;
+};
+
 static struct {
   char *name[MOST_NAMES];
   int32_t names;
   uint8_t *base, *patched;
   size_t base_size;
   struct image image[KEPT];
+  struct opened opened[OPEN];
+  const char *path;
+  hid_t warm; /* stands for the file at `path`; -1: that is to be opened itself */
   int descriptor, watch;
-} own;
+} own = {.warm = -1};
+
+hid_t __wrap_H5Fopen(const char *path, unsigned flags, hid_t list);
+hid_t __real_H5Fopen(const char *path, unsigned flags, hid_t list);
+hid_t __wrap_H5Fopen(const char *path, unsigned flags, hid_t list) {
+  const int stands = own.warm >= 0 && flags == H5F_ACC_RDONLY && strcmp(path, own.path) == 0;
+  return stands ? H5Freopen(own.warm) : __real_H5Fopen(path, flags, list);
+}
 
 _Noreturn static void give_up(const char *what) {
   fprintf(stderr, "container: %s: %s\n", what, hooke_last_error());
@@ -117,7 +137,7 @@ static void write_secret(const char *path) {
   double number[48];
   for (int k = 0; k < 48; k++)
     number[k] = SECRET_NUMBER;
-  char text[64] = SECRET_WORD;
+  char text[64] = SECRET_TEXT;
   hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   hid_t space = H5Screate_simple(3, size, NULL), type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
   H5Tset_size(type, sizeof text);
@@ -135,7 +155,8 @@ static void write_raw(const char *path) {
   FILE *file = fopen(path, "wb");
   const double number = SECRET_NUMBER;
   for (int k = 0; k < 64 && file; k++)
-    fwrite(k < 32 ? (const void *)&number : (const void *)SECRET_WORD, 6, 1, file);
+    fwrite(k < 32 ? (const void *)&number : (const void *)SECRET_TEXT,
+           k < 32 ? sizeof number : sizeof SECRET_TEXT, 1, file);
   if (file == NULL || fclose(file) != 0) give_up(path);
 }
 
@@ -178,6 +199,7 @@ void container_begin(struct container *container) {
   write_secret(path);
   snprintf(path, sizeof path, "%s/raw.bin", container->folder);
   write_raw(path);
+  own.path = container->path;
   own.descriptor = open(container->path, O_RDWR);
   if (own.descriptor < 0) give_up(container->path);
   own.watch = inotify_init1(IN_NONBLOCK);
@@ -190,17 +212,20 @@ void container_begin(struct container *container) {
 
 /* ---- images ---- */
 
-static hid_t open_image(const void *bytes, size_t size, unsigned flags) {
+/* HDF5 takes two images of one name for one file. */
+static hid_t open_image(uint64_t name, const void *bytes, size_t size, unsigned flags) {
+  char path[32];
+  snprintf(path, sizeof path, "image-%llx", (unsigned long long)name);
   hid_t list = H5Pcreate(H5P_FILE_ACCESS), file = -1;
   if (H5Pset_fapl_core(list, 1 << 16, 0) >= 0 && H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0 &&
       H5Pset_file_image(list, (void *)(uintptr_t)bytes, size) >= 0)
-    file = H5Fopen("image", flags, list);
+    file = __real_H5Fopen(path, flags, list);
   H5Pclose(list);
   return file;
 }
 
 static void make_image(const struct container *container, const struct edits *edits, struct image *image) {
-  hid_t file = open_image(own.base, own.base_size, H5F_ACC_RDWR);
+  hid_t file = open_image(0, own.base, own.base_size, H5F_ACC_RDWR);
   if (file < 0) give_up("the base");
   for (int32_t k = 0; k < edits->count; k++) {
     if (edits->edit[k].kind < EDIT_STRUCTURES) container_edit_structure(file, container, &edits->edit[k]);
@@ -241,11 +266,24 @@ static struct image *find_image(const struct container *container, const struct 
   return image;
 }
 
+/* The core driver keeps the image in a block of its own. */
+static struct opened *find_opened(const struct image *image) {
+  struct opened *opened = &own.opened[image->hash % OPEN];
+  void **bytes = NULL;
+  if (opened->hash == image->hash) return opened;
+  if (opened->hash) H5Fclose(opened->file);
+  *opened =
+      (struct opened){image->hash, open_image(image->hash, image->bytes, image->size, H5F_ACC_RDONLY), NULL};
+  if (opened->file < 0 || H5Fget_vfd_handle(opened->file, H5P_DEFAULT, (void **)&bytes) < 0)
+    give_up("an image");
+  opened->bytes = *bytes;
+  return opened;
+}
+
 /* ---- numbers ---- */
 
 static void look_up(const struct image *image, int32_t number, struct place *place) {
-  hid_t file = open_image(image->bytes, image->size, H5F_ACC_RDONLY);
-  hid_t data = file < 0 ? -1 : H5Dopen2(file, own.name[number], H5P_DEFAULT);
+  hid_t data = H5Dopen2(find_opened(image)->file, own.name[number], H5P_DEFAULT);
   place->known = 1;
   if (data >= 0) {
     H5O_info_t info;
@@ -263,7 +301,6 @@ static void look_up(const struct image *image, int32_t number, struct place *pla
     }
     H5Tclose(type), H5Sclose(space), H5Dclose(data);
   }
-  if (file >= 0) H5Fclose(file);
 }
 
 static void patch_value(const struct place *place, const struct edit *edit) {
@@ -321,6 +358,7 @@ static void patch_check(const struct image *image, int64_t frame) {
 
 void container_edit(struct container *container, const struct edits *edits) {
   struct image *image = find_image(container, edits);
+  int32_t headers = 0;
   memcpy(own.patched, image->bytes, image->size);
   container->structures = 0;
   for (int32_t k = 0; k < edits->count; k++) {
@@ -331,8 +369,11 @@ void container_edit(struct container *container, const struct edits *edits) {
     if (!place->known) look_up(image, edit->where % own.names, place);
     if (edit->kind == EDIT_CHECK) patch_check(image, edit->what % 4);
     if (edit->kind == EDIT_VALUE) patch_value(place, edit);
-    if (edit->kind == EDIT_EXTENT) patch_extent(place, edit);
+    if (edit->kind == EDIT_EXTENT) patch_extent(place, edit), headers++;
   }
+  const struct opened *opened = find_opened(image);
+  memcpy(opened->bytes, headers ? image->bytes : own.patched, image->size);
+  own.warm = headers ? -1 : opened->file;
   if (pwrite(own.descriptor, own.patched, image->size, 0) != (ssize_t)image->size ||
       ftruncate(own.descriptor, (off_t)image->size) != 0)
     give_up(container->path);

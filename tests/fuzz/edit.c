@@ -74,11 +74,16 @@ static uint64_t draw_value(uint64_t *state) {
   return bits;
 }
 
-/* Values four times as often as structures, which cost a new container. */
+/* Structures cost a new container, and extents a file that is opened anew. */
+static enum edit_kind draw_kind(uint64_t r) {
+  if (r % 6 == 0) return (enum edit_kind)((r >> 8) % EDIT_STRUCTURES);
+  if (r % 6 == 1 && (r >> 8) % 2) return EDIT_EXTENT;
+  return (r >> 9) % 3 ? EDIT_VALUE : EDIT_CHECK;
+}
+
 static void draw_edit(uint64_t *state, uint8_t *at) {
   const uint64_t value = draw_value(state), r = next(state);
-  at[0] = (uint8_t)(r % 5 ? EDIT_STRUCTURES + (r >> 8) % (EDIT_KINDS - EDIT_STRUCTURES)
-                          : (r >> 8) % EDIT_STRUCTURES);
+  at[0] = (uint8_t)draw_kind(r);
   at[1] = (uint8_t)(r >> 16);
   at[2] = (uint8_t)(r >> 24);
   at[3] = (uint8_t)(r >> 32);

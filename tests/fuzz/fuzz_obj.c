@@ -3,7 +3,7 @@
  * The first two bytes choose `weld` and `transform.scale`, the rest is the file.
  *
  * Lines of: src/io/obj.c src/io/mesh.c src/build/mesh.c src/build/surface.c src/build/weld.c
- * Longest input: 2048 */
+ * Longest input: 2048, mostly 512 */
 #include "fuzz.h"
 
 #include "hooke/io.h"

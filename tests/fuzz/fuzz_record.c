@@ -151,21 +151,22 @@ static void ask_view(const hooke_record *record) {
 static void check_texts(const hooke_record *record) {
   hooke_fuzz_require(
       hooke_record_text(record, "status") != NULL && hooke_record_text(record, "colour") == NULL, "texts");
-  hooke_fuzz_require(strstr(hooke_record_text(record, "status"), SECRET_WORD) == NULL &&
-                         strstr(hooke_record_text(record, "scene"), SECRET_WORD) == NULL,
+  hooke_fuzz_require(strstr(hooke_record_text(record, "status"), SECRET_TEXT) == NULL &&
+                         strstr(hooke_record_text(record, "scene"), SECRET_TEXT) == NULL,
                      "a text of another file");
 }
 
 static void ask(const uint8_t head[EDIT_HEAD]) {
-  const int what = head[1];
+  /* what takes longest is asked less often */
+  const int what = head[1] & (head[3] % 4 ? ~ASK_HDF5 : ~0) & (head[2] % 4 ? ~ASK_SCENE : ~0);
   hooke_record *record = NULL;
   if (answered(hooke_record_open(container.path, &record))) {
     hooke_fuzz_is_accepted();
     check_texts(record);
     if (what & ASK_FRAME) ask_frame(record, head[0], what & ASK_HDF5);
     if (what & ASK_ARRAY) ask_array(record, head[0] >> 4, (what & ASK_TWICE) != 0, what & ASK_HDF5);
-    if ((what & ASK_XDMF) && head[2] % 8 == 0) ask_xdmf(record);
-    if ((what & ASK_VIEW) && head[2] % 16 == 1) ask_view(record);
+    if ((what & ASK_XDMF) && head[2] % 8 == 1) ask_xdmf(record);
+    if ((what & ASK_VIEW) && head[2] % 16 == 2) ask_view(record);
   } else {
     hooke_fuzz_require(record == NULL, "a record besides a failure");
   }

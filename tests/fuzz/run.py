@@ -1,7 +1,8 @@
 """Fuzzing, driven.
 
     run.py --seconds 5 [TARGET...]         each target for so long, two side by side: the part of `make test`
-    run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was
+    run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was. With --quiet 60 it also
+                                           goes on until no new edge came for so many minutes of processor
     run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach
     run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
 
@@ -42,7 +43,8 @@ FLAGS = {
     f"-fsanitize=undefined,float-cast-overflow -fsanitize-trap=all {WARNINGS}",
     "fuzz-coverage": f"-O1 -fprofile-instr-generate -fcoverage-mapping {WARNINGS}",
 }
-CHUNK = 120  # seconds between two turns
+CHUNK = 240  # [s] between two turns
+TURNS = 8  # one of them with all sanitizers
 SANITIZERS = {
     "ASAN_OPTIONS": "allocator_may_return_null=1:malloc_context_size=5:quarantine_size_mb=8:detect_stack_use_after_return=0",
     "UBSAN_OPTIONS": "print_stacktrace=1",
@@ -73,9 +75,11 @@ class Target:
         self.name = name
         source = HERE / f"fuzz_{name}.c"
         text = re.sub(r"\n \*", " ", source.read_text(encoding="utf-8"))
-        lines, longest = re.search(r"Lines of:([^:]*?)(?:Longest|\*/)", text), re.search(r"Longest input: (\d+)", text)
+        lines = re.search(r"Lines of:([^:]*?)(?:Longest|\*/)", text)
+        longest = re.search(r"Longest input: (\d+)(?:, mostly (\d+))?", text)
         self.files = sorted({f for p in (lines.group(1).split() if lines else []) for f in glob.glob(p, root_dir=ROOT)})
         self.longest = int(longest.group(1)) if longest else 4096
+        self.mostly = int(longest.group(2)) if longest and longest.group(2) else self.longest
         self.corpus, self.found, self.words = HERE / "corpus" / name, HERE / "found" / name, HERE / f"{name}.dict"
         self.work = BUILD / name
 
@@ -89,8 +93,8 @@ class Target:
     def command(self, folder, *more):
         (self.work / "found").mkdir(parents=True, exist_ok=True)
         words = [f"-dict={self.words}"] if self.words.exists() else []
-        longest = self.longest // 2 if folder == "fuzz-fast" else self.longest
-        return [self.program(folder), f"-max_len={longest}", "-timeout=60", "-rss_limit_mb=2048", "-print_funcs=0",
+        longest = self.mostly if folder == "fuzz-fast" else self.longest
+        return [self.program(folder), f"-max_len={longest}", "-timeout=60", "-rss_limit_mb=2560", "-print_funcs=0", "-reload=0",
                 f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
@@ -180,10 +184,10 @@ def load_state():
 
 
 class Campaign:
-    def __init__(self, targets, executions, workers, limit):
-        self.targets, self.wanted, self.workers = targets, executions, workers
+    def __init__(self, targets, executions, quiet, workers, limit):
+        self.targets, self.wanted, self.quiet, self.workers = targets, executions, quiet, workers
         self.until = time.monotonic() + limit if limit else None
-        self.state, self.lock, self.stop = load_state(), threading.Lock(), False
+        self.state, self.lock, self.stop, self.commit = load_state(), threading.Lock(), False, commit()
         self.processes, self.turn = set(), itertools.count()
         for target in targets:
             self.of(target)
@@ -192,7 +196,7 @@ class Campaign:
 
     def of(self, target):
         return self.state.setdefault(target.name, {
-            "executions": 0, "past_syntax": 0, "accepted": 0, "seconds": 0.0, "findings": [],
+            "executions": 0, "past_syntax": 0, "accepted": 0, "seconds": 0.0, "findings": [], "commits": {},
             "edges": {}, "last_edge": {"executions": 0, "seconds": 0.0},
             "by_build": {b: {"executions": 0, "seconds": 0.0} for b in ("fuzz", "fuzz-fast")}})
 
@@ -206,6 +210,7 @@ class Campaign:
         for name, count in zip(("executions", "past_syntax", "accepted", "seconds"), counted):
             state[name] += count
         state["by_build"][folder]["executions"] += counted[0]
+        state["commits"][self.commit] = state["commits"].get(self.commit, 0) + counted[0]
         state["by_build"][folder]["seconds"] += counted[3]
         state["findings"] = findings(target)
 
@@ -216,13 +221,16 @@ class Campaign:
             state["edges"][folder] = edges
             state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds}
 
+    def is_done(self, target):
+        return self.of(target)["executions"] >= self.wanted(target) and since_edge(self.of(target)) >= self.quiet
+
     def next(self):
-        """The target that is furthest behind."""
+        """The target that is furthest behind: in its count, then in the time without a new edge."""
         late = self.until is not None and time.monotonic() > self.until
-        ahead = [t for t in self.targets if self.of(t)["executions"] < self.wanted(t) and not self.of(t)["findings"]]
+        ahead = [t for t in self.targets if not self.is_done(t) and not self.of(t)["findings"]]
         if self.stop or late or not ahead:
             return None
-        return min(ahead, key=lambda t: self.of(t)["executions"] / self.wanted(t))
+        return min(ahead, key=lambda t: (min(1.0, self.of(t)["executions"] / self.wanted(t)), since_edge(self.of(t))))
 
     def follow(self, target, folder, process, tally):
         """Reads what libFuzzer says; returns the end of it."""
@@ -242,12 +250,12 @@ class Campaign:
                 if target is None:
                     return
                 turn = next(self.turn)
-                folder = "fuzz" if turn % 6 == 0 else "fuzz-fast"
+                folder = "fuzz" if turn % TURNS == 0 else "fuzz-fast"
                 corpus = target.work / "corpus"
                 corpus.mkdir(parents=True, exist_ok=True)
-                left = max(1, int(self.wanted(target) - self.of(target)["executions"]))
+                left = int(self.wanted(target) - self.of(target)["executions"])
                 tally = Tally(target.work / f"tally-{folder}-{number}")
-                process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left}",
+                process = start(target.command(folder, f"-max_total_time={CHUNK}", f"-runs={left if left > 0 else -1}",
                                                str(corpus), *target.inputs()), tally)
                 self.processes.add(process)
             log = self.follow(target, folder, process, tally)
@@ -266,7 +274,7 @@ class Campaign:
         state = self.of(target)
         print(f"{target.name:10} {state['executions']:>12} executions, {share(state):3.0f} % past the syntax, "
               f"{max(state['edges'].values(), default=0)} edges, the last new one "
-              f"{state['seconds'] - state['last_edge']['seconds']:.0f} s ago", flush=True)
+              f"{since_edge(state):.0f} s ago", flush=True)
 
     def run(self):
         def interrupt(*_):
@@ -284,22 +292,33 @@ class Campaign:
         self.save()
 
 
+def commit():
+    """Of the sources, which the figures name."""
+    told = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True).stdout
+    return told.strip() or "unknown"
+
+
+def since_edge(state):
+    """Seconds of processor since the last new edge."""
+    return state["seconds"] - state["last_edge"]["seconds"]
+
+
 def share(state):
     return 100 * state["past_syntax"] / max(state["executions"], 1)
 
 
-def campaign(targets, executions, workers, limit):
+def campaign(targets, executions, quiet, workers, limit):
     BUILD.mkdir(parents=True, exist_ok=True)
     for folder in "fuzz", "fuzz-fast":
         build(folder)
-    many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), workers, limit)
+    many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), quiet, workers, limit)
     many.run()
     for target in targets:  # everything that came up on the way, with every sanitizer
         once = subprocess.run(target.command("fuzz", "-runs=0", str(target.work / "corpus"), *target.inputs()),
                               env={**os.environ, **SANITIZERS}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if once.returncode and not many.stop:
             many.of(target)["findings"] = findings(target) or ["the inputs gathered do not replay"]
-    done = all(many.of(t)["executions"] >= many.wanted(t) for t in targets)
+    done = all(many.is_done(t) for t in targets)
     found = [f for t in targets for f in many.of(t)["findings"]]
     write_figures(targets, many.state, {} if many.stop else coverage(targets))
     return 1 if found else 0 if done else 3
@@ -307,8 +326,7 @@ def campaign(targets, executions, workers, limit):
 
 def write_figures(targets, state, lines):
     """What docs/reliability.md says of it."""
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    figures = {"date": time.strftime("%Y-%m-%d"), "commit": commit, "targets": {}}
+    figures = {"date": time.strftime("%Y-%m-%d"), "commit": commit(), "targets": {}}
     for target in targets:
         of = state[target.name]
         rates = {b: round(v["executions"] / v["seconds"]) for b, v in of["by_build"].items() if v["seconds"]}
@@ -316,7 +334,7 @@ def write_figures(targets, state, lines):
             "executions": of["executions"], "past_syntax_percent": round(share(of), 1),
             "accepted_percent": round(100 * of["accepted"] / max(of["executions"], 1), 1), "edges": of["edges"],
             "processor_seconds": round(of["seconds"]), "executions_per_second": rates,
-            "seconds_since_last_edge": round(of["seconds"] - of["last_edge"]["seconds"]),
+            "commits": of["commits"], "seconds_since_last_edge": round(since_edge(of)),
             "executions_since_last_edge": of["executions"] - of["last_edge"]["executions"],
             "findings": len(of["findings"]), "lines": lines.get(target.name, {})}
     FIGURES.write_text(json.dumps(figures, indent=1))
@@ -383,6 +401,7 @@ def main():
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     parser.add_argument("--seconds", type=int)
     parser.add_argument("--executions", type=float, help="of each target, ten times as many of scene")
+    parser.add_argument("--quiet", type=float, default=0.0, help="minutes of processor without a new edge, besides")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--minutes", type=float, help="stop a campaign after so long, to go on another time")
     parser.add_argument("--coverage", action="store_true")
@@ -397,7 +416,7 @@ def main():
     if asked.minimise:
         return minimise(targets)
     if asked.executions:
-        return campaign(targets, asked.executions, asked.workers, asked.minutes and 60 * asked.minutes)
+        return campaign(targets, asked.executions, 60 * asked.quiet, asked.workers, asked.minutes and 60 * asked.minutes)
     return short(targets, asked.seconds or 5)
 
 

@@ -18,13 +18,14 @@ def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
         lines = f"{f['lines']['percent']} % of the lines of its files, " if f.get("lines") else ""
         told.append((name, f"{f['executions']:.3g} executions, {f['past_syntax_percent']} % past the syntax, {lines}"
                      f"{f['edges']['fuzz']} edges, none new in the last {f['executions_since_last_edge']:.3g} executions "
-                     f"({f['seconds_since_last_edge'] / 60:.0f} min of processor), {f['findings']} findings"))  # fmt: skip
+                     f"({f['seconds_since_last_edge'] / 60:.0f} min of processor), {f['findings']} findings; "
+                     f"at {', '.join(f'{commit} {n:.2g}' for commit, n in f['commits'].items())}"))  # fmt: skip
     return told
 
 
 PART = Part(
     "fuzz",
     ["clang", "libclang-rt-14-dev"],
-    [Step("campaign", "python3 tests/fuzz/run.py --executions 1e7 --minutes 140", 8400, counted)],
+    [Step("campaign", "python3 tests/fuzz/run.py --executions 1e7 --quiet 60 --minutes 140", 8400, counted)],
     rows,
 )
