@@ -14,6 +14,7 @@
 #include <hdf5.h>
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_NAMES = 192, KEPT = 4096, OPEN = 512, LARGEST_IMAGE = 1 << 20 };
+enum { MOST_NAMES = 192, KEPT = 4096, OPEN = 512, LARGEST_IMAGE = 1 << 20, FRAMES = 4 };
 
 /* Where the numbers of an object lie; `known` 0: nobody has asked yet. */
 struct place {
@@ -52,6 +53,7 @@ static struct {
   struct image image[KEPT];
   struct opened opened[OPEN];
   const char *path;
+  const struct image *now;
   hid_t warm; /* stands for the file at `path`; -1: that is to be opened itself */
   int descriptor, watch;
 } own = {.warm = -1};
@@ -163,7 +165,8 @@ static void write_raw(const char *path) {
 static char folder_to_remove[64];
 
 static void remove_folder(void) {
-  static const char *const file[] = {"c.h5", "other.h5", "raw.bin", "x.xdmf"};
+  static const char *const file[] = {
+      "c.h5", "other.h5", "raw.bin", "x.xdmf", "c.xdmf", "c.h5.checkpoint", "c.h5.checkpoint.previous"};
   char path[96];
   for (size_t k = 0; k < sizeof file / sizeof file[0]; k++) {
     snprintf(path, sizeof path, "%s/%s", folder_to_remove, file[k]);
@@ -374,9 +377,24 @@ void container_edit(struct container *container, const struct edits *edits) {
   const struct opened *opened = find_opened(image);
   memcpy(opened->bytes, headers ? image->bytes : own.patched, image->size);
   own.warm = headers ? -1 : opened->file;
+  own.now = image;
   if (pwrite(own.descriptor, own.patched, image->size, 0) != (ssize_t)image->size ||
       ftruncate(own.descriptor, (off_t)image->size) != 0)
     give_up(container->path);
+}
+
+void container_kill_after(int64_t frames) {
+  static const char running[] = "running";
+  const double none = NAN;
+  const struct place *status = place_of(own.now, "/hooke/status");
+  own.warm = -1;
+  if (frames > FRAMES) return;
+  if (status && status->stored >= sizeof running)
+    pwrite(own.descriptor, running, sizeof running, (off_t)status->data);
+  for (int64_t k = frames; k < FRAMES; k++) {
+    const uint8_t *row = row_of(own.now, HOOKE_FRAME_TIME, k);
+    if (row) pwrite(own.descriptor, &none, sizeof none, row - own.patched);
+  }
 }
 
 /* ---- asking ---- */

@@ -3,7 +3,7 @@
  *
  * The first byte says what is asked, the rest is the file. Most inputs have a check value that fits.
  *
- * Lines of: src/io/checkpoint.c src/io/checkpoint_form.c src/integrate/resume.c
+ * Lines of: src/io/checkpoint.c src/io/checkpoint_form.c
  * Longest input: 640 */
 #include "fuzz.h"
 
@@ -11,6 +11,7 @@
 
 #include "core/crc32.h"
 #include "io/checkpoint_form.h"
+#include "io/checkpoint_file.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -32,7 +33,7 @@ enum {
 };
 
 static struct {
-  char folder[64], path[80], previous[96];
+  char folder[64], path[80], previous[96], next[80];
   hooke_system *system;
   hooke_integrator *integrator[2]; /* of two methods */
   hooke_state *state;
@@ -85,6 +86,7 @@ static int32_t stop_half_way(int64_t step, const hooke_state *state, void *ctx) 
 static void remove_folder(void) {
   unlink(own.path);
   unlink(own.previous);
+  hooke_checkpoint_remove(own.next);
   rmdir(own.folder);
 }
 
@@ -101,6 +103,7 @@ static void begin(void) {
   atexit(remove_folder);
   snprintf(own.path, sizeof own.path, "%s/run.checkpoint", own.folder);
   snprintf(own.previous, sizeof own.previous, "%s.previous", own.path);
+  snprintf(own.next, sizeof own.next, "%s/next.checkpoint", own.folder);
   own.system = new_system();
   own.integrator[0] = new_integrator("symplectic-euler");
   own.integrator[1] = new_integrator("verlet");
@@ -134,6 +137,22 @@ static void check_numbers(const uint8_t *bytes, size_t size) {
   hooke_fuzz_require(memcmp(found, expected, sizeof found) == 0, "the numbers of the file");
   for (int k = 0; k < 2 * NUMBERS; k++)
     hooke_fuzz_require(isfinite(found[k]), "a number that is none");
+}
+
+/* What was read can be written and read again. */
+static void go_around(hooke_integrator *integrator) {
+  double read[2 * NUMBERS];
+  memcpy(read, hooke_state_position(own.state), NUMBERS * sizeof(double));
+  memcpy(read + NUMBERS, hooke_state_velocity(own.state), NUMBERS * sizeof(double));
+  const double time = hooke_state_time(own.state);
+  hooke_fuzz_require(hooke_checkpoint_write(own.next, integrator, own.state, "next") == HOOKE_OK,
+                     "a checkpoint where a run stands");
+  hooke_fuzz_require(hooke_checkpoint_read(own.next, "next", integrator, own.state) == HOOKE_OK,
+                     "what was written can be read");
+  hooke_fuzz_require(time == hooke_state_time(own.state) &&
+                         memcmp(read, hooke_state_position(own.state), sizeof read / 2) == 0 &&
+                         memcmp(read + NUMBERS, hooke_state_velocity(own.state), sizeof read / 2) == 0,
+                     "written and read again");
 }
 
 static void go_on(hooke_integrator *integrator) {
@@ -170,6 +189,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const int taken_before =
       (what & BEFORE) && memcmp(hooke_state_position(own.state), own.begin, sizeof own.begin / 2) == 0;
   if (!taken_before) check_numbers(file, length);
+  if (hooke_fuzz_is_chosen(data, size, 64)) go_around(integrator);
   if (what & GO_ON) go_on(integrator);
   return 0;
 }

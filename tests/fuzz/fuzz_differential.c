@@ -2,7 +2,11 @@
  * library does it, and by the plain loop of tests/support/canonical.c: the same bits. Energies and derivatives against
  * differences.
  *
- * Lines of: src/kernel/[a-z]*.c src/model/force*.c src/model/lane*.c src/model/net*.c src/model/motion*.c src/model/spring*.c src/model/altitude*.c src/model/bending*.c src/model/energy.c src/model/commit.c src/model/drive.c src/integrate/forward_euler.c src/integrate/symplectic_euler.c src/integrate/rk4.c src/integrate/verlet.c
+ * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c src/kernel/net_loops.c
+ *           src/kernel/spring_[cl]*.c src/kernel/step_loops.c src/kernel/tangent_loops.c src/model/force.c
+ *           src/model/force_[abdgs]*.c src/model/lane*.c src/model/net*.c src/model/motion*.c src/model/spring*.c
+ *           src/model/altitude*.c src/model/bending*.c src/model/energy.c src/model/drive.c src/integrate/forward_euler.c
+ *           src/integrate/symplectic_euler.c src/integrate/rk4.c src/integrate/verlet.c
  * Longest input: 104 */
 #include "fuzz.h"
 #include "small_scene.h"
@@ -236,6 +240,11 @@ static void check_energy(const struct small_scene *scene) {
   hooke_fuzz_require(heat >= 0.0 && fabs(lost - heat) <= room, "what damping takes is heat");
 }
 
+/* From -1 to 1, without a pattern that particles have. */
+static double drawn_from(int64_t k) {
+  return (double)((k * 7919 + 104729) % 2003) / 1001.0 - 1.0;
+}
+
 static void check_derivative(const struct small_scene *scene) {
   const int64_t size = 3 * scene->particles;
   double dq[3 * MOST_PARTICLES], dv[3 * MOST_PARTICLES], product[3 * MOST_PARTICLES];
@@ -244,8 +253,8 @@ static void check_derivative(const struct small_scene *scene) {
   double slope[2][3 * MOST_PARTICLES];
   const double far = 1e-3;
   for (int64_t k = 0; k < size; k++) {
-    dq[k] = 0.5 * (double)((k * 7 + 3) % 5) - 1.0;
-    dv[k] = 0.5 * (double)((k * 11 + 1) % 7) - 1.5;
+    dq[k] = drawn_from(k);
+    dv[k] = drawn_from(k + size);
   }
   double scale = 0.0;
   for (int k = 0; k < 2; k++) {
@@ -269,6 +278,60 @@ static void check_derivative(const struct small_scene *scene) {
               slope[1][p], allowed);
     hooke_fuzz_require(fabs(product[p] - slope[1][p]) <= allowed, "derivatives are what differences say");
   }
+}
+
+static void check_blocks(const struct small_scene *scene) {
+  enum { MOST_BLOCKS = 16384 };
+  static double dfdq[9 * MOST_BLOCKS], dfdv[9 * MOST_BLOCKS];
+  static int64_t column[MOST_BLOCKS], row[MOST_PARTICLES + 1];
+  const int64_t size = 3 * scene->particles, count = hooke_system_block_count(scene->system);
+  double dq[3 * MOST_PARTICLES], dv[3 * MOST_PARTICLES], product[3 * MOST_PARTICLES], sum, most;
+  hooke_fuzz_require(count >= scene->particles && count <= MOST_BLOCKS, "a number of blocks");
+  for (int64_t k = 0; k < size; k++) {
+    dq[k] = drawn_from(k);
+    dv[k] = drawn_from(k + size);
+  }
+  hooke_fuzz_require(
+      hooke_system_derivative_pattern(scene->system, row, column) == HOOKE_OK &&
+          hooke_system_derivative_blocks(scene->system, scene->q, scene->v, dfdq, dfdv) == HOOKE_OK &&
+          hooke_system_derivative_product(scene->system, 0.0, scene->q, scene->v, dq, dv, product) ==
+              HOOKE_OK,
+      "derivatives");
+  for (int64_t p = 0; p < size; p++) {
+    sum = most = 0.0;
+    for (int64_t k = row[p / 3]; k < row[p / 3 + 1]; k++) {
+      for (int64_t b = 0; b < 3; b++) {
+        const int64_t at = 9 * k + 3 * (p % 3) + b, to = 3 * column[k] + b;
+        sum += dfdq[at] * dq[to] + dfdv[at] * dv[to];
+        most += fabs(dfdq[at] * dq[to]) + fabs(dfdv[at] * dv[to]);
+      }
+    }
+    if (!(fabs(sum - product[p]) <= 1e-12 * most))
+      fprintf(stderr, "number %lld: %.17g by blocks, %.17g by the product\n", (long long)p, sum, product[p]);
+    hooke_fuzz_require(fabs(sum - product[p]) <= 1e-12 * most, "the blocks are the derivative's");
+  }
+}
+
+static void check_momentum(const struct small_scene *scene) {
+  const double *q = scene->q, *v = scene->v, *w = scene->canonical.inverse_mass;
+  double found[6], expected[6] = {0}, scale = 0.0;
+  for (int64_t p = 0; p < scene->particles; p++) {
+    if (w[p] == 0.0) continue;
+    for (int a = 0; a < 3; a++) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      expected[a] += scene->mass[p] * v[3 * p + a];
+      expected[3 + a] += scene->mass[p] * (q[3 * p + b] * v[3 * p + c] - q[3 * p + c] * v[3 * p + b]);
+      scale += scene->mass[p] * fabs(v[3 * p + a]) * (1.0 + fabs(q[3 * p + b]) + fabs(q[3 * p + c]));
+    }
+  }
+  hooke_system_momentum(scene->system, v, found);
+  hooke_system_angular_momentum(scene->system, q, v, found + 3);
+  for (int k = 0; k < 6; k++)
+    hooke_fuzz_require(fabs(found[k] - expected[k]) <= 1e-13 * scale, "momentum and angular momentum");
+  const double whole = hooke_system_energy(scene->system, q, v),
+               parts = hooke_system_kinetic_energy(scene->system, v) +
+                       hooke_system_potential_energy(scene->system, q);
+  hooke_fuzz_require(whole == parts, "energy is kinetic and potential");
 }
 
 /* ---- one input ---- */
@@ -310,6 +373,8 @@ static void check_with(const uint8_t *data, size_t size, int first, int differen
     hooke_fuzz_is_accepted();
     check_energy(&scene);
     check_derivative(&scene);
+    check_blocks(&scene);
+    check_momentum(&scene);
   }
   small_scene_destroy(&scene);
 }

@@ -1,6 +1,7 @@
 /* Trajectories read back: whatever is in the container, an answer that is in it or a message.
  *
  * Lines of: src/io/record.c src/io/record_h5.c src/io/record_array_h5.c src/io/array_h5.c src/io/dataset_h5.c src/io/frame_check_h5.c src/io/xdmf.c
+ *           src/io/trajectory_resume.c
  * Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"
@@ -24,7 +25,8 @@ enum {
   ASK_SCENE = 8,
   ASK_XDMF = 16,
   ASK_VIEW = 32,
-  ASK_HDF5 = 64
+  ASK_HDF5 = 64,
+  ASK_RESUME = 128
 };
 
 /* A failure says why. */
@@ -86,7 +88,10 @@ static void ask_frame(const hooke_record *record, int wanted, int by_hdf5) {
   hooke_state *state = own[(wanted & 96) == 96].state;
   const int64_t frames = hooke_record_frame_count(record), frame = wanted % 16 - 8,
                 size = hooke_state_size(state);
-  if (!answered(hooke_record_read(record, frame, state))) return;
+  const int is_read = answered(hooke_record_read(record, frame, state));
+  hooke_fuzz_require(!is_read || hooke_record_check(record, frame) == HOOKE_OK,
+                     "a frame that is read is whole");
+  if (!is_read) return;
   const int64_t at = frame < 0 ? frames + frame : frame;
   hooke_fuzz_require(at >= 0 && at < frames, "a frame that is not there");
   hooke_fuzz_require(!isnan(hooke_state_time(state)), "a frame without a time");
@@ -120,6 +125,50 @@ static void ask_array(hooke_record *record, int wanted, int twice, int by_hdf5) 
   free(number);
 }
 
+static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
+  return hooke_trajectory_write(ctx, step, state) == HOOKE_OK ? 0 : 1;
+}
+
+static void go_on(const hooke_system *system, hooke_integrator *integrator) {
+  hooke_state *state = NULL;
+  hooke_trajectory *trajectory = NULL;
+  if (!answered(hooke_state_create(system, &state))) return;
+  if (answered(hooke_trajectory_resume(container.path, system, integrator, state, &trajectory)) &&
+      trajectory) {
+    check_not_secret(hooke_state_size(state), hooke_state_position(state));
+    check_not_secret(hooke_state_size(state), hooke_state_velocity(state));
+    hooke_integrator_on_frame(integrator, write_frame, trajectory);
+    const int32_t outcome = hooke_integrator_resume(integrator, state);
+    answered(hooke_trajectory_checkpoint(trajectory, integrator, state));
+    answered(hooke_trajectory_close(trajectory, outcome));
+  } else {
+    hooke_fuzz_require(trajectory == NULL, "a trajectory besides a failure, or of a run that finished");
+  }
+  hooke_state_destroy(state);
+}
+
+/* A run that takes very long is no finding. */
+static int is_short(const hooke_options *run) {
+  enum { MOST_STEPS = 1000 };
+  const double step = hooke_options_number(run, "step"), every = hooke_options_number(run, "every"),
+               duration = hooke_options_number(run, "duration");
+  return duration / step < MOST_STEPS && !(duration / every > MOST_STEPS);
+}
+
+/* Goes on with the run, if there is one that can. */
+static void ask_resume(int64_t frames) {
+  hooke_scene *scene = NULL;
+  hooke_integrator *integrator = NULL;
+  container_kill_after(frames);
+  if (!answered(hooke_scene_load(container.path, &scene))) return;
+  const hooke_options *run = hooke_scene_run_options(scene);
+  if (is_short(run) && answered(hooke_scene_commit(scene)) &&
+      answered(hooke_integrator_create(hooke_scene_system(scene), run, &integrator)))
+    go_on(hooke_scene_system(scene), integrator);
+  hooke_integrator_destroy(integrator);
+  hooke_scene_destroy(scene);
+}
+
 static void ask_scene(void) {
   hooke_scene *scene = NULL;
   if (!answered(hooke_scene_load(container.path, &scene))) {
@@ -134,10 +183,10 @@ static void ask_scene(void) {
   hooke_scene_destroy(scene);
 }
 
-static void ask_xdmf(const hooke_record *record) {
+static void ask_xdmf(const hooke_record *record, int beside) {
   char path[96];
   snprintf(path, sizeof path, "%s/x.xdmf", container.folder);
-  answered(hooke_record_write_xdmf(record, path));
+  answered(hooke_record_write_xdmf(record, beside ? NULL : path));
 }
 
 static void ask_view(const hooke_record *record) {
@@ -165,7 +214,7 @@ static void ask(const uint8_t head[EDIT_HEAD]) {
     check_texts(record);
     if (what & ASK_FRAME) ask_frame(record, head[0], what & ASK_HDF5);
     if (what & ASK_ARRAY) ask_array(record, head[0] >> 4, (what & ASK_TWICE) != 0, what & ASK_HDF5);
-    if ((what & ASK_XDMF) && head[2] % 8 == 1) ask_xdmf(record);
+    if ((what & ASK_XDMF) && head[2] % 8 == 1) ask_xdmf(record, head[2] & 8);
     if ((what & ASK_VIEW) && head[2] % 16 == 2) ask_view(record);
   } else {
     hooke_fuzz_require(record == NULL, "a record besides a failure");
@@ -173,6 +222,7 @@ static void ask(const uint8_t head[EDIT_HEAD]) {
   hooke_record_close(record);
   hooke_fuzz_require((what & ASK_HDF5) || !container_others_opened(), "another file was opened");
   if (what & ASK_SCENE) ask_scene();
+  if ((what & ASK_RESUME) && head[2] % 8 == 3) ask_resume(head[0] % 8);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

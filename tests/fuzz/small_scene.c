@@ -76,13 +76,27 @@ static void change_particle(const uint8_t *record, struct small_scene *scene) {
   if (record[0] == MASS && mass > 0.0 && isfinite(1.0 / mass)) scene->mass[p] = mass;
 }
 
-/* Pinned, or in harmonic motion. Held twice is refused. */
+/* Along a curve through a few points. */
+static void drive_by_table(const uint8_t *record, int64_t particle, hooke_system *system) {
+  double time[5], position[15];
+  const int64_t samples = 2 + record[6] % 4;
+  for (int64_t k = 0; k < samples; k++) {
+    time[k] = record[4] / 256.0 - 0.5 + (double)k * (0.01 + record[5] / 64.0);
+    for (int64_t a = 0; a < 3; a++)
+      position[3 * k + a] = 0.5 * drawn(record[6], (uint64_t)(3 * k + a)) - 0.25;
+  }
+  hooke_system_drive_table(system, 1, &particle, samples, time, position);
+}
+
+/* Pinned, in harmonic motion or along a curve. Held twice is refused. */
 static void hold_particles(const uint8_t *record, struct small_scene *scene, hooke_system *system) {
   int64_t held[4];
   const int64_t count = 1 + record[1] % 4;
   for (int64_t k = 0; k < count; k++)
     held[k] = record[2 + k] % scene->particles;
-  if (record[7] & 1) {
+  if ((record[7] & 3) == 3) {
+    drive_by_table(record, held[0], system);
+  } else if (record[7] & 1) {
     const double amplitude[] = {record[6] / 256.0, 0.1, -0.2};
     hooke_system_drive_harmonic(system, 1, held, amplitude, 0.25 * record[5], 0.1 * record[4]);
   } else {
