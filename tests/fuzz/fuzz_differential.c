@@ -368,7 +368,8 @@ static void check_with(const uint8_t *data, size_t size, int first, int differen
   if (first) hooke_fuzz_is_past_syntax();
   check_acceleration(&scene, first, expected->acceleration);
   if (differences) check_members(&scene);
-  check_steps(&scene, first, &expected->by);
+  /* a step that is solved for is long where there is no solution, and is not compared between loops */
+  if (first || expected->by.result != CANONICAL_SOLVED) check_steps(&scene, first, &expected->by);
   if (first && differences && is_smooth(&scene)) {
     hooke_fuzz_is_accepted();
     check_energy(&scene);

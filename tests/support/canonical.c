@@ -345,6 +345,16 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
   return result;
 }
 
+/* Force by displacement across a spring: its tension over its length, which turns with it. Where two particles nearly meet that
+ * is far more than the stiffness along it. */
+static double across(const struct canonical *canonical, int64_t k, const double *q, double speed) {
+  const double *a = q + 3 * canonical->ends[2 * k], *b = q + 3 * canonical->ends[2 * k + 1];
+  const double r = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+  const double tension =
+      canonical->kappa[k] * fabs(r - canonical->rest_length[k]) + 2.0 * canonical->gamma[k] * speed;
+  return r > 0.0 ? tension / r : 0.0;
+}
+
 /* What 100 roundings of positions and velocities make of the change of a velocity in one step. */
 static double rounding(const struct canonical *canonical, double h, const double *q, const double *v) {
   double extent = 0.0, speed = 0.0, stiffness = 0.0, damping = canonical->drag;
@@ -356,7 +366,7 @@ static double rounding(const struct canonical *canonical, double h, const double
   for (int64_t p = 0; p < canonical->particle_count; p++)
     lightest = fmax(lightest, canonical->inverse_mass[p]);
   for (int64_t k = 0; k < canonical->spring_count; k++) {
-    stiffness = fmax(stiffness, canonical->kappa[k]);
+    stiffness = fmax(stiffness, canonical->kappa[k] + across(canonical, k, q, speed));
     damping = fmax(damping, canonical->gamma[k]);
   }
   for (int64_t k = 0; k < canonical->triple_count; k++)
