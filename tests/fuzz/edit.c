@@ -108,6 +108,16 @@ static void change_edit(uint64_t *state, uint8_t *at) {
   }
 }
 
+/* A structure one time in three of those that chance has it. */
+static uint8_t *choose_edit(uint64_t *state, uint8_t *list, size_t count) {
+  uint8_t *at = list;
+  for (int k = 0; count > 0 && k < 3; k++) {
+    at = list + next(state) % count * EDIT_BYTES;
+    if (at[0] % EDIT_KINDS >= EDIT_STRUCTURES) break;
+  }
+  return at;
+}
+
 size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
   uint64_t state = seed;
   if (most < EDIT_HEAD) return 0;
@@ -119,7 +129,7 @@ size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
   uint8_t *list = data + EDIT_HEAD;
   for (uint64_t times = 1 + next(&state) % 3; times > 0; times--) {
     const uint64_t what = next(&state) % 8;
-    uint8_t *at = count > 0 ? list + next(&state) % count * EDIT_BYTES : list;
+    uint8_t *at = choose_edit(&state, list, count);
     if (what == 0) {
       data[next(&state) % EDIT_HEAD] = (uint8_t)next(&state);
     } else if ((what <= 2 || count == 0) && count < room) {
