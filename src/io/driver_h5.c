@@ -39,7 +39,10 @@ static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t l
   (void)longest;
   if (setting == NULL) return NULL;
   struct driven *f = hooke_new(1, sizeof *f);
-  if (f == NULL) return NULL;
+  if (f == NULL) {
+    *setting->error = ENOMEM;
+    return NULL;
+  }
   f->error = setting->error;
   f->descriptor = open(name, how, 0666);
   if (f->descriptor < 0 || fstat(f->descriptor, &there) != 0) {
