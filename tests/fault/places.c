@@ -10,12 +10,15 @@
 #include <execinfo.h>
 #include <pthread.h>
 #include <stddef.h>
+#include <string.h>
 #include <sys/mman.h>
 
-enum { SLOTS = 1 << 16, MOST = SLOTS / 2, DEPTH = 16, OWN = 1 };
+enum { SLOTS = 1 << 16, MOST = SLOTS / 2, DEPTH = 64, OWN = 1 };
+
+extern const char __executable_start, etext; /* the linker's: what is linked into the program */
 
 static struct places {
-  int64_t count, point[MOST];
+  int64_t count, point[MOST], times[SLOTS];
   uint64_t way[SLOTS]; /* 0: free */
 } * places;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -33,7 +36,7 @@ int places_prepare(void) {
 
 void places_begin(void) {
   if (places == NULL) return;
-  *places = (struct places){0};
+  memset(places, 0, sizeof *places);
   are_kept = 1;
 }
 
@@ -41,16 +44,24 @@ void places_end(void) {
   are_kept = 0;
 }
 
-/* The way by which a point was come to: the calls, from the innermost one outwards. */
+/* The way by which a point was come to: the calls, from the innermost one outwards, those of other libraries left out. */
 static uint64_t way_here(void) {
   void *frame[DEPTH];
   fault_pause();
   const int depth = backtrace(frame, DEPTH);
   fault_resume();
   uint64_t way = 14695981039346656037u;
-  for (int k = OWN; k < depth; k++)
-    way = (way ^ (uint64_t)(uintptr_t)frame[k]) * 1099511628211u;
+  for (int k = OWN; k < depth; k++) {
+    const char *at = frame[k];
+    if (at >= &__executable_start && at < &etext) way = (way ^ (uint64_t)(uintptr_t)at) * 1099511628211u;
+  }
   return way | 1;
+}
+
+static int is_power_of_sixteen(int64_t times) {
+  while (times % 16 == 0)
+    times /= 16;
+  return times == 1;
 }
 
 void places_note(int64_t k) {
@@ -60,9 +71,9 @@ void places_note(int64_t k) {
   uint64_t at = way % SLOTS;
   while (places->way[at] != 0 && places->way[at] != way)
     at = (at + 1) % SLOTS;
-  if (places->way[at] == 0 && places->count < MOST) {
+  if (places->way[at] == way || places->count < MOST) {
     places->way[at] = way;
-    places->point[places->count++] = k;
+    if (is_power_of_sixteen(++places->times[at]) && places->count < MOST) places->point[places->count++] = k;
   }
   pthread_mutex_unlock(&lock);
 }

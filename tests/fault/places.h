@@ -1,6 +1,6 @@
-/* Points of one attempt that were come to by different ways: of many points that are alike, in a loop, the first. With
- * HOOKE_FAULT_PLACES=1 each of them fails, besides the share of all points that a scenario has; what comes of them is looked
- * at by every other branch, so it is a short way to as many branches as failures reach. */
+/* Points of one attempt by the ways in which they were come to, through the code of hooke: of those that are alike, as in a
+ * loop or within another library, the first, the 16th, the 256th ... With HOOKE_FAULT_PLACES=1 each of them fails, besides
+ * the share of all points that a scenario has: a short way to as many branches as failures reach. */
 #ifndef FAULT_PLACES_H
 #define FAULT_PLACES_H
 
