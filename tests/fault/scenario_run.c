@@ -9,6 +9,7 @@ struct with {
   const char *method;
   int32_t threads;
   const char *linear_solver, *newton; /* NULL: as by default */
+  double step;                        /* 0: a safe one */
 };
 
 static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
@@ -49,7 +50,8 @@ static void run(struct attempt *a, const void *with) {
   const struct with *w = with;
   const double segments = w->threads > 1 ? 20000 : 6;
   hooke_system *system = make_rope(a, segments);
-  const double step = w->threads > 1 ? 1e-7 : 1e-4, every = w->threads > 1 ? 4.0 * step : 0.0;
+  const double step = w->step > 0.0 ? w->step : w->threads > 1 ? 1e-7 : 1e-4;
+  const double every = w->threads > 1 ? 4.0 * step : 0.0;
   hooke_options *options = system ? make_run(a, w->method, step, 4.0 * step, every) : NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *start = NULL, *state = NULL;
@@ -113,6 +115,7 @@ const struct scenario running[] = {
     {"run, forward-euler", run, RUN("forward-euler", 1), 1, NULL, NULL},
     {"run, symplectic-euler", run, RUN("symplectic-euler", 1), 1, NULL, NULL},
     {"run, symplectic-euler, 2 threads", run, RUN("symplectic-euler", 2), 40, NULL, NULL},
+    {"run, symplectic-euler, warned of", run, RUN("symplectic-euler", 1, .step = 0.02), 1, NULL, NULL},
     {"run, verlet", run, RUN("verlet", 1), 1, NULL, NULL},
     {"run, verlet, 2 threads", run, RUN("verlet", 2), 40, NULL, NULL},
     {"run, rk4", run, RUN("rk4", 1), 1, NULL, NULL},
