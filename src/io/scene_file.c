@@ -40,7 +40,6 @@ static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text,
     errno = 0;
     int64_t got = (int64_t)fread(*text + *length, 1, (size_t)(capacity - *length - 1), file);
     if (got == 0 && ferror(file)) {
-      if (errno == EISDIR) return refuse_open(errno, guard);
       return hooke_fail(HOOKE_IO_FAILED, NULL, "reading broke off after %lld bytes: %s", (long long)*length,
                         hooke_print_error(errno, reason));
     }

@@ -288,8 +288,7 @@ static void advise_scene(struct hooke_inquiry *inquiry) {
 int32_t hooke_inquiry_advise(struct hooke_inquiry *inquiry) {
   struct hooke_plan plan;
   int32_t status = hooke_plan_begin(inquiry, &plan);
-  if (status == HOOKE_OK && hooke_all_finite(2 * plan.first->size, plan.first->q) && plan.duration > 0.0)
-    status = offer_all(&plan);
+  if (status == HOOKE_OK && plan.duration > 0.0) status = offer_all(&plan);
   hooke_plan_release(&plan);
   if (status == HOOKE_OK) advise_scene(inquiry);
   return status;

@@ -324,9 +324,7 @@ static int grew_before(const struct hooke_inquiry *inquiry) {
 
 static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   char end[160], what[120];
-  if (!hooke_all_finite(2 * inquiry->last->size, inquiry->last->q)) {
-    say(inquiry, "overflow", "the state that it began with has a number that is not finite");
-  } else if (inquiry->sudden && !grew_before(inquiry)) {
+  if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
   } else if (inquiry->excess.found) {
     return judge_excess(inquiry);

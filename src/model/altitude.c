@@ -138,8 +138,8 @@ int32_t hooke_tetrahedron_rest(const double x[4][3], double scale, struct hooke_
       (int)t->particle[0], (int)t->particle[1], (int)t->particle[2], (int)t->particle[3], shortest, longest);
 }
 
-static int32_t check_particles(const hooke_system *system, int64_t count,
-                               const struct hooke_tetrahedron *tetrahedron) {
+/* That they are there is known. */
+static int32_t check_particles(int64_t count, const struct hooke_tetrahedron *tetrahedron) {
   for (int64_t k = 0; k < count; k++) {
     const int32_t *p = tetrahedron[k].particle;
     for (int e = 0; e < 4; e++) {
@@ -150,10 +150,6 @@ static int32_t check_particles(const hooke_system *system, int64_t count,
                    (int)p[2], (int)p[3]);
         return hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld]", (long long)k);
       }
-      if (p[e] >= 0 && p[e] < system->particle_count) continue;
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %d; allowed: 0 to %lld", (int)p[e],
-                 (long long)(system->particle_count - 1));
-      return hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld][%d]", (long long)k, e);
     }
   }
   return HOOKE_OK;
@@ -182,7 +178,7 @@ int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int3
   int32_t status = hooke_system_require_open(system);
   if (status == HOOKE_OK)
     status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
-  if (status == HOOKE_OK) status = check_particles(system, count, tetrahedron);
+  if (status == HOOKE_OK) status = check_particles(count, tetrahedron);
   if (status != HOOKE_OK) return status;
   struct hooke_altitude_group group = {
       .count = count, .from_part = from_part, .part = system->part_count - 1};
@@ -251,7 +247,7 @@ static int32_t fill(const hooke_system *system, int64_t count, const int64_t *co
     t->stiffness = value_of(options, "stiffness", k);
     t->damping = value_of(options, "damping", k);
   }
-  int32_t status = check_particles(system, count, tetrahedron);
+  int32_t status = check_particles(count, tetrahedron);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     double x[4][3];
     for (int e = 0; e < 4; e++)

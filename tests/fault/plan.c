@@ -1,5 +1,7 @@
 #include "plan.h"
 
+#include "places.h"
+
 #include <stdatomic.h>
 
 static atomic_llong points, failures;
@@ -36,6 +38,7 @@ __attribute__((noinline)) static void strike(void) {
 int32_t fault_strikes(void) {
   if (!atomic_load(&on) || paused) return 0;
   const int64_t k = atomic_fetch_add(&points, 1) + 1;
+  places_note(k);
   if (chosen == 0 || k < chosen || (k > chosen && reach_of_chosen == FAULT_ONCE)) return 0;
   strike();
   return 1;

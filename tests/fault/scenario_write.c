@@ -234,7 +234,7 @@ static const struct course whole = {6, FRAMES, 0}, cut = {6, 3, 0}, behind = {15
 static const enum kind h5 = STUDY_H5, csv = STUDY_CSV, report = STUDY_REPORT;
 
 const struct scenario writing[] = {
-    {"write, trajectory", trajectory, &whole, 4, "hdf5", "out.h5"},
+    {"write, trajectory", trajectory, &whole, 1, "hdf5", "out.h5"},
     {"write, trajectory cut short", trajectory, &cut, 4, "hdf5", "out.h5"},
     {"write, trajectory by a thread", trajectory, &behind, 12, "hdf5", "out.h5"},
     {"write, comparison", comparison, NULL, 7, "hdf5 sundials", "out.h5"},

@@ -2,6 +2,7 @@
 
 #include "check.h"
 #include "hash.h"
+#include "places.h"
 #include "sanitized.h"
 
 #include <dirent.h>
@@ -15,7 +16,7 @@ int sweep_open(struct sweep *sweep) {
   snprintf(sweep->folder, sizeof sweep->folder, "%s/hooke-fault-XXXXXX", P_tmpdir);
   if (mkdtemp(sweep->folder) == NULL) return -1;
   prepare_scenes(sweep->folder);
-  return 0;
+  return places_prepare();
 }
 
 static int remove_all(const char *folder) {
@@ -82,22 +83,33 @@ static int64_t share_of(const struct sweep *sweep, const struct scenario *scenar
   return HOOKE_SANITIZED ? 6 * share : share;
 }
 
+/* 0 if there is no such point. */
+static int strike_point(const struct scenario *scenario, sweep_point *try_point, int64_t k,
+                        enum fault_reach reach, uint64_t hash, struct counts *counts) {
+  struct attempt a;
+  try_point(scenario, k, reach, &a);
+  if (a.wrong[0] == '\0' && fault_failures() == 0) return 0;
+  judge(scenario, k, &a, hash, counts);
+  return 1;
+}
+
 static void sweep_scenario(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point) {
   struct counts counts = {0};
   uint64_t hash = 0;
   if (!scenario_is_built(scenario)) return;
   const clock_t start = clock();
   check_clean(scenario, try_point, &hash, 1, &counts);
+  places_begin();
   check_clean(scenario, try_point, &hash, 0, &counts);
+  places_end();
   const int64_t points = fault_points();
   for (int reach = FAULT_ONCE; reach <= FAULT_FROM_THEN_ON; reach++) {
     const int64_t share = points < FEW ? 1 : share_of(sweep, scenario);
     for (int64_t k = 1 + sweep->first % share; counts.wrong < MOST_COMPLAINTS; k += share) {
-      struct attempt a;
-      try_point(scenario, k, (enum fault_reach)reach, &a);
-      if (a.wrong[0] == '\0' && fault_failures() == 0) break; /* there is no such point any more */
-      judge(scenario, k, &a, hash, &counts);
+      if (!strike_point(scenario, try_point, k, (enum fault_reach)reach, hash, &counts)) break;
     }
+    for (int64_t i = 0; places_point(i) > 0 && counts.wrong < MOST_COMPLAINTS; i++)
+      strike_point(scenario, try_point, places_point(i), (enum fault_reach)reach, hash, &counts);
   }
   check_clean(scenario, try_point, &hash, 0, &counts);
   print_message("%-34s %6lld points, %6lld faults: %6lld refused, %4lld borne; %.1f s\n", scenario->name,

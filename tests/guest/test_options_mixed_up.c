@@ -171,7 +171,7 @@ static int32_t create_study(hooke_options *o) {
 
 static int32_t needs_with(hooke_system *system, hooke_options *run, hooke_options *o) {
   hooke_needs *made = NULL;
-  if (hooke_options_row_count(o) == 2) hooke_options_set_text(o, "want", "0.1");
+  if (o && hooke_options_row_count(o) == 2) hooke_options_set_text(o, "want", "0.1");
   const int32_t status = hooke_needs_create(system, run, o, &made);
   if (status == HOOKE_OK) hooke_needs_destroy(made);
   return status;
@@ -256,7 +256,24 @@ static void test_other_options_are_refused(void **unused) {
   assert_true(taken >= 4);
 }
 
+/* No options at all are the defaults where the header says so; elsewhere they are missing, and that is said. */
+static void test_missing_options_are_refused(void **unused) {
+  (void)unused;
+  static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
+                                               "cost_create",      "study_create", "scene_of_system"};
+  for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
+    int may = 0;
+    for (size_t k = 0; k < sizeof may_be_missing / sizeof may_be_missing[0]; k++)
+      may |= strcmp(functions[f].name, may_be_missing[k]) == 0;
+    const int32_t status = functions[f].take(NULL);
+    if (status == HOOKE_NOT_BUILT || (may && status == HOOKE_OK)) continue;
+    if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), "hooke_") == NULL)
+      check_failed("%s without options: %d: %s", functions[f].name, (int)status, hooke_last_error());
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_other_options_are_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_other_options_are_refused),
+                                     cmocka_unit_test(test_missing_options_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,10 +52,12 @@ def valgrind(text: str) -> dict[str, Any]:
 def reached(text: str) -> dict[str, Any]:
     """Totals and the files with most left, of the output of coverage.py."""
     found = re.search(r"^lines (\d+) of (\d+), (\S+) %\nbranches (\d+) of (\d+), (\S+) %$", text, re.MULTILINE)
-    if not found:
-        raise ValueError("no totals")
     files = re.findall(r"^ +(\d+) +\d+ +(\d+) +\d+  src/(\S+)$", text, re.MULTILINE)
+    kinds = re.search(r"^branches left where failures are looked for: (\d+); elsewhere: (\d+)$", text, re.MULTILINE)
+    if not found or not kinds:
+        raise ValueError("no totals")
     return {"lines": found[3], "of_lines": int(found[2]), "branches": found[6], "of_branches": int(found[5]),
+            "kinds": list(kinds.groups()),
             "left": [f"{file} {lines} lines, {branches} branches" for lines, branches, file in files[:12]]}  # fmt: skip
 
 
@@ -71,6 +73,8 @@ def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
         figures = done["coverage"]
         told += [("lines of `src/` reached", f"{figures['lines']} % of {figures['of_lines']}"),
                  ("branches of `src/` reached", f"{figures['branches']} % of {figures['of_branches']}"),
+                 ("branches left", "{} where a failure of memory, of a file or of a library is looked for, {} elsewhere".format(
+                     *figures["kinds"])),
                  ("most left", "; ".join(figures["left"]))]  # fmt: skip
     return told
 
@@ -100,7 +104,7 @@ PART = Part(
              f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} && "
              f"find {COVERAGE} -name '*.gcda' -delete && "
              f"ctest --test-dir {COVERAGE} -j2 --output-on-failure -LE 'abi|layers|documents|clients|fortran' && "
-             f"python3 tests/long/coverage.py {COVERAGE}", 600, reached, SHORT),
+             f"python3 tests/long/coverage.py {COVERAGE}", 900, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),
         Step("address and undefined-behaviour sanitizers, every case", preset("asan"), 2400, tests_passed),
     ],
     rows,

@@ -320,6 +320,10 @@ static void what_cannot_be_is_refused(void **state) {
   check_ok(hooke_options_set_number(options, "want", 1e-3));
   check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("duration");
+  check_ok(hooke_options_set_number(run, "duration", 0.5));
+  check_ok(hooke_options_set_text(run, "method", "rk5"));
+  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  check_message("\"rk5\" is not a method");
   hooke_options_destroy(run);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
@@ -396,6 +400,49 @@ static void groups_without_parts_are_ingredients(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Groups that are called as an ingredient is, that have no name, or nothing in them. */
+static void every_ingredient_has_a_name_of_its_own(void **unused) {
+  (void)unused;
+  const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 9, 9, 9}, none = 0.0,
+               stiff = 2.0;
+  const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
+  static const char *const names[] = {"drag", "gravity", "damping", "callback", NULL};
+  static const char *const expected[] = {"springs drag",
+                                         "springs gravity",
+                                         "springs damping",
+                                         "springs callback",
+                                         "springs[4]",
+                                         "bending[1]",
+                                         "altitude[1]",
+                                         "drag",
+                                         "resistance to compression",
+                                         "a particle that touches nothing"};
+  hooke_system *system = small_system(5, place, NULL, 0.1, 1);
+  hooke_options *springs, *altitude;
+  check_ok(hooke_spring_options_create(&springs));
+  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  for (int k = 0; k < 5; k++)
+    check_ok(hooke_system_add_springs(system, names[k], 3, ends, springs));
+  check_ok(hooke_system_add_bending(system, "none", 1, triple, 1, &none));
+  check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &stiff));
+  check_ok(hooke_altitude_options_create(&altitude));
+  check_ok(hooke_options_set_number(altitude, "stiffness", 0.0));
+  check_ok(hooke_system_add_altitude(system, "none", 1, corners, altitude));
+  check_ok(hooke_options_set_number(altitude, "stiffness", 1.0));
+  check_ok(hooke_system_add_altitude(system, NULL, 1, corners, altitude));
+  check_ok(hooke_system_set_drag(system, 0.01));
+  check_ok(hooke_system_commit(system));
+  hooke_needs *needs = start(system, half_a_second, 1.0, "0-3");
+  check_ok(hooke_needs_find(needs));
+  for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++)
+    row_of(needs, expected[k]);
+  assert_int_equal(hooke_needs_row_count(needs), sizeof expected / sizeof expected[0]);
+  hooke_needs_destroy(needs);
+  hooke_options_destroy(altitude);
+  hooke_options_destroy(springs);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(groups_without_parts_are_ingredients),
@@ -406,6 +453,7 @@ int main(void) {
       cmocka_unit_test(chaos_is_judged_as_far_as_a_step_can_follow),
       cmocka_unit_test(whoever_stops_it_keeps_what_is_known),
       cmocka_unit_test(what_cannot_be_is_refused),
+      cmocka_unit_test(every_ingredient_has_a_name_of_its_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

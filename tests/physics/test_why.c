@@ -251,6 +251,92 @@ static void test_asking_changes_nothing(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Methods that choose their steps, with tolerances a thousand times what moves: energy creeps up until it is too much. */
+static void test_tolerances_that_are_too_loose(void **unused) {
+  (void)unused;
+  needs_lapack();
+  const char *const methods[] = {"cvode-adams", "rk8pd"};
+  for (int k = 0; k < 2; k++) {
+    if (!hooke_method_is_built(methods[k])) continue;
+    hooke_system *system = small_oscillator(10.0);
+    hooke_integrator *integrator = start_run(
+        system, (struct run){.method = methods[k], .duration = 1000.0, .rtol = 0.1, .atol = 1000.0});
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+    hooke_why *why = explain(integrator);
+    check_text(hooke_why_text(why, "cause"), "solver-failed");
+    assert_non_null(strstr(hooke_why_text(why, "sentence"), "the tolerances (rtol 0.1) let errors grow"));
+    assert_true(isnan(hooke_why_number(why, "step")));
+    check_text(hooke_why_advice_text(why, 0, "option"), "method");
+    check_advice(system, integrator, why, 0);
+    hooke_why_destroy(why);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+/* A force that grows as the cube of the distance brings it to infinity in a finite time, at about t = 1.77 s: no step and no
+ * tolerance gets past that. */
+static int32_t escaping_force(int64_t n, double t, const double *q, const double *v, double *force,
+                              void *ctx) {
+  (void)t, (void)v, (void)ctx;
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[k] += q[k] * q[k] * q[k];
+  return 0;
+}
+
+static void test_solvers_that_give_up(void **unused) {
+  (void)unused;
+  needs_lapack();
+  const struct run runs[] = {
+      {.method = "cvode-adams", .duration = 100.0},
+      {.method = "rk8pd", .duration = 100.0},
+      {.method = "backward-euler", .step = 0.01, .duration = 100.0, .newton = "converged"},
+  };
+  for (int k = 0; k < 3; k++) {
+    if (!hooke_method_is_built(runs[k].method)) continue;
+    const double position[] = {0, 0, 0, 1.1, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5, 0};
+    const int64_t ends[] = {0, 1};
+    hooke_system *system = small_system(2, position, velocity, 1.0, 1);
+    small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 1.0, .rest_length = 1.0});
+    check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
+    check_ok(hooke_system_commit(system));
+    hooke_integrator *integrator = start_run(system, runs[k]);
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
+    hooke_why *why = explain(integrator);
+    check_text(hooke_why_text(why, "cause"), "solver-failed");
+    assert_non_null(strstr(hooke_why_text(why, "sentence"), "the solver gave up: "));
+    check_between(hooke_why_number(why, "time"), 1.6, 1.8);
+    /* nothing but to look at how it gets there */
+    assert_int_equal(hooke_why_advice_count(why), 1);
+    check_text(hooke_why_advice_text(why, 0, "option"), "duration");
+    check_between(strtod(hooke_why_advice_text(why, 0, "value"), NULL), 1.4, 1.78);
+    check_advice(system, integrator, why, 0);
+    hooke_why_destroy(why);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
+static void test_kept_state_that_is_not_finite(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_options *options = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0});
+  hooke_state *first = start_state(system), *last = start_state(system);
+  hooke_why *why = NULL;
+  hooke_state_position(last)[4] = NAN;
+  check_status(hooke_why_create_kept(system, options, first, last, &why), HOOKE_BAD_VALUE);
+  check_message("position[1][1]: nan is not allowed");
+  assert_null(why);
+  hooke_state_destroy(last);
+  hooke_state_destroy(first);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 /* A loop of the caller's own has no duration. */
 static void test_own_loop(void **unused) {
   (void)unused;
@@ -579,6 +665,9 @@ int main(void) {
       cmocka_unit_test(test_innocent_callback),
       cmocka_unit_test(test_numbers_of_an_oscillator),
       cmocka_unit_test(test_asking_changes_nothing),
+      cmocka_unit_test(test_tolerances_that_are_too_loose),
+      cmocka_unit_test(test_solvers_that_give_up),
+      cmocka_unit_test(test_kept_state_that_is_not_finite),
       cmocka_unit_test(test_own_loop),
       cmocka_unit_test(test_trouble_that_comes_late),
       cmocka_unit_test(test_nothing_to_explain),

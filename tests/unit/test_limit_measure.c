@@ -230,13 +230,132 @@ static void what_is_refused(void **unused) {
   check_status(hooke_limit_measure(system, q, NULL, "cvode-bdf", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
   check_message("chooses its steps");
-  check_status(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 0.0, 1.0, NULL, NULL, &out),
-               HOOKE_BAD_VALUE);
+  const double accuracies[] = {0.0, -1e-3, 0.101, NAN};
+  for (int k = 0; k < 4; k++) {
+    check_status(
+        hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, accuracies[k], 1.0, NULL, NULL, &out),
+        HOOKE_BAD_VALUE);
+    check_message("> 0 and <= 0.1");
+  }
   check_status(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 1.0, refuse, NULL, &out),
                HOOKE_STOPPED);
   check_ok(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 0.0, NULL, NULL, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));
+  hooke_system_destroy(system);
+}
+
+/* Damped along a motion that has no direction yet: what is measured leaves that damping out, and says so. */
+static void damping_of_a_spring_of_no_length(void **unused) {
+  (void)unused;
+  const double place[6] = {0.0};
+  const int64_t ends[2] = {0, 1};
+  hooke_system *system = small_system(2, place, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
+  check_ok(hooke_system_commit(system));
+  const struct hooke_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  check_close(out.step, 2.0 / 7.0, 1e-3);
+  assert_non_null(strstr(out.note, "damped along their motion"));
+  hooke_system_destroy(system);
+}
+
+/* ---- the scene itself ---- */
+
+/* A force on everything that is nothing until `from` and not a number then, or an end of the run. */
+struct spoiler {
+  double from;
+  int32_t stops;
+};
+
+static int32_t spoil(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  const struct spoiler *spoiler = ctx;
+  (void)n, (void)q, (void)v;
+  if (t < spoiler->from) return 0;
+  force[3] = NAN;
+  return spoiler->stops;
+}
+
+/* About 200 steps at the limit, or so many that someone looks at the clock now and then. */
+static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
+
+static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
+                             double predicted, double budget, hooke_progress *progress,
+                             struct hooke_measurement *out) {
+  hooke_options *run = NULL;
+  hooke_state *start = NULL;
+  check_ok(hooke_run_options_create(&run));
+  if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
+  check_ok(hooke_options_set_number(run, "every", 1.0)); /* which fits few steps, and has no say here */
+  check_ok(hooke_state_create(system, &start));
+  const int32_t status =
+      hooke_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
+  check_close(hooke_options_number(run, "every"), 1.0, 0.0);
+  hooke_state_destroy(start);
+  hooke_options_destroy(run);
+  return status;
+}
+
+static void the_scene_itself(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  struct hooke_measurement out;
+  /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
+  const double guess[] = {NAN, 0.0, INFINITY, 0.1, 0.3};
+  for (int k = 0; k < 5; k++) {
+    check_ok(measure_scene(system, "symplectic-euler", BRIEF, guess[k], 100.0, NULL, &out));
+    check_between(out.step * OMEGA, 0.99 * 1.9604, 1.01 * 2.0);
+    assert_string_equal(out.note, "");
+    check_between((double)out.steps_run, 200.0, 1e5);
+  }
+  check_ok(measure_scene(system, "symplectic-euler", 0.01, 0.2, 100.0, NULL, &out));
+  assert_true(isinf(out.step));
+  assert_non_null(strstr(out.note, "single step"));
+  hooke_system_destroy(system);
+}
+
+static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
+  const double place[6] = {0, 0, 0, 1, 0, 0};
+  const int64_t ends[2] = {0, 1};
+  hooke_system *system = small_system(2, place, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = OMEGA * OMEGA});
+  check_ok(hooke_system_set_force(system, spoil, NULL, spoiler));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void scenes_that_no_step_helps(void **unused) {
+  (void)unused;
+  struct hooke_measurement out;
+  struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
+  hooke_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
+  check_ok(measure_scene(diverges, "verlet", 1.0, 0.2, 100.0, NULL, &out));
+  assert_true(out.step == 0.0 && out.never_stable);
+  assert_non_null(strstr(out.note, "diverged at every step"));
+  check_status(measure_scene(stops, "verlet", 1.0, 0.2, 100.0, NULL, &out), HOOKE_STOPPED);
+  hooke_system_destroy(stops);
+  hooke_system_destroy(diverges);
+}
+
+static void scenes_that_take_too_long(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  struct hooke_measurement out;
+  check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
+  assert_true(isnan(out.step));
+  assert_non_null(strstr(out.note, "budget"));
+  check_between((double)out.steps_run, 1.0, 0.9 * LONG / 0.19); /* it did not wait for the end */
+  check_status(measure_scene(system, "verlet", LONG, 0.19, 100.0, refuse, &out), HOOKE_STOPPED);
+  check_message("asked to stop while a limit was measured");
+  check_status(measure_scene(system, "verlet", 0.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
+  check_message("duration");
+  check_status(measure_scene(system, "no-such", 1.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
+  hooke_state *start = NULL;
+  check_ok(hooke_state_create(system, &start));
+  check_status(
+      hooke_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
+      HOOKE_BAD_VALUE);
+  check_message("give the time to run");
+  hooke_state_destroy(start);
   hooke_system_destroy(system);
 }
 
@@ -388,6 +507,10 @@ int main(void) {
       cmocka_unit_test(frozen_system_rests),
       cmocka_unit_test(drag_alone),
       cmocka_unit_test(what_is_refused),
+      cmocka_unit_test(damping_of_a_spring_of_no_length),
+      cmocka_unit_test(the_scene_itself),
+      cmocka_unit_test(scenes_that_no_step_helps),
+      cmocka_unit_test(scenes_that_take_too_long),
       cmocka_unit_test(bracket_closes_from_both_sides),
       cmocka_unit_test(shares_are_those_of_the_mode),
       cmocka_unit_test(most_shares_are_kept_in_order),

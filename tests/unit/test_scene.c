@@ -504,6 +504,33 @@ static void files_that_are_none_are_bad_input(void **state) {
   hooke_scene_destroy(NULL);
 }
 
+/* A file is read in pieces: what is at its end is there, however long it is. */
+static void files_of_every_length_are_read_whole(void **state) {
+  (void)state;
+  static const char before[] = "{\"hooke\": 1,",
+                    after[] = "\"particles\": {\"mass\": 1, \"position\": [[0, 0, 7]]}}";
+  static const int64_t lengths[] = {200, 65534, 65535, 65536, 65537, 131070, 131071, 131072, 500000};
+  char folder[] = "hooke_scene_XXXXXX", path[64];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/scene.json", folder);
+  for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
+    const int gap = (int)(lengths[k] - (int64_t)(sizeof before + sizeof after - 2));
+    hooke_scene *scene = NULL;
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);
+    assert_int_equal(fclose(file), 0);
+    check_ok(hooke_scene_load(path, &scene));
+    assert_int_equal(strlen(hooke_scene_text(scene)), lengths[k]);
+    assert_string_equal(hooke_scene_text(scene) + lengths[k] - (int64_t)sizeof after + 1, after);
+    check_ok(hooke_scene_commit(scene));
+    assert_int_equal(hooke_system_particle_count(hooke_scene_system(scene)), 1);
+    hooke_scene_destroy(scene);
+  }
+  assert_int_equal(unlink(path), 0);
+  assert_int_equal(rmdir(folder), 0);
+}
+
 /* Every truncation and every changed byte of a good scene ends in a scene or a message, never in a fault. */
 static void damaged_scenes_are_survived(void **state) {
   (void)state;
@@ -570,6 +597,7 @@ int main(void) {
     cmocka_unit_test(commit_gives_the_place_too),
     cmocka_unit_test(files_need_a_folder),
     cmocka_unit_test(files_that_are_none_are_bad_input),
+    cmocka_unit_test(files_of_every_length_are_read_whole),
     cmocka_unit_test(damaged_scenes_are_survived),
 #else
     cmocka_unit_test(scenes_are_not_in_this_build),

@@ -3,6 +3,7 @@
 #include "file_limit.h"
 #include "io/trajectory.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <signal.h>
@@ -14,7 +15,9 @@
 
 enum { N = 7, FRAMES = 11, PATH_SIZE = 256 };
 
-static hooke_system *rope(int particles) {
+/* `brace`: one more spring, from the first particle to the third. */
+static hooke_system *braced_rope(int particles, double mass, int brace) {
+  const int64_t ends[] = {0, 2};
   hooke_system *system;
   hooke_options *options;
   check_ok(hooke_system_create(&system));
@@ -22,14 +25,19 @@ static hooke_system *rope(int particles) {
   check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
   check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
   check_ok(hooke_options_set_number(options, "segments", particles - 1));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
+  check_ok(hooke_options_set_number(options, "mass", mass));
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
   check_ok(hooke_options_set_text(options, "pinned", "start"));
   check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  if (brace) small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 0.5});
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
   return system;
+}
+
+static hooke_system *rope(int particles) {
+  return braced_rope(particles, 0.5, 0);
 }
 
 static hooke_integrator *integrator_of(hooke_system *system, double duration) {
@@ -368,19 +376,141 @@ static void another_file_of_the_name_is_left_alone(void **state) {
   }
 }
 
+/* ---- going on with the run, too ---- */
+
+static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
+  return hooke_trajectory_write(ctx, step, state);
+}
+
+/* To the end of the run, which is then as if nobody had stopped it. */
+static void check_goes_on(const struct fixture *f, const char *origin) {
+  hooke_integrator *integrator = integrator_of(f->system, 0.1);
+  hooke_state *state = start_state(f->system);
+  hooke_trajectory *trajectory = NULL;
+  check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
+  assert_non_null(trajectory);
+  if (strncmp(hooke_trajectory_origin(trajectory), origin, strlen(origin)) != 0 ||
+      strstr(hooke_trajectory_origin(trajectory), "there is no checkpoint") == NULL)
+    check_failed("it goes on from %s", hooke_trajectory_origin(trajectory));
+  check_ok(hooke_integrator_on_frame(integrator, write_frame, trajectory));
+  check_ok(hooke_integrator_resume(integrator, state));
+  check_same_bits(3 * N, hooke_state_position(state), hooke_state_position(f->frame[FRAMES - 1]));
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  check_frames(f, FRAMES, "finished");
+  /* and there is nothing left to do */
+  check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
+  assert_null(trajectory);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+static void a_run_goes_on_where_its_file_ends(void **state) {
+  const struct fixture *f = *state;
+  be_killed(f, 0, -1);
+  check_goes_on(f, "the beginning, at t = 0 s");
+  be_killed(f, 1, -1);
+  check_goes_on(f, "the beginning, at t = 0 s");
+  be_killed(f, 2, -1);
+  check_goes_on(f, "the last whole frame, at t = 0.01 s");
+  end_early(f, 5);
+  check_goes_on(f, "the last whole frame, at t = 0.04");
+  be_killed(f, 4, -1);
+  damage(f->path, hooke_state_position(f->frame[0]), 3 * N * sizeof(double), 60);
+  check_goes_on(f, "the beginning, at t = 0 s"); /* from the scene's own beginning, which is whole */
+}
+
+static void check_not_resumed(const struct fixture *f, const hooke_system *system,
+                              hooke_integrator *integrator, int32_t status, const char *message) {
+  hooke_trajectory *trajectory = NULL;
+  hooke_state *state = start_state(system), *before = start_state(system);
+  check_status(hooke_trajectory_resume(f->path, system, integrator, state, &trajectory), status);
+  check_message(message);
+  assert_null(trajectory);
+  check_same_bits(hooke_state_size(state), hooke_state_position(state), hooke_state_position(before));
+  hooke_state_destroy(before);
+  hooke_state_destroy(state);
+}
+
+static void other_runs_do_not_go_on(void **state) {
+  const struct fixture *f = *state;
+  struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01};
+  be_killed(f, 5, -1);
+  hooke_system *const systems[] = {rope(N + 1), braced_rope(N, 0.6, 0), braced_rope(N, 0.5, 1)};
+  const char *const words[] = {"other mass", "other mass", "other springs"};
+  for (int k = 0; k < 3; k++) {
+    hooke_integrator *integrator = start_run(systems[k], run);
+    check_not_resumed(f, systems[k], integrator, HOOKE_BAD_VALUE, words[k]);
+    check_message(f->path);
+    check_not_resumed(f, f->system, integrator, HOOKE_BAD_CALL, "not one of this system");
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(systems[k]);
+  }
+  const struct run others[] = {{.method = "verlet", .step = 1e-3, .duration = 0.1, .every = 0.01},
+                               {.method = "symplectic-euler", .step = 5e-4, .duration = 0.1, .every = 0.01},
+                               {.method = "symplectic-euler", .step = 1e-3, .duration = 0.2, .every = 0.01},
+                               {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.02}};
+  for (int k = 0; k < 4; k++) {
+    hooke_integrator *integrator = start_run(f->system, others[k]);
+    check_not_resumed(f, f->system, integrator, HOOKE_BAD_VALUE, "only threads may be changed");
+    hooke_integrator_destroy(integrator);
+  }
+  run.duration = 0.0;
+  hooke_integrator *endless = start_run(f->system, run);
+  check_not_resumed(f, f->system, endless, HOOKE_BAD_VALUE, "duration");
+  hooke_integrator_destroy(endless);
+  check_goes_on(f, "the last whole frame, at t = 0.04");
+}
+
+/* An outcome each, in the file's own words. */
+static void files_say_how_the_run_ended(void **state) {
+  const struct fixture *f = *state;
+  const struct {
+    int32_t outcome;
+    const char *word;
+  } rows[] = {{HOOKE_STOPPED, "stopped"},
+              {HOOKE_DIVERGED, "diverged"},
+              {HOOKE_STEP_LIMIT, "step-limit"},
+              {HOOKE_SOLVER_FAILED, "solver-failed"}};
+  for (int k = 0; k < 4; k++) {
+    hooke_trajectory *trajectory = create(f, f->path);
+    write_frames(f, trajectory, 0, 3);
+    check_ok(hooke_trajectory_close(trajectory, rows[k].outcome));
+    check_frames(f, 3, rows[k].word);
+  }
+}
+
+#if HOOKE_HAVE_JANSSON
+static void nothing_to_verify(void **state) {
+  const struct fixture *f = *state;
+  hooke_verify *verify = NULL;
+  be_killed(f, 0, -1);
+  check_status(hooke_verify_create(f->path, NULL, NULL, &verify), HOOKE_BAD_VALUE);
+  check_message("has no frames");
+  assert_null(verify);
+  check_status(hooke_verify_create(NULL, NULL, NULL, &verify), HOOKE_BAD_VALUE);
+  check_message("no path given");
+}
+#endif
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      TEST(a_killed_run_ends_as_if_it_never_was),
-      TEST(a_run_that_ended_early_goes_on),
-      TEST(no_frame_is_lost),
-      TEST(a_damaged_frame_is_refused_by_name),
-      TEST(frames_that_were_never_there_are_missed),
-      TEST(other_files_are_refused),
-      TEST(without_room_the_short_file_stays),
-      TEST(sync_brings_frames_to_the_disk),
-      TEST(another_file_of_the_name_is_left_alone),
+    TEST(a_killed_run_ends_as_if_it_never_was),
+    TEST(a_run_that_ended_early_goes_on),
+    TEST(no_frame_is_lost),
+    TEST(a_damaged_frame_is_refused_by_name),
+    TEST(frames_that_were_never_there_are_missed),
+    TEST(other_files_are_refused),
+    TEST(without_room_the_short_file_stays),
+    TEST(sync_brings_frames_to_the_disk),
+    TEST(another_file_of_the_name_is_left_alone),
+    TEST(a_run_goes_on_where_its_file_ends),
+    TEST(other_runs_do_not_go_on),
+    TEST(files_say_how_the_run_ended),
+#if HOOKE_HAVE_JANSSON
+    TEST(nothing_to_verify),
+#endif
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -295,6 +295,145 @@ static void a_callback_keeps_its_particles(void **state) {
   random_scene_destroy(&scene);
 }
 
+/* ---- one within another ---- */
+
+enum { MOST_SINGLE = 64 };
+
+/* One thing left out. */
+struct single {
+  struct hooke_variant variant;
+  int64_t part;            /* the part that is left out or changed; -1 */
+  int64_t of_part;         /* the part that brings what is left out; -1 */
+  int64_t group, of_group; /* the group of springs that is left out; that of the spring that is; -1 */
+};
+
+static struct single *next_single(const hooke_system *system, struct single *all, int *count) {
+  struct single *single = &all[(*count)++];
+  assert_true(*count <= MOST_SINGLE);
+  *single = (struct single){nothing_of(system), -1, -1, -1, -1};
+  return single;
+}
+
+/* Two parts, with springs, triples and tetrahedra of their own, and the same by hand. */
+static hooke_system *everything(void) {
+  const double place[] = {9, 0, 0, 9.3, 0, 0, 9.1, 0.28, 0, 9.12, 0.1, 0.26}, mass = 0.1, coefficient = 2;
+  const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
+  hooke_system *system;
+  hooke_options *strand, *cloth, *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
+  check_ok(hooke_part_options_create("strand", &strand));
+  check_ok(hooke_options_set_numbers(strand, "from", 3, (double[]){0, 1, 0}));
+  check_ok(hooke_options_set_numbers(strand, "to", 3, (double[]){1, 1, 0}));
+  check_ok(hooke_options_set_number(strand, "segments", 4));
+  check_ok(hooke_options_set_number(strand, "mass", 0.1));
+  add_family(strand, "stretch", 20, 0);
+  add_family(strand, "bend", 2, 0);
+  check_ok(hooke_options_set_number(strand, "altitude.stiffness", 1));
+  check_ok(hooke_system_add_part(system, "strand", "strand", strand, NULL, NULL));
+  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0, 1}));
+  check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){3, 3}));
+  check_ok(hooke_options_set_number(cloth, "mass", 0.2));
+  check_ok(hooke_options_set_number(cloth, "bending", 0.001));
+  add_family(cloth, "structural", 20, 0.1);
+  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 30));
+  check_ok(hooke_system_add_springs(system, "ties", 3, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_add_bending(system, "hinge", 1, triple, 1, &coefficient));
+  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 3));
+  check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(strand);
+  hooke_options_destroy(cloth);
+  return system;
+}
+
+static int list_singles(const hooke_system *system, struct single *all) {
+  int count = 0;
+  int64_t first = 0;
+  next_single(system, all, &count)->variant.gravity = 1;
+  next_single(system, all, &count)->variant.drag = 1;
+  next_single(system, all, &count)->variant.force = 1;
+  next_single(system, all, &count)->variant.damping = 1;
+  next_single(system, all, &count)->variant.compression = 1;
+  next_single(system, all, &count)->variant.particle[2] = 1;
+  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+    const struct hooke_group *group = &system->group[g];
+    struct single *whole = next_single(system, all, &count);
+    whole->variant.group[g] = 1;
+    whole->group = g;
+    struct single *one = next_single(system, all, &count);
+    one->variant.spring[first + group->count - 1] = 1;
+    one->of_group = g;
+    whole->of_part = one->of_part = group->from_part ? group->part : -1;
+  }
+  for (int64_t g = 0; g < system->bending_group_count; g++) {
+    struct single *single = next_single(system, all, &count);
+    single->variant.bending[g] = 1;
+    if (system->bending_group[g].from_part) single->of_part = system->bending_group[g].part;
+  }
+  for (int64_t g = 0; g < system->altitude_group_count; g++) {
+    struct single *single = next_single(system, all, &count);
+    single->variant.altitude[g] = 1;
+    if (system->altitude_group[g].from_part) single->of_part = system->altitude_group[g].part;
+  }
+  for (int64_t k = 0; k < system->part_count; k++) {
+    struct single *out = next_single(system, all, &count);
+    out->variant.part[k] = 1;
+    out->part = out->of_part = k;
+    struct single *finer = next_single(system, all, &count);
+    finer->variant.scale[k] = 2.0;
+    finer->of_part = k;
+  }
+  return count;
+}
+
+static int is_within(const struct single *all, int outer, int inner) {
+  const struct single *a = &all[outer], *b = &all[inner];
+  if (a->part >= 0) return b->of_part == a->part;
+  return a->group >= 0 && b->of_group == a->group;
+}
+
+/* What is out is within what is out itself, or within its group or part; and within two together if it is within either. */
+static void variants_within_variants(void **state) {
+  (void)state;
+  hooke_system *system = everything();
+  static struct single all[MOST_SINGLE];
+  const int count = list_singles(system, all);
+  struct hooke_variant nothing = nothing_of(system);
+  assert_true(system->bending_group_count >= 2 && system->altitude_group_count >= 2 &&
+              system->part_count == 2);
+  for (int i = 0; i < count; i++) {
+    const int refined = all[i].of_part >= 0 && all[i].variant.scale[all[i].of_part] != 1.0;
+    assert_int_equal(hooke_variant_covers(system, &all[i].variant, &nothing), 1);
+    assert_int_equal(hooke_variant_covers(system, &nothing, &all[i].variant), 0);
+    for (int j = 0; j < count; j++) {
+      /* a part twice as fine covers not even itself: joined, it would be four times as fine */
+      const int expected = (i == j && !refined) || is_within(all, i, j);
+      if (hooke_variant_covers(system, &all[i].variant, &all[j].variant) != expected)
+        check_failed("variants %d and %d of %d: not %d", i, j, count, expected);
+      struct hooke_variant both = nothing_of(system);
+      hooke_variant_join(system, &both, &all[i].variant);
+      hooke_variant_join(system, &both, &all[j].variant);
+      for (int k = 0; k < count; k++) {
+        const int either = hooke_variant_covers(system, &all[i].variant, &all[k].variant) ||
+                           hooke_variant_covers(system, &all[j].variant, &all[k].variant);
+        assert_int_equal(hooke_variant_covers(system, &both, &all[k].variant), either);
+      }
+      hooke_variant_release(&both);
+    }
+  }
+  for (int i = 0; i < count; i++)
+    hooke_variant_release(&all[i].variant);
+  hooke_variant_release(&nothing);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_variant_that_changes_nothing_has_the_same_bits),
@@ -302,6 +441,7 @@ int main(void) {
       cmocka_unit_test(single_springs_of_a_family_are_left_out),
       cmocka_unit_test(parts_at_another_resolution_stand_for_the_same_material),
       cmocka_unit_test(a_callback_keeps_its_particles),
+      cmocka_unit_test(variants_within_variants),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
