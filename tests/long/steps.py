@@ -98,6 +98,10 @@ def save(part: Part, state: dict[str, Any]) -> None:
 # ---- running ----
 
 
+class SourcesChanged(Exception):
+    """What a step found is of sources that are no more."""
+
+
 def words(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
@@ -153,6 +157,9 @@ def run_part(part: Part, only: str = "") -> int:
             if step.name in state["done"] or only not in step.name:
                 continue
             failed += not run_step(part, state, k, step, folder)
+    except SourcesChanged:
+        print(f"the sources have changed meanwhile; start it again with them as they are: make test-long PART={part.name}")
+        failed += 1
     except KeyboardInterrupt:
         print(f"\ninterrupted; start it again, and it goes on: make test-long PART={part.name}")
         failed += 1
@@ -180,8 +187,7 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
         print("\n".join("    | " + line for line in log.read_text(errors="replace").splitlines()[-15:]), flush=True)
         return False
     if sources()[0] != state["sources"]:
-        print(f"    passed, but the sources have changed after {words(took)}: to be run again", flush=True)
-        return False
+        raise SourcesChanged
     state["took"][step.name] = round(took, 1)
     state["done"][step.name] = {"date": time.strftime("%Y-%m-%d"), "seconds": round(took, 1),
                                 "processor": round(processor_seconds() - used, 1), "figures": figures}  # fmt: skip
