@@ -21,7 +21,7 @@ def billion(method: str) -> Step:
     place = f"$WORK/$SOURCES-{method}"
     whole, pieces = (f"{BUILD}/tests/long/steps {place}-{how} {method} {how} {STEPS}" for how in ("whole", "pieces"))
     command = f"{whole} >$WORK/{method}-whole.txt 2>&1 & {pieces} 2>&1; wait $!; cat $WORK/{method}-whole.txt"
-    return Step(f"1e9 steps, {method}", command, 500, equal_to_the_end)
+    return Step(f"1e9 steps, {method}", command, 250, equal_to_the_end)
 
 
 def equal_to_the_end(text: str) -> dict[str, Any]:
@@ -83,9 +83,9 @@ PART = Part(
                       f"cmake --build {BUILD}", 240),
         billion("verlet"),
         billion("symplectic-euler"),
-        lives(KINDS, 900),
-        ctest("crashes and kills", "crash|kill|frame_check", 1800),
-        ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 900),
+        lives(KINDS, 750),
+        ctest("crashes and kills", "crash|kill|frame_check", 500),
+        ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 500),
     ],
     rows,
 )  # fmt: skip
