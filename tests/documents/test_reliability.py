@@ -142,6 +142,8 @@ def test_a_killed_part_leaves_nothing_behind_and_goes_on(tmp_path):
     until(lambda: begun.exists() and len(begun.read_text(encoding="utf-8").split()) == 2)
     inner = begun.read_text(encoding="utf-8").split()[1]
     assert not gone(inner)
+    second = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60)
+    assert second.stdout == "a part is running already\n"
     runner.kill()
     runner.wait()
     until(lambda: gone(inner))

@@ -7,6 +7,7 @@ is run again. Then its figures go into docs/reliability.md, with what is missing
 from __future__ import annotations
 
 import ctypes
+import fcntl
 import hashlib
 import json
 import os
@@ -148,9 +149,19 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
 
 def run_part(part: Part, only: str = "") -> int:
     """Runs what is left, or of it the steps with `only` in their names; the number of steps that failed."""
-    state, failed = load(part), 0
     folder = KEPT / part.name
     folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            print(f"{part.name} is running already")
+            return 1
+        return run_steps(part, only, folder)
+
+
+def run_steps(part: Part, only: str, folder: Path) -> int:
+    state, failed = load(part), 0
     print(f"== {part.name} of {state['commit']}: {len(state['done'])} of {len(part.steps)} steps are done", flush=True)
     try:
         for k, step in enumerate(part.steps, 1):
