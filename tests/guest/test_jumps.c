@@ -2,11 +2,11 @@
  * again they give the bits that they would have given, with every method, with threads, and with a frame on its way to a
  * file. */
 #include "check.h"
+#include "held.h"
 #include "run.h"
 #include "sanitized.h"
 #include "small.h"
 
-#include <dirent.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <string.h>
@@ -116,17 +116,6 @@ static void check_same_state(hooke_state *state, hooke_state *expected) {
   check_close(hooke_state_time(state), hooke_state_time(expected), 0.0);
   check_same_bits(size, hooke_state_position(state), hooke_state_position(expected));
   check_same_bits(size, hooke_state_velocity(state), hooke_state_velocity(expected));
-}
-
-/* Threads of this process; -1 where the system does not tell. */
-static int64_t thread_count(void) {
-  DIR *directory = opendir("/proc/self/task");
-  if (directory == NULL) return -1;
-  int64_t count = 0;
-  for (const struct dirent *entry; (entry = readdir(directory)) != NULL;)
-    count += entry->d_name[0] != '.';
-  closedir(directory);
-  return count;
 }
 
 /* That so many threads were started, to which a sanitizer may add one; on one processor none are. */
