@@ -167,13 +167,13 @@ static uint64_t live_view(const char *detail) {
 }
 
 const struct life file_lives[] = {
-    {"trajectory", NULL, live_trajectory},
-    {"write-behind", "behind", live_trajectory},
-    {"record", NULL, live_record},
-    {"resume", "checkpoint", live_resume},
-    {"resume-frame", NULL, live_resume},
-    {"verify", NULL, live_verify},
-    {"verify-damaged", "damaged", live_verify},
-    {"view", NULL, live_view},
-    {NULL, NULL, NULL},
+    {"trajectory", NULL, live_trajectory, HDF5_KEEPS},
+    {"write-behind", "behind", live_trajectory, HDF5_KEEPS},
+    {"record", NULL, live_record, HDF5_KEEPS},
+    {"resume", "checkpoint", live_resume, HDF5_KEEPS},
+    {"resume-frame", NULL, live_resume, HDF5_KEEPS},
+    {"verify", NULL, live_verify, HDF5_KEEPS},
+    {"verify-damaged", "damaged", live_verify, HDF5_KEEPS},
+    {"view", NULL, live_view, HDF5_KEEPS},
+    {NULL, NULL, NULL, 0},
 };

@@ -130,7 +130,11 @@ static uint64_t live_cost(const char *detail) {
 }
 
 const struct life measure_lives[] = {
-    {"why", NULL, live_why},     {"limit", NULL, live_limit},           {"cost", NULL, live_cost},
-    {"needs", NULL, live_needs}, {"comparison", NULL, live_comparison}, {"study", NULL, live_study},
-    {NULL, NULL, NULL},
+    {"why", NULL, live_why, 0},
+    {"limit", NULL, live_limit, 0},
+    {"cost", NULL, live_cost, 0},
+    {"needs", NULL, live_needs, 0},
+    {"comparison", NULL, live_comparison, HDF5_KEEPS},
+    {"study", NULL, live_study, HDF5_KEEPS},
+    {NULL, NULL, NULL, 0},
 };

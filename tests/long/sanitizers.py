@@ -5,8 +5,9 @@ Every test of C runs in every step but where this file says so. What is left to 
   compilers, which is what users have, and with the address sanitizer; other levels and valgrind take a share of them;
 - the thread sanitizer sees the tests that start a thread, of which a preset has the names: in others there is nothing to race;
 - valgrind sees the unit tests, but for those that spin;
-- every point of tests/fault, and the programs and pages of tests/cli, are for the address sanitizer of gcc; runs of 1e8 steps
-  and a thousand kills are for `soak`.
+- tests/fault, and the programs and pages of tests/cli, are for the address sanitizer of gcc;
+- every point of tests/fault, where those that make whole studies have a tenth of their points sanitized, runs of 1e8 steps and
+  a thousand kills are for `soak`.
 """
 
 from __future__ import annotations
