@@ -52,7 +52,7 @@ def level(compiler: str, optimised: str) -> Step:
         f"-DHOOKE_KERNEL_OPTIMISATION={optimised} && cmake --build {build} && "
         f"{build}/tests/long/bits >$WORK/{compiler}{optimised}.txt && "
         f"{ctest(build, C_TESTS)} && rm -r {build}",
-        {"-O0": 240, "-O1": 180, "-O2": 180, "-O3": 240}[optimised],
+        {"-O0": 220, "-O1": 200, "-O2": 200, "-O3": 240}[optimised],
         tests_passed,
         SHORT if optimised == "-O3" else SHORTER,
     )
@@ -99,18 +99,18 @@ PART = Part(
         *(level(compiler, optimised) for compiler in COMPILERS for optimised in LEVELS),
         Step("equal bits", "python3 tests/long/bits.py all " + " ".join(
             f"$WORK/{compiler}{optimised}.txt" for compiler in COMPILERS for optimised in LEVELS), 1, compared),
-        Step("tsan", f"{configured('tsan')} && ctest --preset tsan", 600, tests_passed, SHORT),
+        Step("tsan", f"{configured('tsan')} && ctest --preset tsan", 400, tests_passed, SHORT),
         Step("clang, address, undefined and truncation",
              f"cmake -S . -B build/long/clang-asan {PLAIN} -DCMAKE_C_COMPILER=clang '-DCMAKE_C_FLAGS={CLANG_SANITIZERS}' "
              "-DHOOKE_KERNEL_OPTIMISATION=-O1 && cmake --build build/long/clang-asan && "
-             f"{ctest('build/long/clang-asan', C_TESTS)}", 600, tests_passed,
+             f"{ctest('build/long/clang-asan', C_TESTS)}", 300, tests_passed,
              SHORTER),
         Step("valgrind",
              f"cmake -S . -B build/long/valgrind {PLAIN} -DCMAKE_C_FLAGS='-O1 -g' && cmake --build build/long/valgrind && "
              "printf '%s\\n' build/long/valgrind/tests/unit_* | grep -v -E '"
              f"{VALGRIND_LEAVES}' | OPENBLAS_CORETYPE=Haswell xargs -P 2 -I PROGRAM sh -c 'valgrind -q --error-exitcode=9 "
              "--child-silent-after-fork=yes --leak-check=full --errors-for-leak-kinds=definite PROGRAM && echo valgrind: $(basename PROGRAM) clean'",
-             1200, valgrind, SHORTER),
+             480, valgrind, SHORTER),
         Step("coverage",
              f"cmake -S . -B {COVERAGE} -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS='-O1 --coverage' "
              f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} && "
@@ -119,7 +119,7 @@ PART = Part(
              f"python3 tests/long/coverage.py {COVERAGE}", 600, reached, SHORT),
         Step("address and undefined-behaviour sanitizers, every case",
              f"{configured('asan')} && {ctest('build/asan', f'-E {SOAKED}')} && "
-             f"env -u HOOKE_LONG {ctest('build/asan', f'-R {SOAKED}')}", 2400, tests_passed),
+             f"env -u HOOKE_LONG {ctest('build/asan', f'-R {SOAKED}')}", 1600, tests_passed),
     ],
     rows,
 )  # fmt: skip
