@@ -41,6 +41,9 @@ test: $(PRESETS:%=build-%) build/fuzz/packages
 # Each part keeps what is done in build/long and writes its figures into docs/reliability.md.
 LONG_PARTS = soak fuzz sanitizers arm64
 PART = $(LONG_PARTS)
+ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
+$(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
+endif
 
 test-long: $(PART:%=build/long/%.packages) | build/venv/done
 	$(PYTHON) tests/long/run.py $(PART)

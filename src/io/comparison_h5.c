@@ -181,7 +181,7 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
   if (status != HOOKE_OK) return status;
   hooke_comparison_file *made = hooke_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  made->file.id = made->file.descriptor = -1;
+  made->file.id = made->file.list = made->file.descriptor = -1;
   made->comparison = comparison;
   made->row_count = hooke_comparison_row_count(comparison);
   made->frame_count = hooke_comparison_frame_count(comparison);

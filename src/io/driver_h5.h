@@ -7,7 +7,7 @@
 #include <hdf5.h>
 
 /* An access list for a new file, by this driver; the first error, as errno has it, comes to be in `error`, which has to stay
- * until the file is closed. Give it any number to have nothing written any more. Negative on failure. */
+ * until the file is closed. So has the list: with the last of its lists the driver goes, which H5Fclose() still looks at. Give it any number to have nothing written any more. Negative on failure. */
 hid_t hooke_h5_access_list(int *error);
 
 #endif

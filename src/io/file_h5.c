@@ -100,17 +100,16 @@ static int32_t try_room(const char *path, const char *temporary, double bytes) {
 
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file) {
-  *file = (struct hooke_h5_file){.id = -1, .descriptor = -1};
+  *file = (struct hooke_h5_file){.id = -1, .list = -1, .descriptor = -1};
   int32_t status = hooke_place_find(path, &file->path, &file->temporary);
   if (status != HOOKE_OK) return status;
   status = try_room(path, file->temporary, bytes);
   if (status != HOOKE_OK) return status;
-  hid_t list = hooke_h5_access_list(&file->error);
-  file->id = list < 0 ? -1 : H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, list);
+  file->list = hooke_h5_access_list(&file->error);
+  file->id = file->list < 0 ? -1 : H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, file->list);
   if (file->id < 0)
     status = file->error ? hooke_place_fail(path, "create the file", file->error)
                          : hooke_h5_fail(guard, path, "create the file");
-  hooke_h5_drop(list);
   return status;
 }
 
@@ -130,6 +129,8 @@ static int32_t let_go(struct hooke_h5_guard *guard, struct hooke_h5_file *file) 
   const hid_t id = file->id;
   file->id = -1;
   const herr_t result = H5Fclose(id);
+  hooke_h5_drop(file->list);
+  file->list = -1;
   if (file->error) return hooke_place_fail(file->path, "write", file->error);
   return result < 0 ? hooke_h5_fail(guard, file->path, "close the file") : HOOKE_OK;
 }
@@ -185,11 +186,12 @@ void hooke_h5_file_release(struct hooke_h5_file *file) {
     file->error = ECANCELED; /* nobody wants what HDF5 has not written yet */
     H5Fclose(file->id);
   }
+  hooke_h5_drop(file->list);
   if (file->descriptor >= 0) close(file->descriptor);
   if (file->temporary) unlink(file->temporary);
   hooke_free(file->temporary);
   hooke_free(file->path);
-  *file = (struct hooke_h5_file){.id = -1, .descriptor = -1};
+  *file = (struct hooke_h5_file){.id = -1, .list = -1, .descriptor = -1};
 }
 
 #endif

@@ -29,7 +29,8 @@ static const int64_t LEAST_BYTES = 65536;
 hooke_trajectory *hooke_trajectory_new(void) {
   hooke_trajectory *trajectory = hooke_handle_new("hooke_trajectory", sizeof *trajectory);
   if (trajectory == NULL) return NULL;
-  trajectory->file.id = trajectory->file.descriptor = trajectory->recording.file.descriptor = -1;
+  trajectory->file.id = trajectory->file.list = trajectory->file.descriptor =
+      trajectory->recording.file.descriptor = -1;
   return trajectory;
 }
 

@@ -75,7 +75,7 @@ static void test_large_scenes(void **unused) {
   (void)unused;
   const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
-  const int64_t share = HOOKE_SANITIZED ? 5 : 1;
+  const int64_t share = short_of_time() ? 5 : 1;
   for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
     compare_scene((struct random_scene_request){.seed = 7001 + k,
                                                 .particles = 30011 / share,

@@ -3,7 +3,9 @@
 import importlib.util
 import os
 import re
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -98,5 +100,54 @@ def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
     assert "commit 1234abc, 3 of 3 steps" in page and "| one | {'tests': 7} |" in page and "failed" not in page
     assert "<!-- figures of b -->\n<!-- end -->" in page
     assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 5
+    monkeypatch.setattr(steps, "sources", lambda: (str(time.monotonic()), "1234abc"))
+    assert steps.run_part(part) == 1  # the sources changed on the way: the step does not count, and is the last
+    ran.write_text("one two three two three\n")
     monkeypatch.setattr(steps, "sources", lambda: ("another", "5678def"))
     assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 8
+
+
+KILLED = """
+import sys
+sys.path.insert(0, {long!r})
+from pathlib import Path
+import steps
+steps.KEPT, steps.PAGE, steps.sources = Path({here!r}), Path({here!r}) / "page.md", lambda: ("digest", "1234abc")
+begun, gate = Path({here!r}) / "begun", Path({here!r}) / "gate"
+wait = f"(echo $BASHPID >>{{begun}}; while ! test -e {{gate}}; do sleep 0.05; done) | cat"
+steps.run_part(steps.Part("a part", [], [steps.Step("one", f"echo one >>{{begun}}", 1), steps.Step("two", wait, 1)], lambda done: []))
+"""
+
+
+def gone(number):
+    try:
+        return Path(f"/proc/{number}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def until(true, seconds=20):
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a process is told of its parent's end on Linux")
+def test_a_killed_part_leaves_nothing_behind_and_goes_on(tmp_path):
+    (tmp_path / "page.md").write_text("<!-- figures of a part -->\nNot run yet.\n<!-- end -->\n", encoding="utf-8")
+    begun = tmp_path / "begun"
+    words = [sys.executable, "-c", KILLED.format(long=str(LONG), here=str(tmp_path))]
+    runner = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+    until(lambda: begun.exists() and len(begun.read_text(encoding="utf-8").split()) == 2)
+    inner = begun.read_text(encoding="utf-8").split()[1]
+    assert not gone(inner)
+    second = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60)
+    assert second.stdout == "a part is running already\n"
+    runner.kill()
+    runner.wait()
+    until(lambda: gone(inner))
+    (tmp_path / "gate").touch()
+    subprocess.run(words, stdout=subprocess.DEVNULL, check=True, timeout=60)
+    assert [line == "one" for line in begun.read_text(encoding="utf-8").split()] == [True, False, False]
+    assert "commit 1234abc, 2 of 2 steps" in (tmp_path / "page.md").read_text(encoding="utf-8")

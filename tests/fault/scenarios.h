@@ -10,7 +10,7 @@ struct scenario {
   const char *name;
   void (*run)(struct attempt *a, const void *with);
   const void *with;
-  int32_t share;     /* of its points one in so many is tried, unless HOOKE_LONG is set */
+  int32_t share;     /* of its points one in so many is tried; HOOKE_LONG: each, sanitized a share */
   const char *needs; /* of hooke_build_fact(), words between blanks; NULL: nothing */
   const char *file;  /* what it writes in its folder; NULL: nothing */
 };

@@ -76,8 +76,11 @@ static void check_clean(const struct scenario *scenario, sweep_point *try_point,
 }
 
 static int64_t share_of(const struct sweep *sweep, const struct scenario *scenario) {
-  /* one that makes whole studies would take hours */
-  if (getenv("HOOKE_LONG")) return scenario->share >= 1000 ? scenario->share / 100 : 1;
+  /* one that makes whole studies would take hours, and ten times as many with a sanitizer */
+  if (getenv("HOOKE_LONG")) {
+    const int64_t few = scenario->share >= 1000 ? scenario->share / 100 : 1;
+    return HOOKE_SANITIZED && scenario->share > 10 * few ? scenario->share / 10 : few;
+  }
   int64_t share = sweep->share > 0 ? sweep->share : scenario->share;
   if (sweep->times > 0 && sweep->times * scenario->share > share) share = sweep->times * scenario->share;
   return HOOKE_SANITIZED ? 6 * share : share;

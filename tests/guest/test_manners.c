@@ -3,12 +3,12 @@
  * through the whole interface, calls that fail among them. */
 #define _GNU_SOURCE /* fegetexcept() */
 #include "check.h"
+#include "held.h"
 #include "random_scene.h"
 #include "run.h"
 #include "sanitized.h"
 #include "small.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <fenv.h>
@@ -40,16 +40,6 @@ struct manners {
   int64_t files, threads;
 };
 
-static int64_t count_entries(const char *folder) {
-  DIR *all = opendir(folder);
-  if (all == NULL) return -1;
-  int64_t count = 0;
-  while (readdir(all))
-    count++;
-  closedir(all);
-  return count;
-}
-
 static void look(struct manners *m) {
   m->error = errno;
   m->rounding = fegetround();
@@ -73,8 +63,8 @@ static void look(struct manners *m) {
 }
 
 static void count_all(struct manners *m) {
-  m->files = count_entries("/proc/self/fd");
-  m->threads = count_entries("/proc/self/task");
+  m->files = open_files();
+  m->threads = thread_count();
 }
 
 static struct manners before, start;

@@ -1,6 +1,7 @@
 """What `make test-long` runs: python tests/long/run.py [PART ...]; all parts without arguments.
 
---packages PART ... prints what Debian has to have for them, --figures PART ... writes the figures of what is done so far.
+--packages PART ... prints what Debian has to have for them, --figures PART ... writes the figures of what is done so far,
+--only WORD PART ... runs the steps alone that have the word in their names.
 """
 
 from __future__ import annotations
@@ -22,5 +23,7 @@ if __name__ == "__main__":
     elif option == "--figures":
         for name in names or PARTS:
             write_figures(PARTS[name], load(PARTS[name]))
+    elif option == "--only":
+        main(PARTS, names[1:], names[0])
     else:
         main(PARTS, [name for name in sys.argv[1:] if name])

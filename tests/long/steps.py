@@ -7,10 +7,12 @@ is run again. Then its figures go into docs/reliability.md, with what is missing
 from __future__ import annotations
 
 import ctypes
+import fcntl
 import hashlib
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -97,12 +99,27 @@ def save(part: Part, state: dict[str, Any]) -> None:
 # ---- running ----
 
 
+class SourcesChanged(Exception):
+    """What a step found is of sources that are no more."""
+
+
 def words(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
 def die_with_parent() -> None:
+    """Where this process is killed the step ends, too: its shell is told, and passes it on."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)
+
+
+# Everything that a step starts is of one process group, which ends as a whole.
+SHELL = "trap 'trap - TERM; kill -TERM 0' TERM\n(\n{command}\n) &\nwait $!"
+
+
+def processor_seconds() -> float:
+    """Of all that ended so far."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def last_line(log: Path) -> str:
@@ -115,9 +132,9 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
     environment = {name: value for name, value in environment.items() if value}
     with log.open("w") as output:
         process = subprocess.Popen(
-            ["bash", "-e", "-u", "-o", "pipefail", "-c", step.command],
+            ["bash", "-e", "-u", "-o", "pipefail", "-c", SHELL.format(command=step.command)],
             cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-            preexec_fn=die_with_parent,
+            preexec_fn=die_with_parent, start_new_session=True,
         )  # fmt: skip
         while True:
             try:
@@ -130,17 +147,30 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
                 raise
 
 
-def run_part(part: Part) -> int:
-    """Runs what is left; the number of steps that failed."""
-    state, failed = load(part), 0
+def run_part(part: Part, only: str = "") -> int:
+    """Runs what is left, or of it the steps with `only` in their names; the number of steps that failed."""
     folder = KEPT / part.name
     folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            print(f"{part.name} is running already")
+            return 1
+        return run_steps(part, only, folder)
+
+
+def run_steps(part: Part, only: str, folder: Path) -> int:
+    state, failed = load(part), 0
     print(f"== {part.name} of {state['commit']}: {len(state['done'])} of {len(part.steps)} steps are done", flush=True)
     try:
         for k, step in enumerate(part.steps, 1):
-            if step.name in state["done"]:
+            if step.name in state["done"] or only not in step.name:
                 continue
             failed += not run_step(part, state, k, step, folder)
+    except SourcesChanged:
+        print(f"the sources have changed meanwhile; start it again with them as they are: make test-long PART={part.name}")
+        failed += 1
     except KeyboardInterrupt:
         print(f"\ninterrupted; start it again, and it goes on: make test-long PART={part.name}")
         failed += 1
@@ -150,7 +180,7 @@ def run_part(part: Part) -> int:
 
 def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path) -> bool:
     left = sum(state["took"].get(s.name, s.seconds) for s in part.steps[k - 1 :] if s.name not in state["done"])
-    began, log = time.monotonic(), folder / (re.sub(r"[^a-zA-Z0-9.-]+", "_", step.name) + ".log")
+    began, used, log = time.monotonic(), processor_seconds(), folder / (re.sub(r"[^a-zA-Z0-9.-]+", "_", step.name) + ".log")
     print(f"[{k}/{len(part.steps)}] {step.name} (about {words(left)} left)", flush=True)
 
     def tell(line: str) -> None:
@@ -167,8 +197,11 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
         print(f"    FAILED after {words(took)}: {error}; {os.path.relpath(log, ROOT)} ends with")
         print("\n".join("    | " + line for line in log.read_text(errors="replace").splitlines()[-15:]), flush=True)
         return False
+    if sources()[0] != state["sources"]:
+        raise SourcesChanged
     state["took"][step.name] = round(took, 1)
-    state["done"][step.name] = {"date": time.strftime("%Y-%m-%d"), "seconds": round(took, 1), "figures": figures}
+    state["done"][step.name] = {"date": time.strftime("%Y-%m-%d"), "seconds": round(took, 1),
+                                "processor": round(processor_seconds() - used, 1), "figures": figures}  # fmt: skip
     save(part, state)
     return True
 
@@ -183,9 +216,10 @@ def write_figures(part: Part, state: dict[str, Any]) -> None:
         return
     dates = sorted({step["date"] for step in done.values()})
     spent = sum(step["seconds"] for step in done.values())
+    used = sum(step["processor"] for step in done.values())
     missing = [step.name for step in part.steps if step.name not in done]
     lines = [f"{dates[0] if len(dates) == 1 else f'{dates[0]} to {dates[-1]}'}, commit {state['commit']}, "
-             f"{len(done)} of {len(part.steps)} steps, {spent / 60:.0f} minutes."]  # fmt: skip
+             f"{len(done)} of {len(part.steps)} steps, {spent / 60:.0f} minutes, {used / 60:.0f} of a processor."]  # fmt: skip
     if missing:
         lines.append("Not run yet, or failed: " + ", ".join(missing) + ".")
     lines += ["", "| what | figure |", "| --- | --- |"]
@@ -214,9 +248,9 @@ def tests_passed(text: str) -> dict[str, Any]:
     return {"tests": sum(map(int, passed))}
 
 
-def main(parts: dict[str, Part], asked: list[str]) -> None:
+def main(parts: dict[str, Part], asked: list[str], only: str = "") -> None:
     unknown = [name for name in asked if name not in parts]
     if unknown:
         sys.exit(f"no part is called {' '.join(unknown)}; there are {', '.join(parts)}")
-    failed = sum(run_part(parts[name]) for name in asked or parts)
+    failed = sum(run_part(parts[name], only) for name in asked or parts)
     sys.exit(f"{failed} steps failed" if failed else 0)

@@ -235,7 +235,7 @@ static const struct {
 /* In a process each, since a peak stays. */
 static void a_scene_takes_what_it_is_said_to_need(void **unused) {
   (void)unused;
-  if (HOOKE_SANITIZED) return;
+  if (short_of_time()) return; /* and memory is another there */
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     const pid_t child = fork();
     if (child == 0) {

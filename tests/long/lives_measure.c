@@ -1,0 +1,140 @@
+/* Lives of what measures: limits, costs, comparisons, studies, needs, and why a run blew up. */
+#include "check.h"
+#include "hash.h"
+#include "lives.h"
+#include "run.h"
+
+#include <stddef.h>
+
+static hooke_integrator *diverged(hooke_scene *scene, hooke_state *state) {
+  hooke_integrator *integrator = start_run(
+      hooke_scene_system(scene), (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 5.0});
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  return integrator;
+}
+
+static uint64_t live_why(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_state *state = start_state(hooke_scene_system(scene));
+  hooke_integrator *integrator = diverged(scene, state);
+  hooke_why *why = NULL;
+  check_ok(hooke_why_create(integrator, &why));
+  const double found[] = {(double)hooke_why_advice_count(why), hooke_why_number(why, "time")};
+  const uint64_t hash = hash_doubles(2, found, life_hash(state, HASH_START));
+  hooke_why_destroy(why);
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  hooke_scene_destroy(scene);
+  return hash;
+}
+
+static uint64_t live_limit(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_state *state = start_state(hooke_scene_system(scene));
+  hooke_options *options = NULL;
+  hooke_limit *limit = NULL;
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  check_ok(hooke_limit_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &limit));
+  check_ok(hooke_limit_find(limit, state));
+  uint64_t hash = HASH_START;
+  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
+    const double predicted = hooke_limit_number(limit, k, "predicted");
+    hash = hash_doubles(1, &predicted, hash);
+  }
+  hooke_limit_destroy(limit);
+  hooke_options_destroy(options);
+  hooke_state_destroy(state);
+  hooke_scene_destroy(scene);
+  return hash;
+}
+
+static uint64_t live_study(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_options *options = NULL;
+  hooke_study *study = NULL;
+  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", "verlet,backward-euler,cvode-bdf"));
+  check_ok(hooke_options_set_number(options, "want", 1e-6));
+  check_ok(hooke_options_set_number(hooke_scene_run_options(scene), "duration", 0.01));
+  check_ok(hooke_study_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &study));
+  check_ok(hooke_study_run(study));
+  uint64_t hash = HASH_START;
+  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
+    const double error = hooke_study_number(study, k, "error");
+    hash = hash_doubles(1, &error, hash);
+  }
+  check_ok(hooke_study_write_csv(study, life_files.page));
+  check_ok(hooke_study_write_h5(study, life_files.trajectory, hooke_scene_text(scene), HOOKE_OK));
+  hooke_study_destroy(study);
+  hooke_options_destroy(options);
+  hooke_scene_destroy(scene);
+  return hash;
+}
+
+static uint64_t live_comparison(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_comparison *comparison = NULL;
+  hooke_comparison_file *file = NULL;
+  check_ok(hooke_comparison_create(hooke_scene_system(scene), hooke_scene_run_options(scene), &comparison));
+  check_ok(hooke_comparison_add(comparison, "verlet"));
+  check_ok(hooke_comparison_add(comparison, "rk4"));
+  check_ok(hooke_comparison_file_create(life_files.trajectory, hooke_scene_system(scene), comparison,
+                                        hooke_scene_text(scene), &file));
+  check_ok(hooke_comparison_run(comparison));
+  const double error[] = {hooke_comparison_number(comparison, 0, "error"),
+                          hooke_comparison_number(comparison, 1, "error")};
+  check_ok(hooke_comparison_file_close(file));
+  hooke_comparison_destroy(comparison);
+  hooke_scene_destroy(scene);
+  return hash_doubles(2, error, HASH_START);
+}
+
+static uint64_t live_needs(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_options *options = NULL;
+  hooke_needs *needs = NULL;
+  check_ok(hooke_needs_options_create(&options));
+  check_ok(hooke_options_set_number(options, "want", 0.02));
+  check_ok(hooke_options_set_number(hooke_scene_run_options(scene), "duration", 0.1));
+  check_ok(hooke_needs_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &needs));
+  check_ok(hooke_needs_find(needs));
+  const double found[] = {(double)hooke_needs_row_count(needs), hooke_needs_number(needs, 0, "error")};
+  hooke_needs_destroy(needs);
+  hooke_options_destroy(options);
+  hooke_scene_destroy(scene);
+  return hash_doubles(2, found, HASH_START);
+}
+
+static uint64_t live_cost(const char *detail) {
+  (void)detail;
+  hooke_scene *scene = life_scene(SEGMENTS);
+  hooke_state *state = start_state(hooke_scene_system(scene));
+  hooke_options *options = NULL;
+  hooke_cost *cost = NULL;
+  check_ok(hooke_cost_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  check_ok(hooke_cost_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &cost));
+  check_ok(hooke_cost_find(cost, state));
+  const double found[] = {(double)hooke_cost_row_count(cost), hooke_cost_figure(cost, "memory_bytes")};
+  hooke_cost_destroy(cost);
+  hooke_options_destroy(options);
+  hooke_state_destroy(state);
+  hooke_scene_destroy(scene);
+  return hash_doubles(2, found, HASH_START);
+}
+
+const struct life measure_lives[] = {
+    {"why", NULL, live_why, 0},
+    {"limit", NULL, live_limit, 0},
+    {"cost", NULL, live_cost, 0},
+    {"needs", NULL, live_needs, 0},
+    {"comparison", NULL, live_comparison, HDF5_KEEPS},
+    {"study", NULL, live_study, HDF5_KEEPS},
+    {NULL, NULL, NULL, 0},
+};

@@ -1,0 +1,11 @@
+/* What this process has open. */
+#ifndef TESTS_SUPPORT_HELD_H
+#define TESTS_SUPPORT_HELD_H
+
+#include <stdint.h>
+
+/* -1 where the system does not tell. */
+int64_t open_files(void);
+int64_t thread_count(void);
+
+#endif
