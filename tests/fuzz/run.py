@@ -94,7 +94,7 @@ class Target:
         (self.work / "found").mkdir(parents=True, exist_ok=True)
         words = [f"-dict={self.words}"] if self.words.exists() else []
         longest = self.mostly if folder == "fuzz-fast" else self.longest
-        return [self.program(folder), f"-max_len={longest}", "-timeout=300", "-rss_limit_mb=2560", "-print_funcs=0", "-reload=0",
+        return [self.program(folder), f"-max_len={longest}", "-timeout=600", "-rss_limit_mb=2560", "-print_funcs=0", "-reload=0",
                 f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
