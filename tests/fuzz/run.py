@@ -1,8 +1,8 @@
 """Fuzzing, driven.
 
     run.py --seconds 5 [TARGET...]         each target for so long, two side by side: the part of `make test`
-    run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was. With --quiet 60 it also
-                                           goes on until no new edge came for so many minutes of processor
+    run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was. With --quiet 60 it
+                                           goes on after that until no new edge came for so many minutes of processor
     run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach
     run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
 
@@ -318,20 +318,20 @@ def campaign(targets, executions, quiet, workers, limit):
                               env={**os.environ, **SANITIZERS}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if once.returncode and not many.stop:
             many.of(target)["findings"] = findings(target) or ["the inputs gathered do not replay"]
-    done = all(many.is_done(t) for t in targets)
+    done = all(many.of(t)["executions"] >= many.wanted(t) for t in targets)
     found = [f for t in targets for f in many.of(t)["findings"]]
-    write_figures(targets, many.state, {} if many.stop else coverage(targets))
+    write_figures(targets, many, {} if many.stop else coverage(targets))
     return 1 if found else 0 if done else 3
 
 
-def write_figures(targets, state, lines):
+def write_figures(targets, many, lines):
     """What docs/reliability.md says of it."""
     figures = {"date": time.strftime("%Y-%m-%d"), "commit": commit(), "targets": {}}
     for target in targets:
-        of = state[target.name]
+        of = many.of(target)
         rates = {b: round(v["executions"] / v["seconds"]) for b, v in of["by_build"].items() if v["seconds"]}
         figures["targets"][target.name] = {
-            "executions": of["executions"], "past_syntax_percent": round(share(of), 1),
+            "executions": of["executions"], "wanted": many.wanted(target), "past_syntax_percent": round(share(of), 1),
             "accepted_percent": round(100 * of["accepted"] / max(of["executions"], 1), 1), "edges": of["edges"],
             "processor_seconds": round(of["seconds"]), "executions_per_second": rates,
             "commits": of["commits"], "seconds_since_last_edge": round(since_edge(of)),

@@ -51,6 +51,7 @@ class Part:
     packages: list[str]
     steps: list[Step]
     rows: Callable[[dict[str, dict[str, Any]]], list[tuple[str, str]]]  # what and figure, from the figures of steps done
+    so_far: Callable[[], dict[str, dict[str, Any]]] = dict  # figures of steps that go on another time
 
 
 def git(*arguments: str) -> str:
@@ -212,9 +213,10 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
 def write_figures(part: Part, state: dict[str, Any]) -> None:
     """Between the marks of this part in the page, if it is done for these sources in part at least."""
     done = state["done"]
-    if not done:
+    figures = part.so_far() | {name: done[name]["figures"] for name in done}
+    if not figures:
         return
-    dates = sorted({step["date"] for step in done.values()})
+    dates = sorted({step["date"] for step in done.values()}) or [time.strftime("%Y-%m-%d")]
     spent = sum(step["seconds"] for step in done.values())
     used = sum(step["processor"] for step in done.values())
     missing = [step.name for step in part.steps if step.name not in done]
@@ -223,7 +225,7 @@ def write_figures(part: Part, state: dict[str, Any]) -> None:
     if missing:
         lines.append("Not run yet, or failed: " + ", ".join(missing) + ".")
     lines += ["", "| what | figure |", "| --- | --- |"]
-    lines += [f"| {what} | {figure} |" for what, figure in part.rows({name: done[name]["figures"] for name in done})]
+    lines += [f"| {what} | {figure} |" for what, figure in part.rows(figures)]
     marks = re.compile(rf"(<!-- figures of {part.name} -->\n).*?(<!-- end -->)", re.DOTALL)
     text, count = marks.subn(lambda found: found[1] + "\n".join(lines) + "\n" + found[2], PAGE.read_text())
     if count != 1:
