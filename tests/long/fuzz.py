@@ -7,7 +7,6 @@ from typing import Any
 
 from steps import ROOT, Part, Step
 
-
 FIGURES = ROOT / "build/fuzz/figures.json"
 
 
