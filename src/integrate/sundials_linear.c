@@ -155,6 +155,12 @@ static int32_t find(struct solver *s, double tolerance, struct hooke_solution *s
   return minimise(s, tolerance, solution);
 }
 
+/* What the solver is told of a failure; it has one number for all of them. */
+static int failed(struct hooke_sundials *own, int32_t status) {
+  if (status == HOOKE_NO_MEMORY) own->no_memory = 1;
+  return SUNLS_ATIMES_FAIL_UNREC;
+}
+
 static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector b, realtype tolerance) {
   (void)matrix;
   struct solver *s = solver_of(linear);
@@ -164,13 +170,14 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
   N_Vector y;
   s->iterations = 0;
   if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_MEM_NULL;
-  if (hooke_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y)) != HOOKE_OK)
-    return SUNLS_ATIMES_FAIL_UNREC;
+  int32_t status = hooke_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
+  if (status != HOOKE_OK) return failed(own, status);
   hooke_reduced_set(&s->reduced, t, gamma * gamma, gamma);
   take(s, b, gamma);
-  if (hooke_reduced_right(&s->reduced, s->bq, s->bv, s->right) != HOOKE_OK) return SUNLS_ATIMES_FAIL_UNREC;
   struct hooke_solution solution;
-  if (find(s, tolerance, &solution) != HOOKE_OK) return SUNLS_ATIMES_FAIL_UNREC;
+  status = hooke_reduced_right(&s->reduced, s->bq, s->bv, s->right);
+  if (status == HOOKE_OK) status = find(s, tolerance, &solution);
+  if (status != HOOKE_OK) return failed(own, status);
   give(s, gamma, x);
   return solution.converged ? SUNLS_SUCCESS : SUNLS_CONV_FAIL;
 }
