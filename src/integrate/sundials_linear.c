@@ -56,11 +56,14 @@ static void forget(struct solver *s) {
 }
 
 /* S of the present place, if that is due; where it is not positive, its blocks have to do from now on. */
-static void renew(struct solver *s, int due) {
-  if (!s->direct || !due) return;
-  s->direct = s->may_be_direct = hooke_reduced_factorise(&s->reduced);
+static int32_t renew(struct solver *s, int due) {
+  if (!s->direct || !due) return HOOKE_OK;
+  const int32_t positive = hooke_reduced_factorise(&s->reduced);
+  if (positive < 0) return positive;
+  s->direct = s->may_be_direct = positive;
   s->solves = 0;
   s->excess = 0.0;
+  return HOOKE_OK;
 }
 
 static double cost_by_blocks(const struct solver *s, double iterations) {
@@ -148,11 +151,11 @@ static int32_t minimise(struct solver *s, double tolerance, struct hooke_solutio
 
 /* Once more with a new factor, if the one at hand is old or there was none. */
 static int32_t find(struct solver *s, double tolerance, struct hooke_solution *solution) {
-  renew(s, s->direct && (s->solves == 0 || is_due(s)));
-  const int32_t status = minimise(s, tolerance, solution);
+  int32_t status = renew(s, s->direct && (s->solves == 0 || is_due(s)));
+  if (status == HOOKE_OK) status = minimise(s, tolerance, solution);
   if (status != HOOKE_OK || solution->converged || !s->direct || s->solves == 1) return status;
-  renew(s, 1);
-  return minimise(s, tolerance, solution);
+  status = renew(s, 1);
+  return status == HOOKE_OK ? minimise(s, tolerance, solution) : status;
 }
 
 /* What the solver is told of a failure; it has one number for all of them. */
