@@ -13,6 +13,6 @@ int32_t hooke_advice_command(const struct hooke_arguments *arguments, const hook
 
 /* Up to `most` pieces of advice, a line in words and a line to type for each. HOOKE_NO_MEMORY if one of those is missing. */
 int32_t hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const hooke_why *why,
-                        int64_t most);
+                           int64_t most);
 
 #endif
