@@ -33,7 +33,9 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
     length = strcspn(text, "'");
   }
   snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
-  guard->no_memory = entry->maj_num == H5E_RESOURCE;
+  /* some of its parts say so in words alone */
+  guard->no_memory =
+      entry->maj_num == H5E_RESOURCE || strstr(entry->desc, "memory allocation failed") != NULL;
   return 0;
 }
 
