@@ -176,7 +176,8 @@ static void look_after(struct attempt *a, const struct scenario *scenario, const
   char previous[256];
   const int is_there = access(path, F_OK) == 0;
   snprintf(previous, sizeof previous, "%s.previous", path);
-  if (!is_there && !is_old(previous)) attempt_wrong(a, "what was there before is gone");
+  if (!is_there && !is_old(previous) && !is_whole_checkpoint(previous))
+    attempt_wrong(a, "what was there before is gone");
   if (count_files_but(scenario->files) > 0) attempt_wrong(a, "something is left beside the file");
   if (is_there && !is_old(path)) look_at_new(a, scenario, path);
 }
