@@ -23,33 +23,35 @@ static int32_t collect(const hooke_options *changes, struct hooke_setting *setti
   return count;
 }
 
-char *hooke_advice_command(const struct hooke_arguments *arguments, const hooke_why *why, int64_t place) {
+int32_t hooke_advice_command(const struct hooke_arguments *arguments, const hooke_why *why, int64_t place,
+                             char **command) {
   struct hooke_setting settings[MOST_SETTINGS];
   char text[MOST_SETTINGS][HOOKE_NUMBER_SIZE];
-  char *command = NULL;
   size_t size;
   hooke_options *changes = NULL;
-  FILE *file = NULL;
-  if (hooke_run_options_create(&changes) == HOOKE_OK &&
-      hooke_why_advice_apply(why, place, changes) == HOOKE_OK && collect(changes, settings, text) > 0) {
-    file = open_memstream(&command, &size);
-  }
-  if (file) {
-    hooke_report_command(file, arguments, "run", settings);
-    fclose(file);
+  *command = NULL;
+  int32_t status = hooke_run_options_create(&changes);
+  if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
+  if (status == HOOKE_OK && collect(changes, settings, text) > 0) {
+    FILE *stream = open_memstream(command, &size);
+    if (stream) hooke_report_command(stream, arguments, "run", settings);
+    status = hooke_print_end(stream, command);
   }
   hooke_options_destroy(changes);
-  return command;
+  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-void hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const hooke_why *why,
-                        int64_t most) {
+int32_t hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const hooke_why *why,
+                           int64_t most) {
+  int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_why_advice_count(why) && k < most; k++) {
-    char *command = hooke_advice_command(arguments, why, k);
+    char *command;
+    if (hooke_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     fprintf(file, "%s ", k == 0 ? "what to do:" : "or:");
     hooke_print_text(file, hooke_why_advice_text(why, k, "change"));
     fputc('\n', file);
     if (command) fprintf(file, "  %s\n", command);
     free(command);
   }
+  return status;
 }

@@ -251,7 +251,7 @@ static void print_words(const struct check *check) {
   print_cost(check);
   print_limits(check);
   hooke_cost_sheet_print(check->cost, system);
-  fflush(stdout);
+  hooke_print_flush();
   for (int64_t i = 0; i < check->warning_count; i++) {
     hooke_report_words(check->arguments, "warning: %s", check->warning[i]);
   }

@@ -147,7 +147,7 @@ static int compare_and_tell(struct compare *compare) {
   } else {
     print_words(compare);
   }
-  fflush(stdout);
+  hooke_print_flush();
   if (code == HOOKE_EXIT_INTERRUPTED) {
     hooke_report_words(compare->arguments, "interrupted; the rows done so far are kept%s%s",
                        compare->output ? " in " : "", compare->output ? compare->output : "");

@@ -98,9 +98,11 @@ static void print_unknown(const struct hooke_arguments *arguments) {
   if (count) printf(") return ;;\n");
 }
 
-static void print_verb(const struct hooke_verb *verb, const char *kind) {
+/* Each function here that tells of a verb returns an exit code, of what is reported already. */
+static int print_verb(const struct hooke_verb *verb, const char *kind) {
   struct hooke_arguments arguments = {.verb = verb};
-  if (hooke_arguments_collect(verb, kind, &arguments) == HOOKE_EXIT_DONE) {
+  const int code = hooke_arguments_collect(verb, kind, &arguments);
+  if (code == HOOKE_EXIT_DONE) {
     printf("    \"%s%s%s\")\n", verb->name, kind ? " " : "", kind ? kind : "");
     if (!kind) printf("      operand=\"%s\"\n", verb->input ? "h5" : "json h5");
     print_flags(&arguments);
@@ -111,6 +113,18 @@ static void print_verb(const struct hooke_verb *verb, const char *kind) {
     printf("      esac\n      ;;\n");
   }
   hooke_arguments_destroy(&arguments);
+  return code;
+}
+
+static int print_verbs(const struct hooke_program *program) {
+  int code = HOOKE_EXIT_DONE;
+  for (int32_t i = 0; program->verbs[i] && code == HOOKE_EXIT_DONE; i++) {
+    const struct hooke_verb *verb = program->verbs[i];
+    if (!verb->kind_options) code = print_verb(verb, NULL);
+    for (int64_t k = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(k); k++)
+      code = print_verb(verb, hooke_part_kind(k));
+  }
+  return code;
 }
 
 /* ---- the program ---- */
@@ -137,17 +151,14 @@ static void print_kinds(const struct hooke_verb *verb) {
   printf("--help\"\n      return\n    fi\n    what=\"%s ${COMP_WORDS[2]}\"\n  fi\n", verb->name);
 }
 
-void hooke_completion_print_bash(const struct hooke_program *program) {
+int hooke_completion_print_bash(const struct hooke_program *program) {
   fputs(head, stdout);
   print_first_word(program);
   for (int32_t i = 0; program->verbs[i]; i++)
     print_kinds(program->verbs[i]);
   printf("  case $what in\n");
-  for (int32_t i = 0; program->verbs[i]; i++) {
-    if (!program->verbs[i]->kind_options) print_verb(program->verbs[i], NULL);
-    for (int64_t k = 0; program->verbs[i]->kind_options && hooke_part_kind(k); k++)
-      print_verb(program->verbs[i], hooke_part_kind(k));
-  }
+  const int code = print_verbs(program);
+  if (code != HOOKE_EXIT_DONE) return code;
   printf("  esac\n"
          "  if [[ $current == -* || ! $operand ]]; then\n"
          "    _hooke_words \"$options\"\n"
@@ -156,4 +167,5 @@ void hooke_completion_print_bash(const struct hooke_program *program) {
          "  fi\n"
          "}\n"
          "complete -F _hooke hooke\n");
+  return HOOKE_EXIT_DONE;
 }

@@ -4,7 +4,7 @@
 
 #include "program.h"
 
-/* Prints a script for bash: verbs, kinds, options and their words, and files. */
-void hooke_completion_print_bash(const struct hooke_program *program);
+/* Prints a script for bash: verbs, kinds, options and their words, and files. The exit code, of what is reported already. */
+int hooke_completion_print_bash(const struct hooke_program *program);
 
 #endif

@@ -255,7 +255,7 @@ static int tell(const struct limit *l) {
     print_json(l);
   else
     print_words(l);
-  fflush(stdout);
+  hooke_print_flush();
   if (l->interrupted) {
     hooke_report_words(l->arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;

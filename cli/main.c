@@ -6,6 +6,7 @@
 #include "report.h"
 #include "usage.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -22,13 +23,15 @@ static const struct hooke_verb *const verbs[] = {&hooke_verb_make,
                                                  &hooke_verb_verify,
                                                  NULL};
 
-static void print_version(const struct hooke_program *program) {
+static int print_version(const struct hooke_program *program) {
   (void)program;
   hooke_usage_print_version(stdout);
+  return HOOKE_EXIT_DONE;
 }
 
-static void print_help(const struct hooke_program *program) {
+static int print_help(const struct hooke_program *program) {
   hooke_usage_print_all(stdout, program);
+  return HOOKE_EXIT_DONE;
 }
 
 static const struct hooke_program_row rows[] = {
@@ -105,8 +108,7 @@ static int do_row(const struct hooke_program_row *row, const char *value) {
     fprintf(stderr, "hooke: --%s wants a word after it: %s\n", row->name, row->value);
     return HOOKE_EXIT_USAGE;
   }
-  row->print(&program);
-  return HOOKE_EXIT_DONE;
+  return row->print(&program);
 }
 
 static int do_words(int argc, char **argv) {
@@ -120,12 +122,19 @@ static int do_words(int argc, char **argv) {
   return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
 }
 
+static int end_output(int answer) {
+  const int error = hooke_print_flush();
+  if (error == 0 && !ferror(stdout)) return answer;
+  fputs("hooke: could not write to standard output", stderr);
+  if (error) fprintf(stderr, ": %s", strerror(error));
+  fputc('\n', stderr);
+  return answer == HOOKE_EXIT_DONE ? HOOKE_EXIT_IO : answer;
+}
+
 int main(int argc, char **argv) {
   (void)hooke_io_own_process(); /* nothing to keep HDF5 from in a build without it */
-  int answer = do_words(argc, argv);
-  if (fflush(stdout) != 0 || ferror(stdout)) {
-    fputs("hooke: could not write to standard output\n", stderr);
-    if (answer == HOOKE_EXIT_DONE) answer = HOOKE_EXIT_IO;
-  }
-  return answer;
+#ifdef SIGXFSZ
+  signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is told as every failed write */
+#endif
+  return end_output(do_words(argc, argv));
 }

@@ -116,10 +116,12 @@ static void print_heading(const struct hooke_verb *verb, const char *operand) {
   printf(".SS hooke %s %s [options]\n", verb->name, operand);
 }
 
-static void print_kind(const struct hooke_verb *verb, int64_t kind) {
+/* Each function here that tells of a verb returns an exit code, of what is reported already. */
+static int print_kind(const struct hooke_verb *verb, int64_t kind) {
   struct hooke_arguments arguments = {.verb = verb};
   char example[HOOKE_DOC_SIZE], words[2 * HOOKE_DOC_SIZE];
-  if (hooke_arguments_collect(verb, hooke_part_kind(kind), &arguments) == HOOKE_EXIT_DONE) {
+  const int code = hooke_arguments_collect(verb, hooke_part_kind(kind), &arguments);
+  if (code == HOOKE_EXIT_DONE) {
     print_heading(verb, hooke_part_kind(kind));
     snprintf(words, sizeof words, "Makes a %s: %s.", hooke_part_kind(kind), hooke_part_kind_summary(kind));
     print_paragraph(words);
@@ -128,12 +130,14 @@ static void print_kind(const struct hooke_verb *verb, int64_t kind) {
     print_command(hooke_describe_example(&arguments, example));
   }
   hooke_arguments_destroy(&arguments);
+  return code;
 }
 
-static void print_verb(const struct hooke_verb *verb) {
+static int print_verb(const struct hooke_verb *verb) {
   struct hooke_arguments arguments = {.verb = verb};
   char words[HOOKE_DOC_SIZE];
-  if (hooke_arguments_collect(verb, NULL, &arguments) == HOOKE_EXIT_DONE) {
+  int code = hooke_arguments_collect(verb, NULL, &arguments);
+  if (code == HOOKE_EXIT_DONE) {
     print_heading(verb, hooke_describe_operand(verb));
     print_paragraph(verb->text);
     print_own(&arguments, 0);
@@ -145,12 +149,13 @@ static void print_verb(const struct hooke_verb *verb) {
     }
   }
   hooke_arguments_destroy(&arguments);
-  for (int64_t kind = 0; verb->kind_options && hooke_part_kind(kind); kind++)
-    print_kind(verb, kind);
+  for (int64_t kind = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(kind); kind++)
+    code = print_kind(verb, kind);
+  return code;
 }
 
 /* What all verbs take, from one that takes it all. */
-static void print_options(const struct hooke_program *program) {
+static int print_options(const struct hooke_program *program) {
   const struct hooke_verb all = {.name = program->verbs[0]->name};
   struct hooke_arguments arguments = {.verb = &all};
   char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE], words[HOOKE_DOC_SIZE];
@@ -161,7 +166,8 @@ static void print_options(const struct hooke_program *program) {
     snprintf(words, sizeof words, "%s--%s", row->letter ? letter : "", row->name);
     print_item(words, row->value ? row->value : "", row->doc);
   }
-  if (hooke_arguments_collect(&all, NULL, &arguments) == HOOKE_EXIT_DONE) {
+  const int code = hooke_arguments_collect(&all, NULL, &arguments);
+  if (code == HOOKE_EXIT_DONE) {
     printf(".PP\nAll verbs take:\n");
     print_own(&arguments, 1);
     printf(".SS Options of a run\n");
@@ -180,6 +186,7 @@ static void print_options(const struct hooke_program *program) {
     print_table(&arguments, arguments.limits);
   }
   hooke_arguments_destroy(&arguments);
+  return code;
 }
 
 /* ---- the page ---- */
@@ -258,13 +265,15 @@ static void print_end(const struct hooke_program *program) {
   print_paragraph("h5dump(1), python3(1)");
 }
 
-void hooke_man_print(const struct hooke_program *program) {
+int hooke_man_print(const struct hooke_program *program) {
+  int code = HOOKE_EXIT_DONE;
   print_top(program);
   print_synopsis(program);
   print_description(program);
   print_title("verbs");
-  for (int32_t i = 0; program->verbs[i]; i++)
-    print_verb(program->verbs[i]);
-  print_options(program);
-  print_end(program);
+  for (int32_t i = 0; program->verbs[i] && code == HOOKE_EXIT_DONE; i++)
+    code = print_verb(program->verbs[i]);
+  if (code == HOOKE_EXIT_DONE) code = print_options(program);
+  if (code == HOOKE_EXIT_DONE) print_end(program);
+  return code;
 }

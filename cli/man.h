@@ -4,7 +4,8 @@
 
 #include "program.h"
 
-/* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if that is set, else today. */
-void hooke_man_print(const struct hooke_program *program);
+/* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if that is set, else today. The exit code, of what is
+ * reported already. */
+int hooke_man_print(const struct hooke_program *program);
 
 #endif

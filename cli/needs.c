@@ -1,6 +1,7 @@
 /* hooke needs: what a scene needs for a wanted accuracy, and a lean scene without the rest. */
 #include "needs_results.h"
 #include "output_file.h"
+#include "print.h"
 #include "report.h"
 #include "watch.h"
 
@@ -41,15 +42,15 @@ static int find(struct hooke_needs_results *results, int32_t *stopped) {
 
 /* ---- the lean scene ---- */
 
-static char *command_of(const char *file) {
-  char *command = NULL;
+/* HOOKE_NO_MEMORY */
+static int32_t make_command(const char *file, char **command) {
   size_t size;
-  FILE *stream = open_memstream(&command, &size);
-  if (!stream) return NULL;
-  fputs("hooke run ", stream);
-  hooke_print_quoted(stream, file);
-  fclose(stream);
-  return command;
+  FILE *stream = open_memstream(command, &size);
+  if (stream) {
+    fputs("hooke run ", stream);
+    hooke_print_quoted(stream, file);
+  }
+  return hooke_print_end(stream, command);
 }
 
 static int write_lean(struct hooke_needs_results *results) {
@@ -63,8 +64,8 @@ static int write_lean(struct hooke_needs_results *results) {
     return hooke_exit_code(status);
   }
   results->written = output;
-  results->command = command_of(output);
-  return HOOKE_EXIT_DONE;
+  if (make_command(output, &results->command) == HOOKE_OK) return HOOKE_EXIT_DONE;
+  return hooke_report_missing_words(results->arguments);
 }
 
 static int write_report(const struct hooke_needs_results *results, int code) {
@@ -85,7 +86,7 @@ static int tell(struct hooke_needs_results *results, int32_t stopped) {
     hooke_needs_results_print_json(results);
   else
     hooke_needs_results_print(results);
-  fflush(stdout);
+  hooke_print_flush();
   code = write_report(results, code);
   if (!stopped) return code;
   hooke_report_words(results->arguments, "interrupted; kept: what is known so far");

@@ -1,5 +1,8 @@
 #include "print.h"
 
+#include "hooke.h"
+
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +39,21 @@ void hooke_print_quoted(FILE *file, const char *text) {
     }
   }
   fputc('\'', file);
+}
+
+int hooke_print_flush(void) {
+  static int first; /* what could not be written is not held back any longer */
+  errno = 0;
+  if (fflush(stdout) != 0 && first == 0) first = errno;
+  return first;
+}
+
+int32_t hooke_print_end(FILE *stream, char **text) {
+  const int fine = stream && !ferror(stream);
+  if (stream && fclose(stream) == 0 && fine && *text) return HOOKE_OK;
+  free(*text);
+  *text = NULL;
+  return HOOKE_NO_MEMORY;
 }
 
 void hooke_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text) {

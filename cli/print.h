@@ -13,6 +13,13 @@ const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
 /* Text with control characters replaced, so that a title or a file name cannot steer a terminal. */
 void hooke_print_text(FILE *file, const char *text);
 
+/* Writes what is held back of standard output, so that words on standard error come after it. 0, or the number of the system's
+ * error: the first one there was. */
+int hooke_print_flush(void);
+
+/* Closes a stream of open_memstream(), which may be NULL. HOOKE_NO_MEMORY, and `text` is NULL, unless it holds all. */
+int32_t hooke_print_end(FILE *stream, char **text);
+
 /* Text as one word of a shell command, quoted if it has to be. */
 void hooke_print_quoted(FILE *file, const char *text);
 

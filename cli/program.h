@@ -11,7 +11,7 @@ struct hooke_program_row {
   char letter;       /* 0: none */
   const char *value; /* the word that has to follow; NULL: none */
   const char *doc;
-  void (*print)(const struct hooke_program *program);
+  int (*print)(const struct hooke_program *program); /* an exit code */
 };
 
 struct hooke_program {

@@ -68,6 +68,11 @@ void hooke_report_words(const struct hooke_arguments *arguments, const char *for
   say(arguments, message);
 }
 
+int hooke_report_missing_words(const struct hooke_arguments *arguments) {
+  hooke_report_words(arguments, "out of memory: a command to type is left out");
+  return hooke_exit_code(HOOKE_NO_MEMORY);
+}
+
 static int32_t is_set_by(const struct hooke_setting *settings, const char *name) {
   for (; settings->name; settings++) {
     if (settings->text && strcmp(settings->name, name) == 0) return 1;

@@ -24,6 +24,9 @@ int hooke_report_status(const struct hooke_arguments *arguments, int32_t status)
 void hooke_report_words(const struct hooke_arguments *arguments, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* There was no memory for a part of what is printed; the rest is. */
+int hooke_report_missing_words(const struct hooke_arguments *arguments);
+
 /* An option of a run that a command is to have. */
 struct hooke_setting {
   const char *name, *text; /* text NULL: not wanted after all */

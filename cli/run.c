@@ -27,8 +27,8 @@ struct run {
   int32_t kept_place;   /* 1: of an interrupted run, a checkpoint or a frame to go on from */
   struct hooke_watch watch;
   double duration;
-  int64_t frames; /* reported so far */
-  int32_t write_failed;
+  int64_t frames;       /* reported so far */
+  int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
   hooke_why
       *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
@@ -63,8 +63,8 @@ static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
-  if (run->trajectory && hooke_trajectory_write(run->trajectory, step, state) != HOOKE_OK) {
-    run->write_failed = 1;
+  if (run->trajectory) run->write_status = hooke_trajectory_write(run->trajectory, step, state);
+  if (run->write_status != HOOKE_OK) {
     keep_message(run);
     return 1;
   }
@@ -75,9 +75,9 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   (void)step;
-  if (!run->trajectory || hooke_trajectory_checkpoint(run->trajectory, run->integrator, state) == HOOKE_OK)
-    return 0;
-  run->write_failed = 1;
+  if (run->trajectory)
+    run->write_status = hooke_trajectory_checkpoint(run->trajectory, run->integrator, state);
+  if (run->write_status == HOOKE_OK) return 0;
   keep_message(run);
   return 1;
 }
@@ -123,10 +123,11 @@ static int32_t prepare(struct run *run) {
 /* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and nobody from
  * numbers that are not finite. */
 static void keep_place(struct run *run) {
-  if (run->outcome != HOOKE_STOPPED || run->write_failed || !run->trajectory) return;
+  if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
-  run->write_failed = run->kept_place == HOOKE_IO_FAILED || run->kept_place == HOOKE_NO_MEMORY;
-  if (run->write_failed) keep_message(run);
+  if (run->kept_place != HOOKE_IO_FAILED && run->kept_place != HOOKE_NO_MEMORY) return;
+  run->write_status = run->kept_place;
+  keep_message(run);
 }
 
 /* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
@@ -142,6 +143,15 @@ static int32_t write_companion(struct run *run) {
   return HOOKE_OK;
 }
 
+/* The outcome stays what it is without an explanation. */
+static void find_why(struct run *run) {
+  const int32_t status = hooke_why_create(run->integrator, &run->why);
+  if (status == HOOKE_OK)
+    snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
+  if (status == HOOKE_NO_MEMORY)
+    hooke_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
+}
+
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
 static int integrate(struct run *run) {
   hooke_watch_start(&run->watch, run->arguments);
@@ -152,21 +162,20 @@ static int integrate(struct run *run) {
   if (run->was_finished) return HOOKE_EXIT_DONE;
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
-  if (run->outcome != HOOKE_OK && !run->write_failed) keep_message(run);
+  if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
   hooke_watch_end(&run->watch);
   run->energy_after = state_energy(run);
   keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
-  if (run->write_failed) return hooke_report(run->arguments, HOOKE_EXIT_IO, "%s", run->message);
+  if (run->write_status != HOOKE_OK)
+    return hooke_report(run->arguments, hooke_exit_code(run->write_status), "%s", run->message);
   int code = hooke_exit_code(run->outcome);
   if (status != HOOKE_OK && (run->outcome >= 0 || code == HOOKE_EXIT_DIVERGED)) {
     if (run->outcome != HOOKE_OK) hooke_report_words(run->arguments, "%s", run->message);
     return hooke_report_status(run->arguments, status);
   }
-  if (code == HOOKE_EXIT_DIVERGED && hooke_why_create(run->integrator, &run->why) == HOOKE_OK) {
-    snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
-  }
+  if (code == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
@@ -331,7 +340,8 @@ static void explain(const struct run *run) {
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
                      hooke_format_number(hooke_state_time(run->setup.state), text), kept);
   if (run->why == NULL) return;
-  hooke_advice_print(stderr, arguments, run->why, 1);
+  if (hooke_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK)
+    (void)hooke_report_missing_words(arguments);
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
@@ -347,7 +357,7 @@ static int run_and_tell(struct run *run) {
     print_summary(run);
     if (with_final) print_final(run->setup.state);
   }
-  fflush(stdout);
+  hooke_print_flush();
   if (coincident > 0 && !run->arguments->quiet) {
     hooke_report_words(run->arguments,
                        "%" PRId64

@@ -80,11 +80,12 @@ static const char *setting(const struct hooke_study_results *results, const char
   return isnan(value) ? NULL : hooke_format_number(value, text);
 }
 
-static void find_command(struct hooke_study_results *results) {
+/* HOOKE_NO_MEMORY */
+static int32_t find_command(struct hooke_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
   size_t size;
   const char *method = hooke_study_recommendation_text(results->study, "method");
-  if (!method || !hooke_study_results_recommend(results)) return;
+  if (!method || !hooke_study_results_recommend(results)) return HOOKE_OK;
   struct hooke_setting settings[] = {{"method", method},
                                      {"step", setting(results, "step", step)},
                                      {"rtol", setting(results, "rtol", rtol)},
@@ -93,10 +94,9 @@ static void find_command(struct hooke_study_results *results) {
                                      {NULL, NULL}};
   /* the study sets it to the number of atol, whatever the scene says */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
-  FILE *file = open_memstream(&results->command, &size);
-  if (!file) return;
-  hooke_report_command(file, results->arguments, "run", settings);
-  fclose(file);
+  FILE *stream = open_memstream(&results->command, &size);
+  if (stream) hooke_report_command(stream, results->arguments, "run", settings);
+  return hooke_print_end(stream, &results->command);
 }
 
 /* ---- results ---- */
@@ -135,7 +135,7 @@ static int tell(struct hooke_study_results *results, const char *output) {
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row takes no older file's place */
   if (hooke_study_row_count(results->study) == 0) output = NULL;
-  find_command(results);
+  const int32_t found = find_command(results);
   if (arguments->json) {
     hooke_study_results_print_json(results);
   } else {
@@ -147,7 +147,7 @@ static int tell(struct hooke_study_results *results, const char *output) {
     hooke_print_text(stdout, output);
     printf("\n");
   }
-  fflush(stdout);
+  hooke_print_flush();
   if (written != HOOKE_OK) hooke_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {
     hooke_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
@@ -155,6 +155,7 @@ static int tell(struct hooke_study_results *results, const char *output) {
                        output && written == HOOKE_OK ? output : "");
   }
   if (written != HOOKE_OK) return hooke_exit_code(written);
+  if (found != HOOKE_OK) return hooke_report_missing_words(arguments);
   return results->interrupted ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_DONE;
 }
 

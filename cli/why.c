@@ -85,9 +85,11 @@ static int32_t read_output(struct why *why) {
 
 /* ---- telling ---- */
 
-static void print_json(const struct why *why) {
+/* HOOKE_NO_MEMORY if a command is missing. */
+static int32_t print_json(const struct why *why) {
   const hooke_why *found = why->why;
   struct hooke_json json;
+  int32_t status = HOOKE_OK;
   hooke_json_begin(&json, stdout);
   hooke_json_text(&json, "cause", found ? hooke_why_text(found, "cause") : NULL);
   hooke_json_number(&json, "time", found ? hooke_why_number(found, "time") : why->time);
@@ -108,7 +110,8 @@ static void print_json(const struct why *why) {
   hooke_json_close(&json);
   hooke_json_open(&json, "advice", '[');
   for (int64_t k = 0; found && k < hooke_why_advice_count(found); k++) {
-    char *command = hooke_advice_command(why->arguments, found, k);
+    char *command;
+    if (hooke_advice_command(why->arguments, found, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     hooke_json_open(&json, NULL, '{');
     hooke_json_text(&json, "change", hooke_why_advice_text(found, k, "change"));
     hooke_json_text(&json, "command", command);
@@ -116,6 +119,7 @@ static void print_json(const struct why *why) {
     free(command);
   }
   hooke_json_end(&json);
+  return status;
 }
 
 static void print_number(const char *label, double value, const char *unit) {
@@ -146,13 +150,14 @@ static void print_springs(const hooke_why *found) {
   if (count > MOST_SPRINGS_SHOWN) printf("%-12sand %" PRId64 " more\n", "", count - MOST_SPRINGS_SHOWN);
 }
 
-static void print_words(const struct why *why) {
+/* HOOKE_NO_MEMORY if a command is missing. */
+static int32_t print_words(const struct why *why) {
   const hooke_why *found = why->why;
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
     printf("the run did not blow up: it is '%s' at t = %s s\n", why->status,
            hooke_format_number(why->time, text));
-    return;
+    return HOOKE_OK;
   }
   printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));
   printf("%-12s", "what");
@@ -166,7 +171,7 @@ static void print_words(const struct why *why) {
     printf("%-12s%.0f\n", "particle", hooke_why_number(found, "particle"));
   print_springs(found);
   printf("\n");
-  hooke_advice_print(stdout, why->arguments, found, INT64_MAX);
+  return hooke_advice_print(stdout, why->arguments, found, INT64_MAX);
 }
 
 /* 1 if an option of a run was given: then it is another run than that of the output. */
@@ -179,9 +184,9 @@ static int32_t is_another_run(const struct hooke_arguments *arguments) {
 
 static int find_out(struct why *why) {
   const struct hooke_arguments *arguments = why->arguments;
-  int32_t status = HOOKE_OK;
-  if (hooke_record_open(arguments->scene, &why->record) == HOOKE_OK)
-    why->status = hooke_record_text(why->record, "status");
+  int32_t status = hooke_record_open(arguments->scene, &why->record);
+  if (status == HOOKE_NO_MEMORY) return hooke_report_status(arguments, status);
+  if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
   if (why->record && !is_another_run(arguments)) {
     status = read_output(why);
   } else {
@@ -192,11 +197,8 @@ static int find_out(struct why *why) {
   if (why->code != HOOKE_EXIT_DONE) return why->code;
   if (status == HOOKE_STOPPED) return hooke_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  if (arguments->json)
-    print_json(why);
-  else
-    print_words(why);
-  return HOOKE_EXIT_DONE;
+  status = arguments->json ? print_json(why) : print_words(why);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_missing_words(arguments);
 }
 
 static int do_why(const struct hooke_arguments *arguments) {

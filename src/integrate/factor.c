@@ -339,7 +339,8 @@ int32_t hooke_factor_compute(struct hooke_factor *x, const double *diagonal,
   add_springs(x, tangent);
   add_bending(x, alpha);
   add_altitude(x, altitude);
-  return hooke_cholmod_compute(x->cholmod, &x->matrix) && fill_triangle(x);
+  const int32_t positive = hooke_cholmod_compute(x->cholmod, &x->matrix);
+  return positive == 1 ? fill_triangle(x) : positive;
 }
 
 /* ---- solutions ---- */

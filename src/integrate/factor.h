@@ -23,8 +23,8 @@ int64_t hooke_factor_memory(const struct hooke_factor *factor); /* bytes */
 int64_t hooke_factor_numbers(const struct hooke_factor *factor);
 double hooke_factor_products(const struct hooke_factor *factor); /* multiplications that computing it takes */
 
-/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 0 where rounding or numbers
- * that are not finite leave it not positive, or where there is no memory. */
+/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 1; 0 where rounding or numbers
+ * that are not finite leave it not positive; HOOKE_NO_MEMORY. */
 int32_t hooke_factor_compute(struct hooke_factor *factor, const double *diagonal,
                              const struct hooke_tangent *tangent,
                              const struct hooke_altitude_tangent *altitude, double alpha);

@@ -3,6 +3,7 @@
 #if HOOKE_HAVE_CHOLMOD
 
 #include "core/memory.h"
+#include "core/status.h"
 
 #include <cholmod.h>
 
@@ -79,7 +80,10 @@ const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *x) {
 
 int32_t hooke_cholmod_compute(struct hooke_cholmod *x, const struct hooke_columns *matrix) {
   cholmod_sparse sparse = view(matrix);
-  return cholmod_factorize(&sparse, x->factor, &x->common) && x->common.status == CHOLMOD_OK;
+  const int fine = cholmod_factorize(&sparse, x->factor, &x->common);
+  if (x->common.status == CHOLMOD_OUT_OF_MEMORY)
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a factor of %d unknowns", (int)matrix->size);
+  return fine && x->common.status == CHOLMOD_OK;
 }
 
 struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *x) {

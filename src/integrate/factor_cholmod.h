@@ -28,7 +28,7 @@ void hooke_cholmod_destroy(struct hooke_cholmod *cholmod);
 /* Of each column of the factor: how many numbers it has. */
 const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *cholmod);
 
-/* 0 where the matrix proves not to be positive or there is no memory; numbers that are not finite may come out as such. */
+/* 1; 0 where the matrix proves not to be positive; HOOKE_NO_MEMORY. Numbers that are not finite may come out as such. */
 int32_t hooke_cholmod_compute(struct hooke_cholmod *cholmod, const struct hooke_columns *matrix);
 
 /* L as it was last computed, L L^T the matrix; CHOLMOD's memory, valid until then. */

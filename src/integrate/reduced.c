@@ -324,8 +324,10 @@ static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, dou
     }
   }
   *before += solution->iterations;
-  if (!hooke_reduced_factorise(reduced)) return solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
-  return solve_whole(reduced, b, tolerance, most, x, solution);
+  const int32_t positive = hooke_reduced_factorise(reduced);
+  if (positive < 0) return positive;
+  return positive ? solve_whole(reduced, b, tolerance, most, x, solution)
+                  : solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
 }
 
 /* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with the factor of
@@ -359,7 +361,7 @@ int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced) {
 int32_t hooke_reduced_factorise(struct hooke_reduced *reduced) {
   const int32_t positive = hooke_factor_compute(reduced->whole, reduced->block, &reduced->tangent,
                                                 reduced->altitude, reduced->alpha);
-  reduced->whole_state = positive ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
+  reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
 }
 

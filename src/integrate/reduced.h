@@ -52,7 +52,8 @@ int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, doub
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced);
-/* Factorises S where it was last set; solutions are scaled by it until it is dropped. 0 if it is not positive. */
+/* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
+ * positive; HOOKE_NO_MEMORY. */
 int32_t hooke_reduced_factorise(struct hooke_reduced *reduced);
 void hooke_reduced_drop_factor(struct hooke_reduced *reduced);
 

@@ -56,11 +56,14 @@ static void forget(struct solver *s) {
 }
 
 /* S of the present place, if that is due; where it is not positive, its blocks have to do from now on. */
-static void renew(struct solver *s, int due) {
-  if (!s->direct || !due) return;
-  s->direct = s->may_be_direct = hooke_reduced_factorise(&s->reduced);
+static int32_t renew(struct solver *s, int due) {
+  if (!s->direct || !due) return HOOKE_OK;
+  const int32_t positive = hooke_reduced_factorise(&s->reduced);
+  if (positive < 0) return positive;
+  s->direct = s->may_be_direct = positive;
   s->solves = 0;
   s->excess = 0.0;
+  return HOOKE_OK;
 }
 
 static double cost_by_blocks(const struct solver *s, double iterations) {
@@ -148,11 +151,17 @@ static int32_t minimise(struct solver *s, double tolerance, struct hooke_solutio
 
 /* Once more with a new factor, if the one at hand is old or there was none. */
 static int32_t find(struct solver *s, double tolerance, struct hooke_solution *solution) {
-  renew(s, s->direct && (s->solves == 0 || is_due(s)));
-  const int32_t status = minimise(s, tolerance, solution);
+  int32_t status = renew(s, s->direct && (s->solves == 0 || is_due(s)));
+  if (status == HOOKE_OK) status = minimise(s, tolerance, solution);
   if (status != HOOKE_OK || solution->converged || !s->direct || s->solves == 1) return status;
-  renew(s, 1);
-  return minimise(s, tolerance, solution);
+  status = renew(s, 1);
+  return status == HOOKE_OK ? minimise(s, tolerance, solution) : status;
+}
+
+/* What the solver is told of a failure; it has one number for all of them. */
+static int failed(struct hooke_sundials *own, int32_t status) {
+  if (status == HOOKE_NO_MEMORY) own->no_memory = 1;
+  return SUNLS_ATIMES_FAIL_UNREC;
 }
 
 static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector b, realtype tolerance) {
@@ -164,13 +173,14 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
   N_Vector y;
   s->iterations = 0;
   if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_MEM_NULL;
-  if (hooke_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y)) != HOOKE_OK)
-    return SUNLS_ATIMES_FAIL_UNREC;
+  int32_t status = hooke_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
+  if (status != HOOKE_OK) return failed(own, status);
   hooke_reduced_set(&s->reduced, t, gamma * gamma, gamma);
   take(s, b, gamma);
-  if (hooke_reduced_right(&s->reduced, s->bq, s->bv, s->right) != HOOKE_OK) return SUNLS_ATIMES_FAIL_UNREC;
   struct hooke_solution solution;
-  if (find(s, tolerance, &solution) != HOOKE_OK) return SUNLS_ATIMES_FAIL_UNREC;
+  status = hooke_reduced_right(&s->reduced, s->bq, s->bv, s->right);
+  if (status == HOOKE_OK) status = find(s, tolerance, &solution);
+  if (status != HOOKE_OK) return failed(own, status);
   give(s, gamma, x);
   return solution.converged ? SUNLS_SUCCESS : SUNLS_CONV_FAIL;
 }

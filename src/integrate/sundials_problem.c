@@ -87,6 +87,7 @@ void hooke_sundials_load(hooke_integrator *it, const hooke_state *state) {
   hooke_unknowns_load(it, &own->unknowns, state, N_VGetArrayPointer(own->y));
   hooke_sundials_linear_begin(it);
   own->before = it->count;
+  own->no_memory = 0;
   own->message[0] = '\0';
 }
 
@@ -120,7 +121,7 @@ int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int fla
   const struct hooke_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
   /* GMRES takes its scratch before the first step; the number is that of ARKODE as well */
-  if (own->spare.taken || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
+  if (own->spare.taken || own->no_memory || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
                       "%s gave up at t = %.17g s: %.*s; try other tolerances, or a fixed-step method", solver,

@@ -25,8 +25,9 @@ struct hooke_sundials {
   SUNLinearSolver linear;
   SUNNonlinearSolver nonlinear;
   struct hooke_order_choice *choice; /* of cvode-bdf where it chooses its highest order, else NULL */
-  struct hooke_counts before;        /* counts when the solver's own were last set to zero */
-  char message[512];                 /* the solver's last complaint */
+  int32_t no_memory;          /* a linear solve of this run was without, which the solver cannot tell */
+  struct hooke_counts before; /* counts when the solver's own were last set to zero */
+  char message[512];          /* the solver's last complaint */
 };
 
 /* Makes integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and room for products of

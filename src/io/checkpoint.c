@@ -5,11 +5,13 @@
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/bytes.h"
 #include "io/checkpoint_file.h"
 #include "io/checkpoint_form.h"
 #include "io/place.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -39,40 +41,49 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state,
   return hooke_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
 }
 
-static int write_some(FILE *file, uint32_t *check, const void *bytes, int64_t count) {
-  *check = hooke_crc32(*check, bytes, count);
-  return fwrite(bytes, 1, (size_t)count, file) == (size_t)count;
+/* Where the next bytes go; each function returns 0 or the number of the system's error. */
+struct sink {
+  int descriptor;
+  int64_t at;
+  uint32_t check;
+};
+
+static int write_some(struct sink *sink, const void *bytes, int64_t count) {
+  const int error = hooke_bytes_write(sink->descriptor, sink->at, count, bytes);
+  sink->check = hooke_crc32(sink->check, bytes, count);
+  sink->at += count;
+  return error;
 }
 
-static int write_numbers(FILE *file, uint32_t *check, int64_t count, const double *value) {
+static int write_numbers(struct sink *sink, int64_t count, const double *value) {
   unsigned char bytes[8 * CHUNK];
-  int fine = 1;
-  for (int64_t done = 0; done < count && fine; done += CHUNK) {
+  int error = 0;
+  for (int64_t done = 0; done < count && error == 0; done += CHUNK) {
     const int64_t some = count - done < CHUNK ? count - done : CHUNK;
     hooke_checkpoint_pack_numbers(some, value + done, bytes);
-    fine = write_some(file, check, bytes, 8 * some);
+    error = write_some(sink, bytes, 8 * some);
   }
-  return fine;
+  return error;
 }
 
-static int write_all(FILE *file, const struct hooke_checkpoint_header *header, const hooke_state *state) {
+static int write_all(int descriptor, const struct hooke_checkpoint_header *header, const hooke_state *state) {
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER], end[HOOKE_CHECKPOINT_END];
-  uint32_t check = 0;
+  struct sink sink = {.descriptor = descriptor};
   hooke_checkpoint_pack(header, bytes);
-  if (!write_some(file, &check, bytes, sizeof bytes)) return 0;
-  if (!write_numbers(file, &check, (state->has_v ? 2 : 1) * state->size, state->q)) return 0;
+  int error = write_some(&sink, bytes, sizeof bytes);
+  if (error == 0) error = write_numbers(&sink, (state->has_v ? 2 : 1) * state->size, state->q);
   for (int k = 0; k < HOOKE_CHECKPOINT_END; k++)
-    end[k] = (unsigned char)(check >> 8 * k);
-  return fwrite(end, 1, sizeof end, file) == sizeof end && fflush(file) == 0;
+    end[k] = (unsigned char)(sink.check >> 8 * k);
+  return error ? error : write_some(&sink, end, sizeof end);
 }
 
 static int32_t write_file(const char *path, const char *temporary,
                           const struct hooke_checkpoint_header *header, const hooke_state *state) {
   unlink(temporary);
-  FILE *file = fopen(temporary, "wx");
-  if (file == NULL) return hooke_place_fail(path, "create the file", errno);
-  int error = write_all(file, header, state) ? 0 : errno;
-  if (fclose(file) != 0 && error == 0) error = errno;
+  const int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
+  int error = write_all(descriptor, header, state);
+  if (close(descriptor) != 0 && error == 0) error = errno;
   return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
 }
 

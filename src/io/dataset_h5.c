@@ -120,6 +120,11 @@ int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char 
   return check_storage(path, name, data->id, count);
 }
 
+/* Not there, unless there was no memory to look. */
+static int32_t absent(const struct hooke_h5_guard *guard, const char *path) {
+  return guard->no_memory ? hooke_h5_fail(guard, path, "look which arrays it has") : HOOKE_OK;
+}
+
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
   char part[LONGEST_PATH];
@@ -127,9 +132,9 @@ int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char 
   if (strlen(name) >= sizeof part) return HOOKE_OK;
   for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
     snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
-    if (!hooke_dataset_is_there(file, part)) return HOOKE_OK;
+    if (!hooke_dataset_is_there(file, part)) return absent(guard, path);
   }
-  if (!hooke_dataset_is_there(file, name)) return HOOKE_OK;
+  if (!hooke_dataset_is_there(file, name)) return absent(guard, path);
   return hooke_dataset_open(guard, file, path, name, data);
 }
 

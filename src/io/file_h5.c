@@ -33,7 +33,9 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
     length = strcspn(text, "'");
   }
   snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
-  guard->no_memory = entry->maj_num == H5E_RESOURCE;
+  /* some of its parts say so in words alone */
+  guard->no_memory =
+      entry->maj_num == H5E_RESOURCE || strstr(entry->desc, "memory allocation failed") != NULL;
   return 0;
 }
 
@@ -75,9 +77,13 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
   errno = guard->error;
 }
 
+/* HDF5 was without memory, or we were as it called us. */
+static int was_without_memory(const struct hooke_h5_guard *guard) {
+  return guard->no_memory || (hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY);
+}
+
 int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
-  const int ours = hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY;
-  if (guard->no_memory || ours) return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
+  if (was_without_memory(guard)) return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
   return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
                     guard->reason);
 }
@@ -107,9 +113,10 @@ int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, dou
   if (status != HOOKE_OK) return status;
   file->list = hooke_h5_access_list(&file->error);
   file->id = file->list < 0 ? -1 : H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, file->list);
-  if (file->id < 0)
-    status = file->error ? hooke_place_fail(path, "create the file", file->error)
-                         : hooke_h5_fail(guard, path, "create the file");
+  if (file->id < 0) /* looking whether the file is there leaves an error, too */
+    status = file->error && !was_without_memory(guard)
+                 ? hooke_place_fail(path, "create the file", file->error)
+                 : hooke_h5_fail(guard, path, "create the file");
   return status;
 }
 

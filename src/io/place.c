@@ -69,8 +69,8 @@ int hooke_place_open(const char *path) {
   return -1;
 }
 
-static int sync_path(const char *path, int flags) {
-  int descriptor = open(path, flags);
+static int sync_path(const char *path) {
+  int descriptor = open(path, O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return -1;
   int result = fsync(descriptor);
   int error = errno;
@@ -99,8 +99,7 @@ int32_t hooke_place_is(const char *path, int descriptor) {
   return compare(path, &there, descriptor);
 }
 
-/* The names of a folder's files are data of the folder. */
-static int sync_folder_of(const char *path) {
+static int open_folder_of(const char *path) {
   const char *slash = strrchr(path, '/');
   char *folder = hooke_new(slash - path + 2, 1);
   if (folder == NULL) {
@@ -108,8 +107,14 @@ static int sync_folder_of(const char *path) {
     return -1;
   }
   memcpy(folder, path, (size_t)(slash - path) + 1);
-  int result = sync_path(folder, O_RDONLY | O_DIRECTORY);
+  const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   hooke_free(folder);
+  return descriptor;
+}
+
+/* The names of a folder's files are data of the folder. */
+static int sync_folder(int folder) {
+  const int result = fsync(folder);
   /* some file systems cannot do this for a folder; the rename is then as durable as they make it */
   return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
 }
@@ -126,19 +131,27 @@ int32_t hooke_place_take(const char *place, char **temporary) {
   return hooke_place_take_and_keep(place, NULL, temporary);
 }
 
-int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary) {
-  HOOKE_KEEP_ERRNO;
-  if (sync_path(*temporary, O_RDONLY) != 0)
-    return hooke_place_fail(place, "bring the data to the disk", errno);
+static int32_t take(const char *place, const char *previous, char **temporary, int folder) {
   /* a folder that cannot do this is found out before anything is replaced */
-  if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
+  if (sync_folder(folder) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
   if (previous && rename(place, previous) != 0 && errno != ENOENT)
     return hooke_place_fail(place, "keep the file that was there", errno);
   if (rename(*temporary, place) != 0) return hooke_place_fail(place, "take this name", errno);
   hooke_free(*temporary);
   *temporary = NULL;
-  if (sync_folder_of(place) != 0) return hooke_place_fail(place, "bring the name to the disk", errno);
-  return HOOKE_OK;
+  if (sync_folder(folder) == 0) return HOOKE_OK;
+  return hooke_place_fail(place, "bring the name to the disk, though the new file is in place", errno);
+}
+
+int32_t hooke_place_take_and_keep(const char *place, const char *previous, char **temporary) {
+  HOOKE_KEEP_ERRNO;
+  if (sync_path(*temporary) != 0) return hooke_place_fail(place, "bring the data to the disk", errno);
+  /* opened once, so that nothing but the disk can fail when the file has its name */
+  const int folder = open_folder_of(place);
+  if (folder < 0) return hooke_place_fail(place, "open its folder", errno);
+  const int32_t status = take(place, previous, temporary, folder);
+  close(folder);
+  return status;
 }
 
 static int32_t write_bytes(const char *path, const char *temporary, const char *bytes, int64_t length) {

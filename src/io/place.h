@@ -13,7 +13,9 @@ int32_t hooke_place_fail(const char *path, const char *what, int error);
  * failure, too. HOOKE_IO_FAILED if something other than a regular file is there, HOOKE_NO_MEMORY. */
 int32_t hooke_place_find(const char *path, char **place, char **temporary);
 
-/* Brings the closed file `temporary` to the disk and gives it the name `place`; then frees and clears `temporary`. */
+/* Brings the closed file `temporary` to the disk and gives it the name `place`; then frees and clears `temporary`. A failure
+ * leaves the file that was there, but for one: where only the name does not come to the disk the new file is in place, and the
+ * message says so. */
 int32_t hooke_place_take(const char *place, char **temporary);
 
 /* The same, the file that was there before being kept as `previous`. If that is as far as it comes, there is only the latter. */

@@ -1,6 +1,8 @@
 /* What pages tell alike: when, where and with what they were made, and steps. */
+#include "core/status.h"
 #include "io/report.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,12 +10,14 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The processor's name as Linux tells it; "" elsewhere. */
-static void find_processor(char *name, size_t size) {
+/* The processor's name as Linux tells it; "" elsewhere. HOOKE_NO_MEMORY. */
+static int32_t find_processor(char *name, size_t size) {
   char line[256];
   name[0] = '\0';
   FILE *file = fopen("/proc/cpuinfo", "r");
-  if (file == NULL) return;
+  if (file == NULL && errno == ENOMEM)
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to describe the machine");
+  if (file == NULL) return HOOKE_OK;
   while (name[0] == '\0' && fgets(line, sizeof line, file)) {
     const char *colon = strchr(line, ':');
     if (strncmp(line, "model name", 10) != 0 || colon == NULL) continue;
@@ -21,12 +25,14 @@ static void find_processor(char *name, size_t size) {
     snprintf(name, size, "%.*s", (int)strcspn(colon, "\n"), colon);
   }
   fclose(file);
+  return HOOKE_OK;
 }
 
 static void add_machine(struct hooke_text *text) {
   char processor[256], kernel[160] = "";
   struct utsname name;
-  find_processor(processor, sizeof processor);
+  if (text->status == HOOKE_OK) text->status = find_processor(processor, sizeof processor);
+  if (text->status != HOOKE_OK) return;
   if (uname(&name) == 0) snprintf(kernel, sizeof kernel, "%.64s, %.64s", name.sysname, name.machine);
   const long cores = sysconf(_SC_NPROCESSORS_ONLN);
   hooke_text_open(text, "machine", '{');

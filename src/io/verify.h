@@ -24,6 +24,7 @@ struct hooke_verify {
   const char *verdict, *balance;
   char difference[512];
   int64_t checked;
+  double time_from, time_to; /* of the frames `from` and `to` */
   double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
   double check_scene, check_last;
 };

@@ -46,6 +46,10 @@ struct attempt {
 /* 1 if the call did not come to what was expected; the first time for a fault it may be made again. */
 int32_t attempt_failed(struct attempt *a, int32_t status, int32_t expected, const char *call);
 
+/* The same of what says why in words of its own. */
+int32_t attempt_failed_saying(struct attempt *a, int32_t status, int32_t expected, const char *call,
+                              const char *message);
+
 void attempt_wrong(struct attempt *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* What came out. */

@@ -19,6 +19,9 @@ void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *block);
 int __wrap_fsync(int descriptor);
 char *__real_realpath(const char *path, char *resolved);
+char *__real_strdup(const char *text);
+char *__real_strndup(const char *text, size_t most);
+FILE *__real_open_memstream(char **text, size_t *size);
 FILE *__real_fopen(const char *path, const char *mode);
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*work)(void *),
                           void *ctx);
@@ -29,6 +32,9 @@ void *__wrap_realloc(void *block, size_t size);
 void *__wrap_aligned_alloc(size_t alignment, size_t size);
 void __wrap_free(void *block);
 char *__wrap_realpath(const char *path, char *resolved);
+char *__wrap_strdup(const char *text);
+char *__wrap_strndup(const char *text, size_t most);
+FILE *__wrap_open_memstream(char **text, size_t *size);
 FILE *__wrap_fopen(const char *path, const char *mode);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*work)(void *),
                           void *ctx);
@@ -83,6 +89,21 @@ char *__wrap_realpath(const char *path, char *resolved) {
   char *real = __real_realpath(path, resolved);
   if (resolved == NULL) counted(real);
   return real;
+}
+
+char *__wrap_strdup(const char *text) {
+  return fails() ? NULL : counted(__real_strdup(text));
+}
+
+char *__wrap_strndup(const char *text, size_t most) {
+  return fails() ? NULL : counted(__real_strndup(text, most));
+}
+
+/* The text is its caller's block. */
+FILE *__wrap_open_memstream(char **text, size_t *size) {
+  FILE *stream = fails() ? NULL : __real_open_memstream(text, size);
+  if (stream) atomic_fetch_add(&blocks, 1);
+  return stream;
 }
 
 /* Nothing here is about power failures, and a disk may take its time. */

@@ -61,42 +61,43 @@ end:
 }
 
 /* Functions that allocate scratch. */
-static void ask(struct attempt *a, const hooke_system *system) {
-  static double out[3 * COUNT], block[2][9 * COUNT * COUNT], number[64], bound;
-  static int64_t index[2][COUNT * COUNT + COUNT + 1];
+static void ask_everything(struct attempt *a, const hooke_system *system) {
+  static double vectors[3 * COUNT], stiffness_blocks[9 * COUNT * COUNT], damping_blocks[9 * COUNT * COUNT],
+      numbers[64], bound;
+  static int64_t row_starts[COUNT * COUNT + COUNT + 1], columns[COUNT * COUNT + COUNT + 1], ends[64];
   int64_t blocks = 0;
   hooke_state *state = NULL, *other = NULL;
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_state_create(system, &other));
   TRY(a, hooke_state_copy(state, other));
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(other);
-  TRY(a, hooke_system_force(system, 0.1, q, v, out));
-  attempt_numbers(a, 3 * COUNT, out);
-  TRY(a, hooke_system_acceleration(system, 0.1, q, v, out));
-  attempt_numbers(a, 3 * COUNT, out);
-  TRY(a, hooke_system_derivative_product(system, 0.1, q, v, q, v, out));
-  attempt_numbers(a, 3 * COUNT, out);
-  TRY(a, hooke_system_derivative_pattern(system, index[0], index[1]));
-  TRY(a, hooke_system_derivative_blocks(system, q, v, block[0], block[1]));
+  TRY(a, hooke_system_force(system, 0.1, q, v, vectors));
+  attempt_numbers(a, 3 * COUNT, vectors);
+  TRY(a, hooke_system_acceleration(system, 0.1, q, v, vectors));
+  attempt_numbers(a, 3 * COUNT, vectors);
+  TRY(a, hooke_system_derivative_product(system, 0.1, q, v, q, v, vectors));
+  attempt_numbers(a, 3 * COUNT, vectors);
+  TRY(a, hooke_system_derivative_pattern(system, row_starts, columns));
+  TRY(a, hooke_system_derivative_blocks(system, q, v, stiffness_blocks, damping_blocks));
   TRY(a, (blocks = hooke_system_block_count(system)) < 0 ? HOOKE_NO_MEMORY : HOOKE_OK);
-  attempt_numbers(a, 9 * blocks, block[0]);
-  TRY(a, hooke_system_spring_ends(system, index[0]));
-  TRY(a, hooke_system_spring_material(system, number, NULL, number + 32));
-  attempt_numbers(a, hooke_system_spring_count(system), number);
-  TRY(a, hooke_system_bending_ends(system, index[0]));
-  TRY(a, hooke_system_bending_coefficient(system, number));
-  TRY(a, hooke_system_altitude_ends(system, index[0]));
-  TRY(a, hooke_system_altitude_material(system, number, NULL, number + 32));
-  TRY(a, hooke_system_altitude_lengths(system, q, number));
-  attempt_numbers(a, hooke_system_altitude_count(system), number);
+  attempt_numbers(a, 9 * blocks, stiffness_blocks);
+  TRY(a, hooke_system_spring_ends(system, ends));
+  TRY(a, hooke_system_spring_material(system, numbers, NULL, numbers + 32));
+  attempt_numbers(a, hooke_system_spring_count(system), numbers);
+  TRY(a, hooke_system_bending_ends(system, ends));
+  TRY(a, hooke_system_bending_coefficient(system, numbers));
+  TRY(a, hooke_system_altitude_ends(system, ends));
+  TRY(a, hooke_system_altitude_material(system, numbers, NULL, numbers + 32));
+  TRY(a, hooke_system_altitude_lengths(system, q, numbers));
+  attempt_numbers(a, hooke_system_altitude_count(system), numbers);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     TRY(a, hooke_step_bound(system, hooke_method_name(k), q, &bound));
     attempt_number(a, bound);
   }
   attempt_number(a, hooke_system_energy(system, q, v));
   attempt_number(a, hooke_system_dissipated_power(system, q, v));
-  hooke_system_momentum(system, v, number);
-  hooke_system_angular_momentum(system, q, v, number);
+  hooke_system_momentum(system, v, numbers);
+  hooke_system_angular_momentum(system, q, v, numbers);
   attempt_number(a, (double)hooke_system_coincident_springs(system, q));
 end:
   hooke_state_destroy(state);
@@ -115,7 +116,7 @@ static void by_hand(struct attempt *a, const void *with) {
   add_drives(a, system);
   if (a->gave_up) goto end;
   TRY(a, hooke_system_commit(system));
-  ask(a, system);
+  ask_everything(a, system);
 end:
   hooke_system_destroy(system);
 }

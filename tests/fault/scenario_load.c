@@ -42,6 +42,11 @@ static const struct scene scenes[] = {
                      " {\"particles\": [1], \"motion\": \"table\", \"time\": [0, 1], \"position\": [[0, 0, "
                      "0], [0, 0.1, 0]]}],\n"
                      "\"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 1}}\n"},
+    {"stiff.json",
+     "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1.1,0,0]], \"mass\": 1, \"pinned\": [0]},\n"
+     "\"springs\": [{\"between\": [[0,1]], \"law\": \"length\", \"stiffness\": 1000, \"rest_length\": 1}],\n"
+     "\"run\": {\"method\": \"symplectic-euler\", \"step\": 0.1, \"duration\": 100, \"every\": 1}}\n"},
+    {"wrong.json", "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0]], \"mass\": [1, -2]}}\n"},
     {"mesh.json", "{\"hooke\": 1, \"parts\": [{\"kind\": \"mesh\", \"file\": \"sheet.obj\", \"mass\": 0.05, "
                   "\"transform\": {\"scale\": 0.5,\n"
                   "  \"translate\": [0, 1, 0]}, \"pinned\": [0], \"structural\": {\"stiffness\": 20}, "

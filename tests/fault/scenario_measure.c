@@ -34,15 +34,10 @@ static int32_t go_along(hooke_limit *limit, const hooke_state *start, hooke_stat
 
 static void limit(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 5);
-  hooke_options *options = NULL, *run = system ? make_run(a, NULL, 1e-4, 2e-4, 0.0) : NULL;
-  hooke_limit *limit = NULL;
+  hooke_options *run = system ? make_run(a, NULL, 1e-4, 2e-4, 0.0) : NULL;
+  hooke_limit *limit = run ? make_limit(a, system, run, with == NULL) : NULL;
   hooke_state *state = NULL, *other = NULL;
-  if (run == NULL) goto end;
-  TRY(a, hooke_limit_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "predict", with == NULL));
-  TRY(a, hooke_options_set_number(options, "accuracy", 0.1));
-  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
-  TRY(a, hooke_limit_create(system, run, options, &limit));
+  if (limit == NULL) goto end;
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_state_create(system, &other));
   TRY(a, hooke_limit_find(limit, state));
@@ -62,7 +57,6 @@ end:
   hooke_state_destroy(other);
   hooke_state_destroy(state);
   hooke_limit_destroy(limit);
-  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -102,13 +96,10 @@ end:
 
 static void needs(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 4);
-  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL, *options = NULL;
-  hooke_needs *needs = NULL;
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL;
+  hooke_needs *needs = make_needs(a, system, run);
   (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_needs_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "want", 1e-2));
-  TRY(a, hooke_needs_create(system, run, options, &needs));
+  if (needs == NULL) goto end;
   TRY(a, hooke_needs_find(needs));
   TRY(a, hooke_needs_refine(needs));
   for (int64_t k = 0; k < hooke_needs_row_count(needs); k++) {
@@ -120,21 +111,16 @@ static void needs(struct attempt *a, const void *with) {
   attempt_number(a, (double)hooke_system_spring_count(hooke_needs_lean(needs)));
 end:
   hooke_needs_destroy(needs);
-  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
 
 static void study(struct attempt *a, const void *with) {
   hooke_system *system = make_oscillator(a);
-  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.05, 0.01) : NULL, *options = NULL;
-  hooke_study *study = NULL;
+  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.05, 0.01) : NULL;
+  hooke_study *study = make_study(a, system, run, "symplectic-euler,rk4,cvode-adams");
   (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_study_options_create(&options));
-  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4,cvode-adams"));
-  TRY(a, hooke_options_set_number(options, "points", 6));
-  TRY(a, hooke_study_create(system, run, options, &study));
+  if (study == NULL) goto end;
   TRY(a, hooke_study_run(study));
   for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
     attempt_text(a, hooke_study_text(study, k, "status"));
@@ -145,7 +131,6 @@ static void study(struct attempt *a, const void *with) {
   TRY(a, hooke_study_recommend(study, 1e-3));
 end:
   hooke_study_destroy(study);
-  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -164,11 +149,9 @@ end:
 static void compare(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.02, 0.01) : NULL;
-  hooke_comparison *comparison = NULL;
+  hooke_comparison *comparison = make_comparison(a, system, run, "verlet");
   (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_comparison_create(system, run, &comparison));
-  TRY(a, hooke_comparison_add(comparison, "verlet"));
+  if (comparison == NULL) goto end;
   TRY(a, hooke_comparison_add(comparison, "cvode-bdf"));
   TRY(a, hooke_comparison_run(comparison));
   for (int64_t k = 0; k < hooke_comparison_row_count(comparison); k++) {

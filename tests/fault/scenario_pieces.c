@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { PATH_SIZE = 512 };
+
 int32_t scenario_is_built(const struct scenario *scenario) {
   char word[16];
   int length = 0;
@@ -51,8 +53,98 @@ end:
   return NULL;
 }
 
+hooke_study *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                        const char *methods) {
+  hooke_options *options = NULL;
+  hooke_study *study = NULL;
+  if (run == NULL) return NULL;
+  TRY(a, hooke_study_options_create(&options));
+  TRY(a, hooke_options_set_text(options, "methods", methods));
+  TRY(a, hooke_options_set_number(options, "points", 6));
+  TRY(a, hooke_study_create(system, run, options, &study));
+end:
+  hooke_options_destroy(options);
+  return study;
+}
+
+hooke_comparison *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                                  const char *method) {
+  hooke_comparison *comparison = NULL;
+  if (run == NULL) return NULL;
+  TRY(a, hooke_comparison_create(system, run, &comparison));
+  TRY(a, hooke_comparison_add(comparison, method));
+  return comparison;
+end:
+  hooke_comparison_destroy(comparison);
+  return NULL;
+}
+
+hooke_needs *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run) {
+  hooke_options *options = NULL;
+  hooke_needs *needs = NULL;
+  if (run == NULL) return NULL;
+  TRY(a, hooke_needs_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "want", 1e-2));
+  TRY(a, hooke_needs_create(system, run, options, &needs));
+end:
+  hooke_options_destroy(options);
+  return needs;
+}
+
+hooke_limit *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                        int32_t predict) {
+  hooke_options *options = NULL;
+  hooke_limit *limit = NULL;
+  if (system == NULL) return NULL;
+  TRY(a, hooke_limit_options_create(&options));
+  TRY(a, hooke_options_set_number(options, "predict", predict));
+  TRY(a, hooke_options_set_number(options, "accuracy", 0.1));
+  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
+  TRY(a, hooke_limit_create(system, run, options, &limit));
+end:
+  hooke_options_destroy(options);
+  return limit;
+}
+
 void take_state(struct attempt *a, const hooke_state *state) {
   attempt_number(a, hooke_state_time(state));
   attempt_numbers(a, hooke_state_size(state), hooke_state_position(state));
   if (hooke_state_velocity(state)) attempt_numbers(a, hooke_state_size(state), hooke_state_velocity(state));
+}
+
+/* ---- files ---- */
+
+const char *path_of(const struct attempt *a, const char *name) {
+  static _Thread_local char path[2][PATH_SIZE];
+  static _Thread_local int turn;
+  turn = !turn;
+  snprintf(path[turn], PATH_SIZE, "%s/%s", strncmp(name, "out.", 4) == 0 ? a->out : a->folder, name);
+  return path[turn];
+}
+
+void read_back(struct attempt *a, const char *path, const hooke_system *system, int64_t frames) {
+  static double numbers[3 * 2000];
+  hooke_record *record = NULL;
+  hooke_state *state = NULL;
+  int64_t rows, columns;
+  TRY(a, hooke_record_open(path, &record));
+  TRY(a, hooke_state_create(system, &state));
+  if (hooke_record_frame_count(record) != frames)
+    attempt_wrong(a, "%lld frames were written, and %lld are there", (long long)frames,
+                  (long long)hooke_record_frame_count(record));
+  for (int64_t k = 0; k < frames; k++) {
+    TRY(a, hooke_record_read(record, k, state));
+    take_state(a, state);
+  }
+  TRY(a, hooke_record_size(record, "kinetic_energy", &rows, &columns));
+  TRY(a, hooke_record_numbers(record, "kinetic_energy", numbers));
+  attempt_numbers(a, frames, numbers);
+  TRY(a, hooke_record_numbers(record, "mass", numbers));
+  attempt_number(a, numbers[0]);
+  attempt_text(a, hooke_record_text(record, "status"));
+  attempt_text(a, hooke_record_text(record, "scene"));
+  attempt_text(a, hooke_options_text(hooke_record_options(record), "method"));
+end:
+  hooke_state_destroy(state);
+  hooke_record_close(record);
 }

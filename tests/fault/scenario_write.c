@@ -6,43 +6,6 @@
 
 enum { PATH_SIZE = 512, FRAMES = 5 };
 
-static const char *path_of(const struct attempt *a, const char *name) {
-  static _Thread_local char path[2][PATH_SIZE];
-  static _Thread_local int turn;
-  turn = !turn;
-  snprintf(path[turn], PATH_SIZE, "%s/%s", strncmp(name, "out.", 4) == 0 ? a->out : a->folder, name);
-  return path[turn];
-}
-
-/* ---- reading back ---- */
-
-static void read_back(struct attempt *a, const char *path, const hooke_system *system, int64_t frames) {
-  static double numbers[3 * 2000];
-  hooke_record *record = NULL;
-  hooke_state *state = NULL;
-  int64_t rows, columns;
-  TRY(a, hooke_record_open(path, &record));
-  TRY(a, hooke_state_create(system, &state));
-  if (hooke_record_frame_count(record) != frames)
-    attempt_wrong(a, "%lld frames were written, and %lld are there", (long long)frames,
-                  (long long)hooke_record_frame_count(record));
-  for (int64_t k = 0; k < frames; k++) {
-    TRY(a, hooke_record_read(record, k, state));
-    take_state(a, state);
-  }
-  TRY(a, hooke_record_size(record, "kinetic_energy", &rows, &columns));
-  TRY(a, hooke_record_numbers(record, "kinetic_energy", numbers));
-  attempt_numbers(a, frames, numbers);
-  TRY(a, hooke_record_numbers(record, "mass", numbers));
-  attempt_number(a, numbers[0]);
-  attempt_text(a, hooke_record_text(record, "status"));
-  attempt_text(a, hooke_record_text(record, "scene"));
-  attempt_text(a, hooke_options_text(hooke_record_options(record), "method"));
-end:
-  hooke_state_destroy(state);
-  hooke_record_close(record);
-}
-
 /* ---- trajectories ---- */
 
 struct course {
@@ -119,12 +82,10 @@ end:
 static void comparison(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.004, 0.002) : NULL;
-  hooke_comparison *comparison = NULL;
+  hooke_comparison *comparison = make_comparison(a, system, run, "verlet");
   hooke_comparison_file *file = NULL;
   (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_comparison_create(system, run, &comparison));
-  TRY(a, hooke_comparison_add(comparison, "verlet"));
+  if (comparison == NULL) goto end;
   TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), system, comparison, "{}", &file));
   if (a->on_file) {
     /* a frame that cannot be written stops the run, and closing tells why */
@@ -154,57 +115,44 @@ enum kind { STUDY_H5, STUDY_CSV, STUDY_REPORT };
 static void study(struct attempt *a, const void *with) {
   const enum kind kind = *(const enum kind *)with;
   hooke_system *system = make_rope(a, 1);
-  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.004, 0.002) : NULL, *options = NULL;
-  hooke_study *study = NULL;
-  if (run == NULL) goto end;
-  TRY(a, hooke_study_options_create(&options));
-  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler"));
-  TRY(a, hooke_study_create(system, run, options, &study));
+  hooke_options *run = system ? make_run(a, NULL, 0.0, 0.004, 0.002) : NULL;
+  hooke_study *study = make_study(a, system, run, "symplectic-euler");
+  if (study == NULL) goto end;
   TRY(a, hooke_study_run(study));
   if (kind == STUDY_H5) TRY(a, hooke_study_write_h5(study, path_of(a, "out.h5"), "{}", HOOKE_OK));
   if (kind == STUDY_CSV) TRY(a, hooke_study_write_csv(study, path_of(a, "out.csv")));
   if (kind == STUDY_REPORT) TRY(a, hooke_study_write_report(study, path_of(a, "out.html"), "rope", "hooke"));
 end:
   hooke_study_destroy(study);
-  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
 
 static void limit_report(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
-  hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
+  hooke_limit *limit = make_limit(a, system, NULL, 1);
   hooke_state *state = NULL;
   (void)with;
-  if (system == NULL) goto end;
-  TRY(a, hooke_limit_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "predict", 1));
-  TRY(a, hooke_limit_create(system, NULL, options, &limit));
+  if (limit == NULL) goto end;
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_limit_find(limit, state));
   TRY(a, hooke_limit_write_report(limit, state, path_of(a, "out.html"), "rope"));
 end:
   hooke_state_destroy(state);
   hooke_limit_destroy(limit);
-  hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
 
 static void needs_report(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 2);
-  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL, *options = NULL;
-  hooke_needs *needs = NULL;
+  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL;
+  hooke_needs *needs = make_needs(a, system, run);
   (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_needs_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "want", 1e-2));
-  TRY(a, hooke_needs_create(system, run, options, &needs));
+  if (needs == NULL) goto end;
   TRY(a, hooke_needs_find(needs));
   TRY(a, hooke_needs_write_report(needs, path_of(a, "out.html"), "rope", "hooke run"));
 end:
   hooke_needs_destroy(needs);
-  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

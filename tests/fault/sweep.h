@@ -5,11 +5,11 @@
 #include "scenarios.h"
 
 struct sweep {
-  char folder[128]; /* of this test alone */
-  int32_t share,
-      first; /* if given: one in so many points of every scenario with many, from this one (0, 1, ...) on */
-  int32_t times; /* if given: what the scenario says, so many times over, if that is more */
-  int64_t wrong;
+  char folder[128];     /* of this test alone */
+  int32_t share;        /* one in so many points of every scenario with many; 0: what the scenario says */
+  int32_t share_factor; /* what the scenario says, so many times over, if that is more; 0: once */
+  int32_t first_point;  /* of those that are tried: 0, 1, ... */
+  int64_t complaints;
 };
 
 /* Makes and removes the folder and what scenarios read in it; 0 if that went well. */
@@ -26,5 +26,10 @@ typedef void sweep_point(const struct scenario *scenario, int64_t k, enum fault_
  * that no fault meets has to end in the same hash, before and after, and so has one that went on after a single fault.
  * Prints counts; fails the test at the end. */
 void sweep_all(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point);
+
+/* sweep_all() of every list there is, a test of cmocka each, between `set_up` and `tear_down`, which open and close the sweep;
+ * what main() returns. */
+int sweep_every_list(struct sweep *sweep, sweep_point *try_point, int (*set_up)(void **),
+                     int (*tear_down)(void **));
 
 #endif

@@ -20,18 +20,6 @@ static void try_point(const struct scenario *scenario, int64_t k, enum fault_rea
   if (left != 0) attempt_wrong(a, "%lld blocks are left", (long long)left);
 }
 
-#define FAILS(kind)                                                                                          \
-  static void kind##_fails(void **unused) {                                                                  \
-    (void)unused;                                                                                            \
-    sweep_all(&sweep, kind, try_point);                                                                      \
-  }
-
-FAILS(creating)
-FAILS(loading)
-FAILS(running)
-FAILS(measuring)
-FAILS(writing)
-
 static int set_up(void **unused) {
   (void)unused;
   return sweep_open(&sweep);
@@ -43,9 +31,5 @@ static int tear_down(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(creating_fails),  cmocka_unit_test(loading_fails), cmocka_unit_test(running_fails),
-      cmocka_unit_test(measuring_fails), cmocka_unit_test(writing_fails),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
+  return sweep_every_list(&sweep, try_point, set_up, tear_down);
 }

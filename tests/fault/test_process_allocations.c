@@ -30,7 +30,7 @@ static void __gcov_dump(void) {
 }
 #endif
 
-static struct sweep sweep = {.share = 60, .times = 10};
+static struct sweep sweep = {.share = 60, .share_factor = 10};
 
 /* By name, how often they crashed. */
 static struct {
@@ -107,18 +107,6 @@ static void try_point(const struct scenario *scenario, int64_t k, enum fault_rea
     attempt_wrong(a, "an allocation of %s failed, and the message is: %s", owner, a->message);
 }
 
-#define FAILS(kind)                                                                                          \
-  static void kind##_fails(void **unused) {                                                                  \
-    (void)unused;                                                                                            \
-    sweep_all(&sweep, kind, try_point);                                                                      \
-  }
-
-FAILS(creating)
-FAILS(loading)
-FAILS(running)
-FAILS(measuring)
-FAILS(writing)
-
 static int set_up(void **unused) {
   (void)unused;
   shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -136,11 +124,7 @@ static int tear_down(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(creating_fails),  cmocka_unit_test(loading_fails), cmocka_unit_test(running_fails),
-      cmocka_unit_test(measuring_fails), cmocka_unit_test(writing_fails),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
+  return sweep_every_list(&sweep, try_point, set_up, tear_down);
 }
 
 #else

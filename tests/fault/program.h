@@ -1,0 +1,7 @@
+/* What main() of cli/main.c is called in the tests of faults. */
+#ifndef FAULT_PROGRAM_H
+#define FAULT_PROGRAM_H
+
+int hooke_program_main(int argc, char **argv);
+
+#endif
