@@ -104,7 +104,7 @@ PART = Part(
              f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} && "
              f"find {COVERAGE} -name '*.gcda' -delete && "
              f"ctest --test-dir {COVERAGE} -j2 --output-on-failure -LE 'abi|layers|documents|clients|fortran' && "
-             f"python3 tests/long/coverage.py {COVERAGE}", 900, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),
+             f"python3 tests/long/coverage.py {COVERAGE}", 1200, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),
         Step("address and undefined-behaviour sanitizers, every case", preset("asan"), 2400, tests_passed),
     ],
     rows,
