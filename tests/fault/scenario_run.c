@@ -48,11 +48,11 @@ static void check_threads(struct attempt *a, int32_t wanted) {
 
 static void run(struct attempt *a, const void *with) {
   const struct with *w = with;
-  const double segments = w->threads > 1 ? 20000 : 6;
+  const double segments = w->threads > 1 ? 17500 : 6;
   hooke_system *system = make_rope(a, segments);
   const double step = w->step > 0.0 ? w->step : w->threads > 1 ? 1e-7 : 1e-4;
-  const double every = w->threads > 1 ? 4.0 * step : 0.0;
-  hooke_options *options = system ? make_run(a, w->method, step, 4.0 * step, every) : NULL;
+  const double duration = w->threads > 1 ? 2.0 * step : 4.0 * step, every = w->threads > 1 ? duration : 0.0;
+  hooke_options *options = system ? make_run(a, w->method, step, duration, every) : NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *start = NULL, *state = NULL;
   if (options == NULL) goto end;

@@ -120,7 +120,7 @@ PART = Part(
              f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} && "
              f"find {COVERAGE} -name '*.gcda' -delete && "
              f"ctest --test-dir {COVERAGE} -j2 --output-on-failure -LE 'abi|layers|documents|clients|fortran' && "
-             f"python3 tests/long/coverage.py {COVERAGE}", 900, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),
+             f"python3 tests/long/coverage.py {COVERAGE}", 1200, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),
         Step("address and undefined-behaviour sanitizers, every case",
              f"{configured('asan')} && {ctest('build/asan', f'-E {SOAKED}')} && "
              f"env -u HOOKE_LONG {ctest('build/asan', f'-R {SOAKED}')}", 1600, tests_passed),

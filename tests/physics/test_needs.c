@@ -274,11 +274,15 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
   check_ok(hooke_needs_find(needs));
   const int64_t rows = hooke_needs_row_count(needs);
   hooke_needs_destroy(needs);
+  int64_t stopped = 0;
   for (int64_t part = 0; part < 8; part++) {
     struct listener some = {.most = all.calls * part / 8};
     needs = start(system, half_a_second, 1e-3, NULL);
     hooke_needs_on_progress(needs, listen, &some);
-    check_status(hooke_needs_find(needs), HOOKE_STOPPED);
+    const int32_t status = hooke_needs_find(needs);
+    /* it is told by the clock: on a machine that was slower before there are fewer calls now */
+    check_status(status, some.calls > some.most ? HOOKE_STOPPED : HOOKE_OK);
+    stopped += status == HOOKE_STOPPED;
     check_between((double)hooke_needs_row_count(needs), 0.0, (double)rows);
     assert_null(hooke_needs_text(needs, hooke_needs_row_count(needs), "without"));
     for (int64_t row = 0; row < hooke_needs_row_count(needs); row++)
@@ -286,6 +290,7 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
     assert_true(part > 0 || isnan(hooke_needs_figure(needs, "wall_seconds")));
     hooke_needs_destroy(needs);
   }
+  check_between((double)stopped, 2.0, 8.0);
   hooke_system_destroy(system);
 }
 
