@@ -170,10 +170,14 @@ static void test_every_call_of_every_method(void **unused) {
 
 static void test_with_a_crew(void **unused) {
   (void)unused;
-  assert_true(jump_everywhere("verlet", CREWED, 2, 7) > 7);
-  assert_true(jump_everywhere("backward-euler", CREWED, 2, 41 * SHARE) > 41);
-  if (hooke_method_is_built("cvode-bdf"))
-    assert_true(jump_everywhere("cvode-bdf", CREWED, 2, 61 * SHARE) > 61);
+  const struct {
+    const char *method;
+    int64_t stride;
+  } runs[] = {{"verlet", 7}, {"backward-euler", 41 * SHARE}, {"cvode-bdf", 61 * SHARE}};
+  for (int64_t k = 0; k < 3; k++) {
+    if (!hooke_method_is_built(runs[k].method) || left_out(k, 3)) continue;
+    assert_true(jump_everywhere(runs[k].method, CREWED, 2, runs[k].stride) > runs[k].stride);
+  }
 }
 
 /* ---- first-order problems ---- */

@@ -107,7 +107,7 @@ PART = Part(
         Step("clang, address, undefined and truncation",
              f"cmake -S . -B build/long/clang-asan {PLAIN} -DCMAKE_C_COMPILER=clang '-DCMAKE_C_FLAGS={CLANG_SANITIZERS}' "
              "-DHOOKE_KERNEL_OPTIMISATION=-O1 && cmake --build build/long/clang-asan && "
-             f"{ctest('build/long/clang-asan', C_TESTS)}", 300, tests_passed,
+             f"{ctest('build/long/clang-asan', C_TESTS)}", 340, tests_passed,
              SHORTER),
         Step("valgrind",
              f"cmake -S . -B build/long/valgrind {PLAIN} -DCMAKE_C_FLAGS='-O1 -g' && cmake --build build/long/valgrind && "
