@@ -63,6 +63,13 @@ static int64_t row_count(const hooke_options *table) {
   return table ? hooke_options_row_count(table) : 0;
 }
 
+/* Asks for the words that take memory, so that they are there whenever something is printed. */
+static int has_words(const hooke_options *table) {
+  for (int64_t row = 0; row < row_count(table); row++)
+    if (!hooke_options_row(table, row, "allowed")) return 0;
+  return 1;
+}
+
 int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
                             struct hooke_arguments *arguments) {
   arguments->verb = verb;
@@ -76,7 +83,9 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
   const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
                          row_count(arguments->limits) + row_count(arguments->of_kind);
   arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
-  if (!arguments->all) return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  if (!arguments->all || !has_words(arguments->run) || !has_words(arguments->more) ||
+      !has_words(arguments->limits) || !has_words(arguments->of_kind))
+    return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
   add_table(arguments, arguments->more, NULL);
   for (int32_t i = 0; i < verb->row_count; i++)

@@ -323,8 +323,7 @@ static const char *allowed_of(struct slot *slot) {
   char allowed[TEXT_SIZE];
   if (slot->allowed) return slot->allowed;
   hooke_option_describe(slot->row, allowed, sizeof allowed);
-  slot->allowed = hooke_copy_text(allowed);
-  return slot->allowed ? slot->allowed : "what there is no memory to say";
+  return slot->allowed = hooke_copy_text(allowed);
 }
 
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
