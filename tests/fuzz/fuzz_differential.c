@@ -338,9 +338,9 @@ static void check_momentum(const struct small_scene *scene) {
 
 static const char *const methods[] = {"symplectic-euler", "forward-euler", "verlet", "rk4"};
 
-/* Backward Euler's costs as much as all others. */
-static struct stepping choose_steps(uint8_t code) {
-  struct stepping by = {.method = code % 64 == 63 ? "backward-euler" : methods[code % 4],
+/* Backward Euler's step takes as long as thousands of others where there is none. */
+static struct stepping choose_steps(uint8_t code, int may_be_long) {
+  struct stepping by = {.method = code % 64 == 63 && may_be_long ? "backward-euler" : methods[code % 4],
                         .steps = 1 + code / 4 % 3};
   by.step = code & 64 ? 0.0009765 : code & 128 ? 0.05 : 1e-5;
   return by;
@@ -390,7 +390,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   inputs += whole;
   const uint64_t hash = hash_of(data, size);
   struct expected expected;
-  expected.by = choose_steps(size > 2 ? data[2] : 0);
+  expected.by = choose_steps(size > 2 ? data[2] : 0, whole || hash % 64 == 0);
   const int32_t from = whole ? 0 : (int32_t)(hash % (uint64_t)sets), to = whole ? sets - 1 : from;
   for (first_set = from; first_set <= to; first_set++)
     check_with(data, size, first_set == from, whole || hash / 16 % 8 == 0, &expected);
