@@ -43,10 +43,11 @@ int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size) {
 
 char *hooke_copy_text(const char *text) {
   HOOKE_KEEP_ERRNO;
-  const size_t size = strlen(text ? text : "") + 1;
+  if (text == NULL) text = "";
+  const size_t size = strlen(text) + 1;
   char *copy = malloc(size);
   if (copy == NULL) no_memory((int64_t)size, 1);
-  return copy ? memcpy(copy, text ? text : "", size) : NULL;
+  return copy ? memcpy(copy, text, size) : NULL;
 }
 
 void hooke_free(void *block) {

@@ -38,13 +38,12 @@ static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t l
   struct stat there;
   (void)longest;
   if (setting == NULL) return NULL;
-  *setting->error = ENOMEM; /* of the last attempt: HDF5 looks first whether the file is there */
   struct driven *f = hooke_new(1, sizeof *f);
   if (f == NULL) return NULL;
   f->error = setting->error;
   f->descriptor = open(name, how, 0666);
   if (f->descriptor < 0 || fstat(f->descriptor, &there) != 0) {
-    *f->error = errno;
+    *f->error = errno; /* of the last attempt: HDF5 looks first whether the file is there */
     if (f->descriptor >= 0) close(f->descriptor);
     hooke_free(f);
     return NULL;

@@ -26,8 +26,7 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 
 struct hooke_h5_file {
   hid_t id;
-  hid_t
-      list; /* its access list, which holds the driver until HDF5 has closed the file: that looks at it to the last */
+  hid_t list;      /* its access list, which holds the driver: HDF5 looks at that until the file is closed */
   int error;       /* of the first write that failed while HDF5 had the file, as errno has it */
   int descriptor;  /* ours, once HDF5 is done with the file; -1: none */
   char *path;      /* where it is going to be; links followed */

@@ -25,8 +25,8 @@ void container_begin(struct container *container);
 /* Makes the file at `path` what the edits say. */
 void container_edit(struct container *container, const struct edits *edits);
 
-/* The file as a run leaves it that was killed after so many frames of 4, for those who go on with it; as it is for more. Until the next edits, who
- * opens the path opens the file and may write into it. */
+/* The file as a run leaves it that was killed after so many frames of 4, for those who go on with it; as it is for more.
+ * Until the next edits, who opens the path opens the file and may write into it. */
 void container_kill_after(int64_t frames);
 
 /* The whole of a dataset as HDF5 reads it, without the rules of hooke's readers; the caller frees it. NULL if it cannot be

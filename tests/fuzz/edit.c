@@ -1,5 +1,7 @@
 #include "edit.h"
 
+#include "random.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -39,14 +41,7 @@ double edit_double(uint64_t drawn) {
 
 /* ---- mutating ---- */
 
-static uint64_t next(uint64_t *state) {
-  uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return z ^ (z >> 31);
-}
-
-static uint64_t draw_value(uint64_t *state) {
+static uint64_t draw_value(struct random_source *state) {
   static const uint64_t whole[] = {0,
                                    1,
                                    2,
@@ -65,10 +60,10 @@ static uint64_t draw_value(uint64_t *state) {
                                    UINT64_C(1) << 61,
                                    INT64_MAX,
                                    UINT64_MAX};
-  const uint64_t kind = next(state) % 4;
-  if (kind == 0) return next(state);
-  if (kind == 1) return whole[next(state) % (sizeof whole / sizeof whole[0])];
-  const double number = edit_double(next(state));
+  const uint64_t kind = random_bits(state) % 4;
+  if (kind == 0) return random_bits(state);
+  if (kind == 1) return whole[random_bits(state) % (sizeof whole / sizeof whole[0])];
+  const double number = edit_double(random_bits(state));
   uint64_t bits;
   memcpy(&bits, &number, sizeof bits);
   return bits;
@@ -81,8 +76,8 @@ static enum edit_kind draw_kind(uint64_t r) {
   return (r >> 9) % 3 ? EDIT_VALUE : EDIT_CHECK;
 }
 
-static void draw_edit(uint64_t *state, uint8_t *at) {
-  const uint64_t value = draw_value(state), r = next(state);
+static void draw_edit(struct random_source *state, uint8_t *at) {
+  const uint64_t value = draw_value(state), r = random_bits(state);
   at[0] = (uint8_t)draw_kind(r);
   at[1] = (uint8_t)(r >> 16);
   at[2] = (uint8_t)(r >> 24);
@@ -90,9 +85,9 @@ static void draw_edit(uint64_t *state, uint8_t *at) {
   memcpy(at + 4, &value, sizeof value);
 }
 
-static void change_edit(uint64_t *state, uint8_t *at) {
+static void change_edit(struct random_source *state, uint8_t *at) {
   const uint64_t value = draw_value(state);
-  switch (next(state) % 6) {
+  switch (random_bits(state) % 6) {
   case 0:
     draw_edit(state, at);
     break;
@@ -103,23 +98,23 @@ static void change_edit(uint64_t *state, uint8_t *at) {
     LLVMFuzzerMutate(at + 4, 8, 8);
     break;
   default: /* mostly of the fields that leave the structure */
-    at[at[0] % EDIT_KINDS >= EDIT_STRUCTURES ? 1 + next(state) % 3 : 4 + next(state) % 8] =
-        (uint8_t)next(state);
+    at[at[0] % EDIT_KINDS >= EDIT_STRUCTURES ? 1 + random_bits(state) % 3 : 4 + random_bits(state) % 8] =
+        (uint8_t)random_bits(state);
   }
 }
 
 /* A structure one time in three of those that chance has it. */
-static uint8_t *choose_edit(uint64_t *state, uint8_t *list, size_t count) {
+static uint8_t *choose_edit(struct random_source *state, uint8_t *list, size_t count) {
   uint8_t *at = list;
   for (int k = 0; count > 0 && k < 3; k++) {
-    at = list + next(state) % count * EDIT_BYTES;
+    at = list + random_bits(state) % count * EDIT_BYTES;
     if (at[0] % EDIT_KINDS >= EDIT_STRUCTURES) break;
   }
   return at;
 }
 
 size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
-  uint64_t state = seed;
+  struct random_source state = {seed};
   if (most < EDIT_HEAD) return 0;
   if (size < EDIT_HEAD) memset(data + size, 0, EDIT_HEAD - size);
   if (most > EDIT_HEAD + MOST_EDITS * EDIT_BYTES) most = EDIT_HEAD + MOST_EDITS * EDIT_BYTES;
@@ -127,11 +122,11 @@ size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
   const size_t room = (most - EDIT_HEAD) / EDIT_BYTES;
   if (count > room) count = room;
   uint8_t *list = data + EDIT_HEAD;
-  for (uint64_t times = 1 + next(&state) % 3; times > 0; times--) {
-    const uint64_t what = next(&state) % 8;
+  for (uint64_t times = 1 + random_bits(&state) % 3; times > 0; times--) {
+    const uint64_t what = random_bits(&state) % 8;
     uint8_t *at = choose_edit(&state, list, count);
     if (what == 0) {
-      data[next(&state) % EDIT_HEAD] = (uint8_t)next(&state);
+      data[random_bits(&state) % EDIT_HEAD] = (uint8_t)random_bits(&state);
     } else if ((what <= 2 || count == 0) && count < room) {
       draw_edit(&state, list + count++ * EDIT_BYTES);
     } else if (what == 3 && count > 0) {

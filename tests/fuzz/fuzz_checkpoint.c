@@ -10,8 +10,8 @@
 #include "hooke.h"
 
 #include "core/crc32.h"
-#include "io/checkpoint_form.h"
 #include "io/checkpoint_file.h"
+#include "io/checkpoint_form.h"
 
 #include <fcntl.h>
 #include <math.h>

@@ -84,15 +84,9 @@ static uint64_t live_refused(const char *detail) {
   return hash;
 }
 
-static uint64_t live_integrator(const char *method) {
-  hooke_scene *scene = life_scene(SEGMENTS);
-  const int32_t fixed = is_fixed_step(method);
-  hooke_integrator *integrator = start_run(hooke_scene_system(scene), (struct run){.method = method,
-                                                                                   .step = fixed ? 1e-3 : 0.0,
-                                                                                   .duration = 0.01,
-                                                                                   .rtol = fixed ? 0.0 : 1e-6,
-                                                                                   .atol = fixed ? 0.0 : 1e-6,
-                                                                                   .threads = 2});
+static uint64_t run_life(int32_t segments, struct run run) {
+  hooke_scene *scene = life_scene(segments);
+  hooke_integrator *integrator = start_run(hooke_scene_system(scene), run);
   hooke_state *state = start_state(hooke_scene_system(scene));
   check_ok(hooke_integrator_run(integrator, state));
   const uint64_t hash = life_hash(state, HASH_START);
@@ -102,19 +96,19 @@ static uint64_t live_integrator(const char *method) {
   return hash;
 }
 
+static uint64_t live_integrator(const char *method) {
+  const int32_t fixed = is_fixed_step(method);
+  return run_life(SEGMENTS, (struct run){.method = method,
+                                         .step = fixed ? 1e-3 : 0.0,
+                                         .duration = 0.01,
+                                         .rtol = fixed ? 0.0 : 1e-6,
+                                         .atol = fixed ? 0.0 : 1e-6,
+                                         .threads = 2});
+}
+
 /* Large enough for its threads to be started. */
 static uint64_t live_crew(const char *method) {
-  hooke_scene *scene = life_scene(MANY);
-  hooke_integrator *integrator =
-      start_run(hooke_scene_system(scene),
-                (struct run){.method = method, .step = 1e-3, .duration = 0.01, .threads = 2});
-  hooke_state *state = start_state(hooke_scene_system(scene));
-  check_ok(hooke_integrator_run(integrator, state));
-  const uint64_t hash = life_hash(state, HASH_START);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_scene_destroy(scene);
-  return hash;
+  return run_life(MANY, (struct run){.method = method, .step = 1e-3, .duration = 0.01, .threads = 2});
 }
 
 static int32_t stop_halfway(int64_t step, const hooke_state *state, void *ctx) {
