@@ -47,8 +47,8 @@ static double derived(const hooke_system *system, const char *family, const char
   for (int64_t k = 0; k < hooke_system_derived_count(system); k++) {
     const char *of = hooke_system_derived_text(system, k, "family");
     assert_string_equal(hooke_system_derived_text(system, k, "part"), "part");
-    if ((family == NULL) != (of == NULL) || (of && strcmp(of, family) != 0)) continue;
-    if (strcmp(hooke_system_derived_text(system, k, "name"), name) == 0)
+    const int is_of_it = family && of ? strcmp(of, family) == 0 : family == of;
+    if (is_of_it && strcmp(hooke_system_derived_text(system, k, "name"), name) == 0)
       value = hooke_system_derived_value(system, k);
   }
   return value;
