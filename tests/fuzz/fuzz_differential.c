@@ -14,6 +14,7 @@
 #include "kernel/spring_loops.h"
 #include "model/motion.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +35,13 @@ const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set) {
   return __real_hooke_spring_set(first_set + set);
 }
 
-/* A number that is none has no sign that means anything. */
-static void require_same(int64_t count, const double *found, const double *expected, const char *what) {
+/* A number that is none has no sign that means anything. With `leaves_out` the library may have a number there: the plain loop
+ * multiplies a damping of zero by rates that may be beyond all numbers. */
+static void require_same(int64_t count, const double *found, const double *expected, int leaves_out,
+                         const char *what) {
   for (int64_t k = 0; k < count; k++) {
-    if (memcmp(found + k, expected + k, sizeof *found) == 0 || (isnan(found[k]) && isnan(expected[k])))
+    if (memcmp(found + k, expected + k, sizeof *found) == 0 ||
+        (isnan(expected[k]) && (isnan(found[k]) || leaves_out)))
       continue;
     fprintf(stderr, "%s, loops for %s: number %lld is %a, expected %a\n", what,
             __wrap_hooke_spring_set(0)->name, (long long)k, found[k], expected[k]);
@@ -59,6 +63,16 @@ static double largest(int64_t count, const double *x) {
   return most;
 }
 
+static int leaves_damping_out(const struct small_scene *scene) {
+  const struct canonical *c = &scene->canonical;
+  int some = 0;
+  for (int64_t s = 0; s < c->spring_count; s++)
+    some |= c->gamma[s] == 0.0;
+  for (int64_t t = 0; t < c->tetrahedron_count; t++)
+    some |= c->altitude[1][t] == 0.0;
+  return some && scene->extreme;
+}
+
 /* ---- sums ---- */
 
 static void check_acceleration(const struct small_scene *scene, int first, double *expected) {
@@ -67,7 +81,7 @@ static void check_acceleration(const struct small_scene *scene, int first, doubl
   hooke_fuzz_require(hooke_system_acceleration(scene->system, 0.125, scene->q, scene->v, found) == HOOKE_OK,
                      "accelerations");
   if (first) canonical_acceleration(&scene->canonical, 0.125, scene->q, scene->v, expected);
-  require_same(size, found, expected, "accelerations");
+  require_same(size, found, expected, leaves_damping_out(scene), "accelerations");
 }
 
 /* Forces by three threads, which the library does not spend on a scene this small, and by one. */
@@ -86,7 +100,7 @@ static void check_members(const struct small_scene *scene) {
     hooke_rows_from_components(scene->particles, motion->f, found[k]);
     hooke_motion_destroy(motion);
   }
-  require_same(3 * scene->particles, found[1], found[0], "forces by three threads");
+  require_same(3 * scene->particles, found[1], found[0], 0, "forces by three threads");
 }
 
 /* ---- steps ---- */
@@ -153,8 +167,9 @@ static void check_steps(const struct small_scene *scene, int first, struct stepp
   if (status == HOOKE_OK && solved) {
     if (!scene->extreme) check_solved(scene, by, q, v);
   } else if (status == HOOKE_OK) {
-    require_same(size, q, by->q, "positions after some steps");
-    require_same(size, v, by->v, "velocities after some steps");
+    const int leaves_out = leaves_damping_out(scene);
+    require_same(size, q, by->q, leaves_out, "positions after some steps");
+    require_same(size, v, by->v, leaves_out, "velocities after some steps");
   } else {
     const int allowed = status == HOOKE_DIVERGED || (solved && status == HOOKE_SOLVER_FAILED);
     if (!allowed) fprintf(stderr, "%s: %s: %s\n", by->method, hooke_status_name(status), hooke_last_error());
@@ -273,6 +288,16 @@ static void check_blocks(const struct small_scene *scene, const double *dq, cons
   }
 }
 
+/* What rounding of q may do to a force. */
+static double force_rounding(const struct small_scene *scene) {
+  const struct canonical *c = &scene->canonical;
+  const double stiffness = largest(c->spring_count, c->kappa) +
+                           4.0 * largest(c->triple_count, c->coefficient) +
+                           largest(c->tetrahedron_count, c->altitude[0]);
+  const int64_t terms = c->spring_count + 3 * c->triple_count + 4 * c->tetrahedron_count;
+  return DBL_EPSILON * (double)terms * stiffness * (1.0 + largest(3 * scene->particles, scene->q));
+}
+
 static void check_derivative(const struct small_scene *scene) {
   const int64_t size = 3 * scene->particles;
   double dq[3 * MOST_PARTICLES], dv[3 * MOST_PARTICLES], product[3 * MOST_PARTICLES];
@@ -300,7 +325,8 @@ static void check_derivative(const struct small_scene *scene) {
       "a product");
   const double whole = largest(size, product);
   for (int64_t p = 0; p < size; p++) {
-    const double allowed = 4.0 * fabs(slope[1][p] - slope[0][p]) + 1e-10 * scale / far + 1e-6 * whole;
+    const double allowed =
+        4.0 * fabs(slope[1][p] - slope[0][p]) + (1e-10 * scale + force_rounding(scene)) / far + 1e-6 * whole;
     if (!(fabs(product[p] - slope[1][p]) <= allowed))
       fprintf(stderr, "number %lld: %.17g, difference %.17g, allowed %.3g\n", (long long)p, product[p],
               slope[1][p], allowed);
