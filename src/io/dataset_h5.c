@@ -78,27 +78,26 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
   return HOOKE_OK;
 }
 
-/* An access list that refuses links to other files; negative without memory. */
-static hid_t own_links(hid_t class) {
-  hid_t list = H5Pcreate(class);
+/* An access list, of links as of datasets, that refuses links to other files; negative without memory. */
+static hid_t own_links(void) {
+  hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
   if (list >= 0 && H5Pset_elink_cb(list, refuse_link, NULL) >= 0) return list;
   hooke_h5_drop(list);
   return -1;
 }
 
 int32_t hooke_dataset_is_there(hid_t file, const char *name) {
-  hid_t list = own_links(H5P_LINK_ACCESS);
+  hid_t list = own_links();
   const int32_t there = list >= 0 && H5Lexists(file, name, list) > 0;
   hooke_h5_drop(list);
   return there;
 }
 
-int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
-                           struct hooke_dataset *data) {
+/* `list`: of own_links(), or negative. */
+static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, const char *path,
+                       const char *name, struct hooke_dataset *data) {
   *data = (struct hooke_dataset){.id = -1};
-  hid_t list = own_links(H5P_DATASET_ACCESS);
   if (list >= 0) data->id = H5Dopen2(file, name, list);
-  hooke_h5_drop(list);
   if (data->id < 0) {
     char what[256];
     snprintf(what, sizeof what, "find the dataset %.200s", name);
@@ -120,22 +119,36 @@ int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char 
   return check_storage(path, name, data->id, count);
 }
 
-/* Not there, unless there was no memory to look. */
-static int32_t absent(const struct hooke_h5_guard *guard, const char *path) {
-  return guard->no_memory ? hooke_h5_fail(guard, path, "look which arrays it has") : HOOKE_OK;
+int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
+                           struct hooke_dataset *data) {
+  hid_t list = own_links();
+  const int32_t status = open_by(list, guard, file, path, name, data);
+  hooke_h5_drop(list);
+  return status;
+}
+
+/* Each link on the way, and the last. */
+static int all_are_there(hid_t list, hid_t file, const char *name) {
+  char part[LONGEST_PATH];
+  if (strlen(name) >= sizeof part) return 0;
+  for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
+    snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
+    if (H5Lexists(file, part, list) <= 0) return 0;
+  }
+  return H5Lexists(file, name, list) > 0;
 }
 
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
-  char part[LONGEST_PATH];
+  hid_t list = own_links();
+  int32_t status = HOOKE_OK;
   *data = (struct hooke_dataset){.id = -1};
-  if (strlen(name) >= sizeof part) return HOOKE_OK;
-  for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
-    snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
-    if (!hooke_dataset_is_there(file, part)) return absent(guard, path);
-  }
-  if (!hooke_dataset_is_there(file, name)) return absent(guard, path);
-  return hooke_dataset_open(guard, file, path, name, data);
+  if (list >= 0 && all_are_there(list, file, name))
+    status = open_by(list, guard, file, path, name, data);
+  else if (guard->no_memory)
+    status = hooke_h5_fail(guard, path, "look which arrays it has");
+  hooke_h5_drop(list);
+  return status;
 }
 
 #endif
