@@ -71,8 +71,8 @@ static uint64_t draw_value(struct random_source *state) {
 
 /* Structures cost a new container, and extents a file that is opened anew. */
 static enum edit_kind draw_kind(uint64_t r) {
-  if (r % 6 == 0) return (enum edit_kind)((r >> 8) % EDIT_STRUCTURES);
-  if (r % 6 == 1 && (r >> 8) % 2) return EDIT_EXTENT;
+  if (r % 32 == 0) return (enum edit_kind)((r >> 8) % EDIT_STRUCTURES);
+  if (r % 32 <= 2) return EDIT_EXTENT;
   return (r >> 9) % 3 ? EDIT_VALUE : EDIT_CHECK;
 }
 
