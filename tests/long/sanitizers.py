@@ -77,22 +77,19 @@ def reached(text: str) -> dict[str, Any]:
             "left": [f"{file} {lines} lines, {branches} branches" for lines, branches, file in files[:12]]}  # fmt: skip
 
 
-def rows(done: dict[str, dict[str, Any]]) -> list[tuple[str, str]]:
-    told = [(name, f"{figures['tests']} test programs passed") for name, figures in done.items() if "tests" in figures]
-    if "equal bits" in done:
-        figures = done["equal bits"]
-        told.append(("hashes of all methods in the builds of two compilers at four levels",
-                     f"{figures['lines']} equal in {figures['files']} builds"))  # fmt: skip
-    if "valgrind" in done:
-        told.append(("valgrind memcheck, unit tests", f"{done['valgrind']['programs']} programs without an error or a leak"))
-    if "coverage" in done:
-        figures = done["coverage"]
-        told += [("lines of `src/` reached", f"{figures['lines']} % of {figures['of_lines']}"),
-                 ("branches of `src/` reached", f"{figures['branches']} % of {figures['of_branches']}"),
-                 ("branches left", "{} where a failure of memory, of a file or of a library is looked for, {} elsewhere".format(
-                     *figures["kinds"])),
-                 ("most left", "; ".join(figures["left"]))]  # fmt: skip
-    return told
+def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
+    if step == "equal bits":
+        return [("hashes of all methods in the builds of two compilers at four levels",
+                 f"{figures['lines']} equal in {figures['files']} builds")]  # fmt: skip
+    if step == "valgrind":
+        return [("valgrind memcheck, unit tests", f"{figures['programs']} programs without an error or a leak")]
+    if step == "coverage":
+        where = "{} where a failure of memory, of a file or of a library is looked for, {} elsewhere".format(*figures["kinds"])
+        return [("lines of `src/` reached", f"{figures['lines']} % of {figures['of_lines']}"),
+                ("branches of `src/` reached", f"{figures['branches']} % of {figures['of_branches']}"),
+                ("branches left", where),
+                ("most left", "; ".join(figures["left"]))]  # fmt: skip
+    return [(step, f"{figures['tests']} test programs passed")]
 
 
 PART = Part(

@@ -1,7 +1,8 @@
 """Runs the steps of a part of `make test-long` one after the other and keeps what is done in build/long/<part>.json.
 
 A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step that failed
-is run again. Then its figures go into docs/reliability.md, with what is missing.
+is run again. Then what each step came to last, for whatever sources, goes into docs/reliability.json, with its date and commit,
+and from there into the tables of docs/reliability.md.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / "build/long"
 PAGE = ROOT / "docs/reliability.md"
+MEASURED = ROOT / "docs/reliability.json"
 SOURCES = ("src", "include", "cli", "bindings", "cmake", "examples", "tests", "CMakeLists.txt", "CMakePresets.json")
 TELL_EVERY = 60  # [s] a line while a step takes its time
 LIMIT = 150 * 60  # [s] a part has
@@ -50,8 +52,8 @@ class Part:
     name: str
     packages: list[str]
     steps: list[Step]
-    rows: Callable[[dict[str, dict[str, Any]]], list[tuple[str, str]]]  # what and figure, from the figures of steps done
-    so_far: Callable[[], dict[str, dict[str, Any]]] = dict  # figures of steps that go on another time
+    rows: Callable[[str, dict[str, Any]], list[tuple[str, str]]]  # what and figure, from a step's name and its figures
+    so_far: Callable[[dict[str, Any]], dict[str, Any]] = lambda known: known  # with what steps have that go on another time
 
 
 def git(*arguments: str) -> str:
@@ -210,24 +212,39 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
 # ---- figures ----
 
 
-def write_figures(part: Part, state: dict[str, Any]) -> None:
-    """Between the marks of this part in the page, if it is done for these sources in part at least."""
-    done = state["done"]
-    figures = part.so_far() | {name: done[name]["figures"] for name in done}
-    if not figures:
-        return
-    dates = sorted({step["date"] for step in done.values()}) or [time.strftime("%Y-%m-%d")]
-    spent = sum(step["seconds"] for step in done.values())
-    used = sum(step["processor"] for step in done.values())
-    missing = [step.name for step in part.steps if step.name not in done]
-    lines = [f"{dates[0] if len(dates) == 1 else f'{dates[0]} to {dates[-1]}'}, commit {state['commit']}, "
-             f"{len(done)} of {len(part.steps)} steps, {spent / 60:.0f} minutes, {used / 60:.0f} of a processor."]  # fmt: skip
+def measured(part: Part, state: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Puts what is done into the file of figures; all of it that there is of the part's steps, in their order."""
+    try:
+        kept = json.loads(MEASURED.read_text())
+    except OSError:
+        kept = {}
+    here = {name: step | {"commit": state["commit"]} for name, step in state["done"].items()}
+    known = part.so_far(kept.get(part.name, {}) | here)
+    kept[part.name] = {step.name: known[step.name] for step in part.steps if step.name in known}
+    write_whole(MEASURED, json.dumps(kept, indent=1) + "\n")
+    return kept[part.name]
+
+
+def table(part: Part, known: dict[str, dict[str, Any]]) -> list[str]:
+    spent, used = (sum(step[kind] for step in known.values()) for kind in ("seconds", "processor"))
+    missing = [step.name for step in part.steps if step.name not in known]
+    lines = [f"{len(known)} of {len(part.steps)} steps, {spent / 60:.0f} minutes, {used / 60:.0f} of a processor."]
     if missing:
         lines.append("Not run yet, or failed: " + ", ".join(missing) + ".")
-    lines += ["", "| what | figure |", "| --- | --- |"]
-    lines += [f"| {what} | {figure} |" for what, figure in part.rows(figures)]
+    lines += ["", "| what | figure | measured |", "| --- | --- | --- |"]
+    for name, step in known.items():
+        lines += [f"| {what} | {figure} | {step['date']}, {step['commit']} |" for what, figure in part.rows(name, step["figures"])]
+    return lines
+
+
+def write_figures(part: Part, state: dict[str, Any]) -> None:
+    """Between the marks of this part in the page, if a step of it was ever done."""
+    known = measured(part, state)
+    if not known:
+        return
     marks = re.compile(rf"(<!-- figures of {part.name} -->\n).*?(<!-- end -->)", re.DOTALL)
-    text, count = marks.subn(lambda found: found[1] + "\n".join(lines) + "\n" + found[2], PAGE.read_text())
+    lines = "\n".join(table(part, known))
+    text, count = marks.subn(lambda found: found[1] + lines + "\n" + found[2], PAGE.read_text())
     if count != 1:
         raise SystemExit(f"{os.path.relpath(PAGE, ROOT)} has no place for the figures of {part.name}")
     write_whole(PAGE, text)
