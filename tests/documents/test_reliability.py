@@ -110,6 +110,10 @@ def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
         ("one", "1234abc"), ("two", "5678def"), ("three", "1234abc")]  # fmt: skip
     assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 8
     assert steps.PAGE.read_text().count("5678def") == 3
+    monkeypatch.setattr(steps, "sources", lambda: ("a third", "9abcdef"))
+    wrong.touch()
+    assert steps.run_part(part, "two") == 1
+    assert "2 of 3 steps" in steps.PAGE.read_text() and "Not run yet, or failed: two." in steps.PAGE.read_text()
 
 
 KILLED = """

@@ -84,7 +84,7 @@ def write_whole(path: Path, text: str) -> None:
 def load(part: Part) -> dict[str, Any]:
     """What is done for the sources as they are; of others the times alone."""
     digest, commit = sources()
-    state: dict[str, Any] = {"sources": digest, "commit": commit, "done": {}, "took": {}}
+    state: dict[str, Any] = {"sources": digest, "commit": commit, "done": {}, "took": {}, "failed": []}
     try:
         old = json.loads((KEPT / f"{part.name}.json").read_text())
         state["took"] = old["took"]
@@ -199,6 +199,7 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
     except (ValueError, LookupError, OSError) as error:
         print(f"    FAILED after {words(took)}: {error}; {os.path.relpath(log, ROOT)} ends with")
         print("\n".join("    | " + line for line in log.read_text(errors="replace").splitlines()[-15:]), flush=True)
+        state["failed"].append(step.name)
         return False
     if sources()[0] != state["sources"]:
         raise SourcesChanged
@@ -213,13 +214,14 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path
 
 
 def measured(part: Part, state: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Puts what is done into the file of figures; all of it that there is of the part's steps, in their order."""
+    """Puts what is done into the file of figures, and takes out what failed; all of the part's steps that it then has."""
     try:
         kept = json.loads(MEASURED.read_text())
     except OSError:
         kept = {}
     here = {name: step | {"commit": state["commit"]} for name, step in state["done"].items()}
-    known = part.so_far(kept.get(part.name, {}) | here)
+    before = {name: step for name, step in kept.get(part.name, {}).items() if name not in state["failed"]}
+    known = part.so_far(before | here)
     kept[part.name] = {step.name: known[step.name] for step in part.steps if step.name in known}
     write_whole(MEASURED, json.dumps(kept, indent=1) + "\n")
     return kept[part.name]
