@@ -160,11 +160,11 @@ static void add_tetrahedron(const struct canonical *canonical, int64_t number, c
   const double *const x[4] = {q + 3 * p[0], q + 3 * p[1], q + 3 * p[2], q + 3 * p[3]};
   double square[7], e[3], f[3], r[3], n[3], rf[3], re[3], u[3], g[4];
   canonical_altitudes(x, square);
-  int k = 0;
-  for (int other = 1; other < 7; other++) {
-    if (square[other] > square[k]) k = other;
+  int k = -1; /* what is beyond all numbers is no altitude */
+  for (int other = 0; other < 7; other++) {
+    if (square[other] > (k < 0 ? 0.0 : square[k])) k = other;
   }
-  if (!(square[k] > 0.0)) return;
+  if (k < 0) return;
   altitude_vectors(x, k, e, f, r);
   cross(e, f, n);
   cross(r, f, rf);
