@@ -405,7 +405,7 @@ double canonical_defect(const struct canonical *canonical, const char *method, d
     if (!is_free(canonical, k)) continue;
     const double wrong = v1[k] - (v[k] + (kicks ? h / 2.0 : h) * a[k]);
     if (!(fabs(wrong) <= defect)) defect = fabs(wrong);
-    change = fmax(change, fabs(v1[k] - v0[k]));
+    change = fmax(change, fmax(fabs(v1[k] - v0[k]), fabs(v1[k] - v[k])));
   }
   free(q);
   free(v);
