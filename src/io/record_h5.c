@@ -233,6 +233,10 @@ const char *hooke_record_path(const hooke_record *record) {
   return record->path;
 }
 
+double hooke_record_time(const hooke_record *record, int64_t frame) {
+  return record->time[frame];
+}
+
 int32_t hooke_record_is_run(const hooke_record *record) {
   return record->is_run;
 }
@@ -318,6 +322,11 @@ const char *hooke_record_text(const hooke_record *record, const char *what) {
 const char *hooke_record_path(const hooke_record *record) {
   (void)record;
   return NULL;
+}
+
+double hooke_record_time(const hooke_record *record, int64_t frame) {
+  (void)record, (void)frame;
+  return 0.0;
 }
 
 int32_t hooke_record_is_run(const hooke_record *record) {

@@ -267,26 +267,19 @@ static int32_t compare_slice(struct hooke_verify *verify) {
   return status == HOOKE_OK && verify->may_differ ? within_tolerance(verify, apart) : status;
 }
 
-/* NaN for a frame that cannot be read, of which others tell. HOOKE_NO_MEMORY. */
-static int32_t find_time(const hooke_verify *verify, int64_t frame, double *time) {
-  hooke_state *state = NULL;
-  *time = NAN;
-  int32_t status = hooke_state_create(verify->system, &state);
-  if (status == HOOKE_OK) status = hooke_record_read(verify->record, frame, state);
-  if (status == HOOKE_OK) *time = hooke_state_time(state);
-  hooke_state_destroy(state);
-  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+/* Of frames that are checked; a damaged one may have any. */
+static void find_times(hooke_verify *verify) {
+  const int64_t from = verify->from, to = verify->to;
+  verify->time_from = from < verify->checked ? hooke_record_time(verify->record, from) : NAN;
+  verify->time_to = to < verify->checked ? hooke_record_time(verify->record, to) : NAN;
 }
 
 static int32_t run_all(hooke_verify *verify) {
-  const int64_t planned = verify->to;
-  int32_t status = find_time(verify, verify->from, &verify->time_from);
-  if (status == HOOKE_OK) status = find_time(verify, verify->to, &verify->time_to);
-  if (status == HOOKE_OK) status = check_frames(verify);
+  int32_t status = check_frames(verify);
   if (status == HOOKE_OK) status = hooke_record_read(verify->record, 0, verify->first);
   if (status == HOOKE_OK) status = hooke_verify_first(verify);
   if (status == HOOKE_OK) status = compare_slice(verify);
-  if (status == HOOKE_OK && verify->to != planned) status = find_time(verify, verify->to, &verify->time_to);
+  find_times(verify); /* the last one may have come nearer */
   return status;
 }
 
