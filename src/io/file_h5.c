@@ -34,8 +34,8 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
   }
   snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
   /* some of its parts say so in words alone */
-  guard->no_memory =
-      entry->maj_num == H5E_RESOURCE || strstr(entry->desc, "memory allocation failed") != NULL;
+  guard->no_memory = entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_CANTALLOC ||
+                     strstr(entry->desc, "memory allocation failed") != NULL;
   return 0;
 }
 

@@ -23,6 +23,12 @@ static int32_t refuse(const hooke_trajectory *old, const char *what) {
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.path, what);
 }
 
+/* Without memory HDF5 does not see what is there. */
+static int32_t refuse_seen(const struct hooke_h5_guard *guard, const hooke_trajectory *old,
+                           const char *what) {
+  return guard->no_memory ? hooke_h5_fail(guard, old->file.path, "look at what it has") : refuse(old, what);
+}
+
 /* One block of bytes of the type, within the file. */
 static int is_plain(const struct hooke_dataset *data, hid_t type, double file_bytes) {
   hid_t own = H5Dget_type(data->id), list = H5Dget_create_plist(data->id);
@@ -61,7 +67,7 @@ static int32_t find_array(struct hooke_h5_guard *guard, hid_t file, hooke_trajec
     if (fits)
       recording->file.at[array] = (int64_t)H5Dget_offset(data.id);
     else
-      status = refuse(old, what);
+      status = refuse_seen(guard, old, what);
   }
   hooke_h5_drop(data.id);
   return status;
@@ -72,7 +78,7 @@ static int32_t find_springs(struct hooke_h5_guard *guard, hid_t file, const hook
   int32_t status = hooke_dataset_find(guard, file, old->file.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
       (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->recording.system)))
-    status = refuse(old, "its springs are not those of this system");
+    status = refuse_seen(guard, old, "its springs are not those of this system");
   hooke_h5_drop(data.id);
   return status;
 }
@@ -83,7 +89,7 @@ static int32_t find_all(struct hooke_h5_guard *guard, hid_t file, hooke_trajecto
     status = find_array(guard, file, old, k);
   if (status == HOOKE_OK) status = find_springs(guard, file, old);
   if (status == HOOKE_OK && hooke_h5md_find_status(file, &old->status_at) < 0)
-    status = refuse(old, "it is no trajectory of hooke");
+    status = refuse_seen(guard, old, "it is no trajectory of hooke");
   return status;
 }
 
