@@ -3,8 +3,11 @@
 import copy
 import json
 import os
+import re
 import signal
 import subprocess
+import time
+from pathlib import Path
 
 import pytest
 
@@ -93,6 +96,14 @@ def hooke(tmp_path):
         return Answer(done.returncode, done.stdout, done.stderr)
 
     return call
+
+
+def interrupt(process, after=0.0):
+    """Ctrl-C, so many seconds after the program has begun to listen for it."""
+    while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
+        time.sleep(0.01)
+    time.sleep(after)
+    process.send_signal(signal.SIGINT)
 
 
 @pytest.fixture

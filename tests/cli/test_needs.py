@@ -2,14 +2,10 @@
 
 import copy
 import json
-import re
-import signal
 import subprocess
-import time
-from pathlib import Path
 
 import pytest
-from conftest import CLI, MINIMAL, SIX_PARTICLES
+from conftest import CLI, MINIMAL, SIX_PARTICLES, interrupt
 from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, fetches, needs_browser, needs_page
 
 pytestmark = pytest.mark.everything
@@ -157,14 +153,6 @@ def long_scene():
     scene["parts"][0]["size"] = [33, 33]
     scene["run"].update(duration=2, every=0.02)
     return scene
-
-
-def interrupt(process, after):
-    """Ctrl-C, some time after the program has begun to listen for it."""
-    while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
-        time.sleep(0.01)
-    time.sleep(after)
-    process.send_signal(signal.SIGINT)
 
 
 @pytest.mark.parametrize("wait", [0.0, 0.5])

@@ -2,14 +2,12 @@
 
 import json
 import shutil
-import signal
-import time
 import zlib
 
 import h5py
 import numpy as np
 import pytest
-from conftest import METHODS, SIX_PARTICLES
+from conftest import METHODS, SIX_PARTICLES, interrupt
 
 pytestmark = pytest.mark.everything
 
@@ -229,8 +227,7 @@ def test_ctrl_c(hooke, start, write):
     write(SIX_PARTICLES, duration=40, every=10)
     assert hooke("run", "scene.json", "-o", "out.h5", "--quiet").code == 0
     process = start("verify", "out.h5", "--all", "--json")
-    time.sleep(0.1)
-    process.send_signal(signal.SIGINT)
+    interrupt(process)
     out, _ = process.communicate(timeout=60)
     assert process.returncode in (130, 0)
     if process.returncode == 130:
