@@ -122,7 +122,7 @@ static const char *without_name(const char *message, const char *name) {
 int hooke_value_set(const struct hooke_arguments *arguments, const struct hooke_argument *argument) {
   const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
-  const int code = status == HOOKE_BAD_VALUE ? hooke_refusal(arguments) : hooke_exit_code(status);
+  const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : hooke_refusal(arguments);
   return hooke_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
                       without_name(hooke_last_error(), argument->name));
 }
