@@ -75,6 +75,10 @@ static double rate_of(int64_t i, int64_t j, double dx, double dy, double dz, dou
   return ((vx * dx + vy * dy) + vz * dz) * ir;
 }
 
+static double brake(const struct canonical *canonical, double gamma, double rate) {
+  return gamma == 0.0 && canonical->leaves_out ? 0.0 : gamma * rate;
+}
+
 static void add_spring(const struct canonical *canonical, int64_t k, const double *q, const double *v,
                        const double *seen, double *force) {
   const int64_t i = canonical->ends[2 * k], j = canonical->ends[2 * k + 1];
@@ -82,8 +86,8 @@ static void add_spring(const struct canonical *canonical, int64_t k, const doubl
   const double dx = q[3 * i] - q[3 * j], dy = q[3 * i + 1] - q[3 * j + 1], dz = q[3 * i + 2] - q[3 * j + 2];
   const double r = sqrt((dx * dx + dy * dy) + dz * dz);
   const double ir = r > 0.0 ? 1.0 / r : 0.0;
-  double tension = kappa * (r - l0) + gamma * rate_of(i, j, dx, dy, dz, ir, v);
-  const double tension_seen = kappa * (r - l0) + gamma * rate_of(i, j, dx, dy, dz, ir, seen);
+  double tension = kappa * (r - l0) + brake(canonical, gamma, rate_of(i, j, dx, dy, dz, ir, v));
+  const double tension_seen = kappa * (r - l0) + brake(canonical, gamma, rate_of(i, j, dx, dy, dz, ir, seen));
   if (canonical->pull_only[k] && (r <= l0 || tension_seen < 0.0)) tension = 0.0;
   const double s = tension * ir;
   const double fx = -s * dx, fy = -s * dy, fz = -s * dz;

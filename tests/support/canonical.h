@@ -12,6 +12,7 @@ struct canonical {
   int64_t particle_count, spring_count;
   int64_t *ends;                       /* 2 spring_count */
   double *kappa, *gamma, *rest_length; /* spring_count */
+  int32_t leaves_out;                  /* springs' dampings of zero, which are multiplied, too, else */
   unsigned char *pull_only;            /* spring_count */
   int64_t triple_count;
   int64_t *triples;    /* 3 triple_count */
