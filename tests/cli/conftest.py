@@ -101,8 +101,10 @@ def hooke(tmp_path):
 def interrupt(process, after=0.0):
     """Ctrl-C, so many seconds after the program has begun to listen for it."""
     while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
+        assert process.poll() is None
         time.sleep(0.01)
     time.sleep(after)
+    assert process.poll() is None
     process.send_signal(signal.SIGINT)
 
 

@@ -4,13 +4,12 @@ import csv
 import json
 import math
 import shlex
-import signal
 import time
 from pathlib import Path
 
 import h5py
 import pytest
-from conftest import ENDLESS, MINIMAL, SIX_PARTICLES, STIFF_PAIR
+from conftest import ENDLESS, MINIMAL, SIX_PARTICLES, STIFF_PAIR, interrupt
 from references import Reference
 
 everything = pytest.mark.everything
@@ -346,7 +345,7 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
     process = start("study", write(DAMPED_CLOTH), "--json")
     time.sleep(6)
     begun = time.monotonic()
-    value = interrupt(process, 0)
+    value = interrupted(process, 0)
     assert time.monotonic() - begun < 10
     assert value["rows"] == [] and value["reference"]["agreement"] is None
 
@@ -385,10 +384,8 @@ def test_a_scene_needs_a_duration_but_no_step(hooke, write):
     assert hooke("study", write(SIX_PARTICLES, step=None), *FEW).code == 0
 
 
-def interrupt(process, after):
-    time.sleep(after)
-    assert process.poll() is None
-    process.send_signal(signal.SIGINT)
+def interrupted(process, after):
+    interrupt(process, after)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130 and b"interrupted" in err
     return json.loads(out)
@@ -398,7 +395,7 @@ def interrupt(process, after):
 def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
     """The first of the two steps takes no time, the second hours."""
     words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
-    value = interrupt(start("study", write(SIX_PARTICLES), *words), 2)
+    value = interrupted(start("study", write(SIX_PARTICLES), *words), 2)
     assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
     assert value["rows"][0]["error"] > 0 and value["rows"][1]["error"] is None
     assert value["recommendation"] is None
@@ -408,7 +405,7 @@ def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
 @everything
 def test_ctrl_c_before_the_first_row(start, write, tmp_path):
     (tmp_path / "rows.csv").write_text("of old")
-    value = interrupt(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 1)
+    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 1)
     assert value["rows"] == [] and value["reference"]["agreement"] is None
     assert (tmp_path / "rows.csv").read_text() == "of old"
 
