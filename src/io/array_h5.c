@@ -53,15 +53,13 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   char *name = hooke_new(room, 1);
   if (name == NULL) return HOOKE_NO_MEMORY;
   snprintf(name, (size_t)room, "%.*stime", folder, source->dataset);
-  struct hooke_dataset time = {.id = -1};
-  int32_t status = HOOKE_OK;
-  if (hooke_dataset_is_there(source->file, name))
-    status = hooke_dataset_open(source->guard, source->file, source->path, name, &time);
+  struct hooke_dataset time;
+  int32_t status = hooke_dataset_find(source->guard, source->file, source->path, name, &time);
   hooke_free(name);
   const int each = time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0];
   if (status == HOOKE_OK && each) status = count_timed(source, time.id, frames);
   hooke_h5_drop(time.id);
-  return each ? status : HOOKE_OK;
+  return status == HOOKE_BAD_VALUE && !each ? HOOKE_OK : status;
 }
 
 static int32_t choose_frame(const struct source *source, int64_t *frame, int32_t has_frame) {

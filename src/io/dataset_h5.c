@@ -1,3 +1,4 @@
+#include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
 
@@ -14,7 +15,9 @@
 
 /* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is a
  * trap. */
-enum { LARGEST_RATIO = 2048, LONGEST_PATH = 1024 };
+enum { LARGEST_RATIO = 2048 };
+
+static const char not_numbers[] = "is not an array of numbers";
 
 int32_t hooke_dataset_refuse(const char *path, const char *name, const char *what) {
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s %s", path, name, what);
@@ -62,8 +65,7 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
   const double bytes = type < 0 ? 0.0 : count * (double)H5Tget_size(type);
   hooke_h5_drop(type);
   hooke_h5_drop(list);
-  if (class != H5T_FLOAT && class != H5T_INTEGER)
-    return hooke_dataset_refuse(path, name, "is not an array of numbers");
+  if (class != H5T_FLOAT && class != H5T_INTEGER) return hooke_dataset_refuse(path, name, not_numbers);
   if (layout == H5D_VIRTUAL || external != 0) {
     return hooke_dataset_refuse(path, name,
                                 "keeps its numbers in another file; allowed: numbers in the file itself");
@@ -86,23 +88,17 @@ static hid_t own_links(void) {
   return -1;
 }
 
-int32_t hooke_dataset_is_there(hid_t file, const char *name) {
-  hid_t list = own_links();
-  const int32_t there = list >= 0 && H5Lexists(file, name, list) > 0;
-  hooke_h5_drop(list);
-  return there;
-}
-
 /* `list`: of own_links(), or negative. */
 static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, const char *path,
                        const char *name, struct hooke_dataset *data) {
   *data = (struct hooke_dataset){.id = -1};
-  if (list >= 0) data->id = H5Dopen2(file, name, list);
+  if (list >= 0) data->id = H5Oopen(file, name, list);
   if (data->id < 0) {
     char what[256];
     snprintf(what, sizeof what, "find the dataset %.200s", name);
     return hooke_h5_fail(guard, path, what);
   }
+  if (H5Iget_type(data->id) != H5I_DATASET) return hooke_dataset_refuse(path, name, not_numbers);
   hid_t space = H5Dget_space(data->id);
   data->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
   const int fits = data->rank >= 1 && data->rank <= 3;
@@ -127,26 +123,31 @@ int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char 
   return status;
 }
 
-/* Each link on the way, and the last. */
-static int all_are_there(hid_t list, hid_t file, const char *name) {
-  char part[LONGEST_PATH];
-  if (strlen(name) >= sizeof part) return 0;
-  for (const char *end = strchr(name + 1, '/'); end; end = strchr(end + 1, '/')) {
-    snprintf(part, sizeof part, "%.*s", (int)(end - name), name);
-    if (H5Lexists(file, part, list) <= 0) return 0;
+/* 0 also where a group on the way is not there; negative where HDF5 cannot tell. */
+static htri_t is_there(hid_t list, hid_t file, const char *name) {
+  htri_t there = H5Lexists(file, name, list);
+  char *part = there < 0 ? hooke_copy_text(name) : NULL;
+  for (char *end = part ? strchr(part + 1, '/') : NULL; end && there < 0; end = strchr(end + 1, '/')) {
+    *end = '\0';
+    if (H5Lexists(file, part, list) == 0) there = 0;
+    *end = '/';
   }
-  return H5Lexists(file, name, list) > 0;
+  hooke_free(part);
+  return there;
 }
 
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
   hid_t list = own_links();
+  const htri_t there = list < 0 ? -1 : is_there(list, file, name);
   int32_t status = HOOKE_OK;
   *data = (struct hooke_dataset){.id = -1};
-  if (list >= 0 && all_are_there(list, file, name))
+  if (there > 0)
     status = open_by(list, guard, file, path, name, data);
-  else if (guard->no_memory)
+  else if (there < 0)
     status = hooke_h5_fail(guard, path, "look which arrays it has");
+  else /* an answer, no failure */
+    guard->reason[0] = '\0', guard->no_memory = 0;
   hooke_h5_drop(list);
   return status;
 }

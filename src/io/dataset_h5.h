@@ -19,12 +19,10 @@ int32_t hooke_dataset_file(struct hooke_h5_guard *guard, const char *path, hid_t
 int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data);
 
-/* The same where there may be none, which leaves `id` at -1. */
+/* The same where there may be none, which leaves `id` at -1. HOOKE_IO_FAILED also where HDF5 cannot tell, as behind a link to
+ * another file. */
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data);
-
-/* 1 if there is a link of that name, and no link to another file on the way. */
-int32_t hooke_dataset_is_there(hid_t file, const char *name);
 
 /* Fails with HOOKE_BAD_VALUE, "path: dataset <name> <what>". */
 int32_t hooke_dataset_refuse(const char *path, const char *name, const char *what);

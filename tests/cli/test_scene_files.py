@@ -52,6 +52,24 @@ def test_every_array_may_stand_in_a_file(hooke, write, tmp_path):
     assert from_file.json["final"] == plain.json["final"]
 
 
+@pytest.mark.parametrize("group", ["/", "one/", "one/./two/", "g" * 2000 + "/"], ids=["root", "one", "two", "long"])
+@pytest.mark.parametrize("time, last", [([0, 1, numpy.nan], 1), ([0, 1, 2], 2), ([0, numpy.nan], 2), ("group", 2), (None, 2)])
+def test_frames_count_up_to_the_first_without_a_time(hooke, write, tmp_path, group, time, last):
+    """A neighbour that is no time of each frame tells nothing."""
+    positions = numpy.array(SIX_PARTICLES["particles"]["position"])
+    with h5py.File(tmp_path / "arrays.h5", "w") as file:
+        file[group + "frames"] = [positions, positions + 1, positions + 2]
+        if time == "group":
+            file.create_group(group + "time")
+        elif time:
+            file[group + "time"] = time
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["particles"]["position"] = {"file": "arrays.h5", "dataset": group + "frames", "frame": -1}
+    start_of(hooke, write(scene, step=1e-3, duration=1e-3))
+    with h5py.File(tmp_path / "start.h5") as start:
+        assert numpy.array_equal(start["/particles/all/position/value"][0], positions + last)
+
+
 @pytest.mark.parametrize(
     "key, value, place, words",
     [
@@ -62,11 +80,14 @@ def test_every_array_may_stand_in_a_file(hooke, write, tmp_path):
         ("mass", [1, 2, -3, 4, 5, 6], "particles.mass[2]", "-3 is not allowed; allowed: one or more numbers > 0"),
         ("mass", b"one", "particles.mass.dataset", "allowed"),
         ("mass", None, "particles.mass.file", "mass"),
+        ("mass", {}, "particles.mass.dataset", "dataset mass is not an array of numbers"),
     ],
 )
 def test_numbers_in_files_are_checked_alike(hooke, tmp_path, key, value, place, words):
     with h5py.File(tmp_path / "arrays.h5", "w") as file:
-        if value is not None:
+        if value == {}:
+            file.create_group(key)
+        elif value is not None:
             file[key] = value
     scene = copy.deepcopy(SIX_PARTICLES)
     scene["particles"][key] = {"file": "arrays.h5", "dataset": key}

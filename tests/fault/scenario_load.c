@@ -2,6 +2,7 @@
 #include "scenarios.h"
 
 #include "check.h"
+#include "file_copy.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +13,7 @@ struct scene {
   const char *file, *text;
 };
 
-/* Arrays are those of a trajectory that the first one is run into. */
+/* Arrays are those of a trajectory that the first one is run into; midway.h5 is what it was before the last frame. */
 static const struct scene scenes[] = {
     {"parts.json",
      "{\"hooke\": 1, \"title\": \"parts\", \"gravity\": [0, -9.81, 0], \"drag\": 0.01,\n"
@@ -59,6 +60,8 @@ static const struct scene scenes[] = {
                     "\"/particles/all/velocity/value\", \"frame\": 1}},\n"
                     "\"springs\": [{\"between\": {\"file\": \"arrays.h5\", \"dataset\": "
                     "\"/connectivity/springs\"}, \"stiffness\": 3}]}\n"},
+    {"midway.json", "{\"hooke\": 1, \"particles\": {\"mass\": 1, \"position\": {\"file\": \"midway.h5\", "
+                    "\"dataset\": \"/particles/all/position/value\", \"frame\": -1}}}\n"},
 };
 
 static const char obj[] =
@@ -80,24 +83,33 @@ static void write_text(const char *folder, const char *name, const char *text) {
   assert_int_equal(fclose(file), 0);
 }
 
+struct arrays {
+  hooke_trajectory *trajectory;
+  char path[PATH_SIZE], midway[PATH_SIZE];
+};
+
 static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
-  return hooke_trajectory_write(ctx, step, state);
+  const struct arrays *arrays = ctx;
+  if (step == 4) copy_file(arrays->path, arrays->midway);
+  return hooke_trajectory_write(arrays->trajectory, step, state);
 }
 
 static void write_arrays(const char *folder) {
+  struct arrays arrays;
   hooke_scene *scene;
   hooke_integrator *integrator;
   hooke_state *state;
-  hooke_trajectory *trajectory;
   check_ok(hooke_scene_load(name_file(folder, "parts.json"), &scene));
   check_ok(hooke_scene_commit(scene));
   check_ok(hooke_integrator_create(hooke_scene_system(scene), hooke_scene_run_options(scene), &integrator));
   check_ok(hooke_state_create(hooke_scene_system(scene), &state));
-  check_ok(hooke_trajectory_create(name_file(folder, "arrays.h5"), hooke_scene_system(scene), integrator,
-                                   hooke_scene_text(scene), &trajectory));
-  check_ok(hooke_integrator_on_frame(integrator, write_frame, trajectory));
+  snprintf(arrays.path, PATH_SIZE, "%s/arrays.h5", folder);
+  snprintf(arrays.midway, PATH_SIZE, "%s/midway.h5", folder);
+  check_ok(hooke_trajectory_create(arrays.path, hooke_scene_system(scene), integrator,
+                                   hooke_scene_text(scene), &arrays.trajectory));
+  check_ok(hooke_integrator_on_frame(integrator, write_frame, &arrays));
   check_ok(hooke_integrator_run(integrator, state));
-  check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
+  check_ok(hooke_trajectory_close(arrays.trajectory, HOOKE_OK));
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_scene_destroy(scene);
@@ -193,6 +205,7 @@ const struct scenario loading[] = {
     {"load, springs and drives", load, "springs.json", 1, "jansson", NULL},
     {"load, mesh of a file", load, "mesh.json", 1, "jansson", NULL},
     {"load, arrays of a file", load, "arrays.json", 1, "jansson hdf5", NULL},
+    {"load, last frame so far", load, "midway.json", 1, "jansson hdf5", NULL},
     {"load, scene of a trajectory", load, "arrays.h5", 1, "jansson hdf5", NULL},
     {"parse", parse, NULL, 1, "jansson", NULL},
     {"refuse a wrong scene", refuse, NULL, 1, "jansson", NULL},

@@ -1,5 +1,6 @@
 /* Trajectory files: what is written is what is read, nothing else is taken for a frame, failures are told. */
 #include "check.h"
+#include "file_copy.h"
 #include "file_limit.h"
 #include "core/memory.h"
 #include "io/array_h5.h"
@@ -137,18 +138,6 @@ static double *column(const char *path, const char *dataset, int64_t count) {
   assert_int_equal(rows, count);
   assert_int_equal(columns, 1);
   return values;
-}
-
-/* The bytes as they are now, which is what a kill would leave. */
-static void copy_file(const char *from, const char *to) {
-  char block[4096];
-  FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
-  assert_non_null(in);
-  assert_non_null(out);
-  for (size_t n; (n = fread(block, 1, sizeof block, in)) > 0;)
-    assert_int_equal(fwrite(block, 1, n, out), n);
-  fclose(in);
-  assert_int_equal(fclose(out), 0);
 }
 
 static void write_file(const char *path, const char *text) {
@@ -353,7 +342,8 @@ static void arrays_are_refused_in_words(void **state) {
   check_message("/hooke/status");
   check_status(hooke_array_read(f->path, "/nothing/here", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_message("find the dataset /nothing/here");
-  check_status(hooke_array_read(f->path, "/particles", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hooke_array_read(f->path, "/particles", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
+  check_message("/particles is not an array of numbers");
   check_status(hooke_array_read(f->folder, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_status(hooke_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_message("No such file or directory");
