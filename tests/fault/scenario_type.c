@@ -156,6 +156,9 @@ const struct scenario typing[] = {
      "jansson hdf5 lapack", NULL},
     {"type, why", type, LINE("hooke why @stiff.json"), 40, "jansson lapack", NULL},
     {"type, verify", type, LINE("hooke verify @arrays.h5 --json"), 80, "jansson hdf5", NULL},
+    {"type, limit at the last frame so far", type,
+     LINE("hooke limit @parts.json --predict --at @midway.h5:-1 --json"), 80, "jansson hdf5 lapack", NULL},
+    {"type, verify so far", type, LINE("hooke verify @midway.h5 --json"), 80, "jansson hdf5", NULL},
 #endif
     {NULL, NULL, NULL, 0, NULL, NULL},
 };
@@ -187,6 +190,9 @@ const struct scenario typing_to_files[] = {
     {"type, needs --report", type,
      LINE("hooke needs @parts.json --want 1cm --report @out.html", .only_code = 1), 9000, "jansson chartjs",
      "out.html"},
+    {"type, view so far -o", type,
+     LINE("hooke view @midway.h5 -o @out.html --json", .on_failure = "frame_stride"), 80,
+     "jansson hdf5 chartjs threejs", "out.html"},
     {"type, view -o", type, LINE("hooke view @arrays.h5 -o @out.html --json", .on_failure = "frame_stride"),
      80, "jansson hdf5 chartjs threejs", "out.html"},
 #endif
