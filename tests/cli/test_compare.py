@@ -1,12 +1,10 @@
 """hooke compare: rows, table, file, and rows that diverge."""
 
 import math
-import signal
-import time
 
 import h5py
 import pytest
-from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR
+from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR, interrupt
 
 pytestmark = pytest.mark.everything
 
@@ -126,9 +124,7 @@ def test_output_that_cannot_be_written(hooke, write, output, code):
 
 def test_ctrl_c_is_130_and_keeps_the_rows(start, write, tmp_path):
     process = start("compare", write(ENDLESS, every=1e4), "--json", "-o", "out.h5")
-    time.sleep(2)
-    assert process.poll() is None
-    process.send_signal(signal.SIGINT)
+    interrupt(process, 2)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert out.startswith(b"{") and b"interrupted" in err

@@ -7,7 +7,7 @@ import signal
 import time
 
 import pytest
-from conftest import SIX_PARTICLES, STIFF_PAIR
+from conftest import SIX_PARTICLES, STIFF_PAIR, interrupt
 
 np = pytest.importorskip("numpy")
 h5py = pytest.importorskip("h5py")
@@ -60,7 +60,7 @@ def results(out, **changed):
     return value
 
 
-def interrupt(process, seconds, number):
+def signalled(process, seconds, number):
     """What it printed, and whether it was stopped; None, and True, if the signal came before it began."""
     time.sleep(seconds)
     process.send_signal(number)
@@ -92,7 +92,7 @@ def test_interrupted_anywhere(hooke, start, write, tmp_path, name):
         for _ in range(3):
             process = start(*words, "--json", "--final", "--threads", source.choice([1, 2]))
             number = source.choice([signal.SIGINT, signal.SIGTERM])
-            out, more = interrupt(process, source.uniform(0.02, 0.7 / (1 + attempt)) * took, number)
+            out, more = signalled(process, source.uniform(0.02, 0.7 / (1 + attempt)) * took, number)
             if not more:
                 break
             if out is not None:
@@ -113,8 +113,7 @@ def interrupted(start, write, tmp_path, **run):
     while not (tmp_path / "out.h5").exists():
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
-    time.sleep(0.3)
-    process.send_signal(signal.SIGINT)
+    interrupt(process, 0.3)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     return err.decode()
@@ -143,8 +142,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_last_frame(hooke, start, write, t
     whole = (tmp_path / "out.h5.checkpoint").read_bytes()
     (tmp_path / "out.h5.checkpoint").write_bytes(whole[:1000] + b"?" + whole[1001:])
     process = start("run", "--resume", "out.h5")
-    time.sleep(0.3)
-    process.send_signal(signal.SIGINT)
+    interrupt(process, 0.3)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert b"goes on from the last whole frame, at t = " in err and b"is damaged" in err
@@ -159,8 +157,7 @@ def test_one_of_another_run_is_not_taken(hooke, start, write, tmp_path):
     interrupted(start, write, tmp_path, checkpoint=1.5)
     (tmp_path / "out.h5.checkpoint").write_bytes(old)
     process = start("run", "--resume", "out.h5")
-    time.sleep(0.3)
-    process.send_signal(signal.SIGINT)
+    interrupt(process, 0.3)
     _, err = process.communicate(timeout=60)
     assert b"goes on from the last whole frame, at t = " in err and b"is of another run" in err
 
