@@ -167,10 +167,11 @@ def run_steps(part: Part, only: str, folder: Path) -> int:
     state, failed = load(part), 0
     print(f"== {part.name} of {state['commit']}: {len(state['done'])} of {len(part.steps)} steps are done", flush=True)
     try:
-        for k, step in enumerate(part.steps, 1):
-            if step.name in state["done"] or only not in step.name:
-                continue
-            failed += not run_step(part, state, k, step, folder)
+        asked = [(k, step) for k, step in enumerate(part.steps, 1) if only in step.name]
+        waiting = [(k, step) for k, step in asked if step.name not in state["done"]]
+        for n, (k, step) in enumerate(waiting):
+            left = sum(state["took"].get(later.name, later.seconds) for _, later in waiting[n:])
+            failed += not run_step(part, state, k, step, left, folder)
     except SourcesChanged:
         print(f"the sources have changed meanwhile; start it again with them as they are: make test-long PART={part.name}")
         failed += 1
@@ -181,8 +182,8 @@ def run_steps(part: Part, only: str, folder: Path) -> int:
     return failed
 
 
-def run_step(part: Part, state: dict[str, Any], k: int, step: Step, folder: Path) -> bool:
-    left = sum(state["took"].get(s.name, s.seconds) for s in part.steps[k - 1 :] if s.name not in state["done"])
+def run_step(part: Part, state: dict[str, Any], k: int, step: Step, left: float, folder: Path) -> bool:
+    """Step `k` of the part, where the steps to be run still take `left` seconds; whether it passed."""
     began, used, log = time.monotonic(), processor_seconds(), folder / (re.sub(r"[^a-zA-Z0-9.-]+", "_", step.name) + ".log")
     print(f"[{k}/{len(part.steps)}] {step.name} (about {words(left)} left)", flush=True)
 
