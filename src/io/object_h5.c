@@ -11,6 +11,13 @@ void hooke_h5_drop(hid_t id) {
   if (id >= 0) H5Idec_ref(id);
 }
 
+hid_t hooke_h5_open_own(hid_t where, const char *name) {
+  H5L_info_t link;
+  const int is_own = where >= 0 && H5Lexists(where, name, H5P_DEFAULT) > 0 &&
+                     H5Lget_info(where, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
+  return is_own ? H5Oopen(where, name, H5P_DEFAULT) : -1;
+}
+
 /* Creates and writes an attribute; takes over `type` and `space`. */
 static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t memory, hid_t space,
                               const void *data) {

@@ -10,6 +10,10 @@
 /* Releases a handle of any kind but a file; negative ones are none. */
 void hooke_h5_drop(hid_t id);
 
+/* The object of that name in a group (or a file; negative: none) by a hard link, so one that is in this very file; negative if
+ * there is none, which is no error of HDF5's. */
+hid_t hooke_h5_open_own(hid_t where, const char *name);
+
 herr_t hooke_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);
 herr_t hooke_h5_text_attribute(hid_t object, const char *name, const char *text);
 herr_t hooke_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number);

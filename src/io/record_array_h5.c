@@ -76,19 +76,6 @@ int32_t hooke_record_numbers(hooke_record *record, const char *what, double *val
 
 /* ---- places ---- */
 
-/* 1 if no link on the way leads out of the file. */
-static int is_inside(hid_t file, const char *dataset) {
-  char path[64];
-  for (const char *end = strchr(dataset + 1, '/');; end = strchr(end + 1, '/')) {
-    snprintf(path, sizeof path, "%.*s", end ? (int)(end - dataset) : (int)sizeof path - 1, dataset);
-    H5L_info_t link;
-    if (H5Lexists(file, path, H5P_DEFAULT) <= 0 || H5Lget_info(file, path, &link, H5P_DEFAULT) < 0 ||
-        link.type != H5L_TYPE_HARD)
-      return 0;
-    if (end == NULL) return 1;
-  }
-}
-
 static int is_plain(hid_t data) {
   hid_t type = H5Dget_type(data), list = H5Dget_create_plist(data), space = H5Dget_space(data);
   const int plain = type >= 0 && list >= 0 && space >= 0 && H5Tequal(type, H5T_NATIVE_DOUBLE) > 0 &&
@@ -101,14 +88,17 @@ static int is_plain(hid_t data) {
 }
 
 void hooke_record_find_places(hooke_record *record, hid_t file) {
-  static const char *const dataset[HOOKE_PLACE_COUNT] = {"/particles/all/position/value",
-                                                         "/particles/all/velocity/value"};
+  static const char *const name[HOOKE_PLACE_COUNT] = {"position", "velocity"};
+  hid_t particles = hooke_h5_open_own(file, "particles"), all = hooke_h5_open_own(particles, "all");
   for (int k = 0; k < HOOKE_PLACE_COUNT; k++) {
-    hid_t data = is_inside(file, dataset[k]) ? H5Dopen2(file, dataset[k], H5P_DEFAULT) : -1;
+    hid_t array = hooke_h5_open_own(all, name[k]), data = hooke_h5_open_own(array, "value");
     const haddr_t at = data >= 0 && is_plain(data) ? H5Dget_offset(data) : HADDR_UNDEF;
     record->place[k] = at == HADDR_UNDEF ? -1 : (int64_t)at;
     hooke_h5_drop(data);
+    hooke_h5_drop(array);
   }
+  hooke_h5_drop(all);
+  hooke_h5_drop(particles);
 }
 
 int64_t hooke_record_place(const hooke_record *record, const char *what) {

@@ -22,13 +22,6 @@ static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 
 /* ---- texts and options ---- */
 
-/* 1 if there is such an object in this very file. */
-static int is_here(hid_t file, const char *name) {
-  H5L_info_t link;
-  return H5Lexists(file, name, H5P_DEFAULT) > 0 && H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 &&
-         link.type == H5L_TYPE_HARD;
-}
-
 /* 1 for one text of fixed length, whose bytes are in this very file. */
 static int is_text_here(hid_t data) {
   hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
@@ -43,11 +36,9 @@ static int is_text_here(hid_t data) {
 }
 
 /* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
-static int32_t read_text(hid_t file, const char *name, char **out) {
+static int32_t read_text(hid_t group, const char *name, char **out) {
   int32_t status = HOOKE_OK;
-  *out = NULL;
-  if (!is_here(file, "hooke") || !is_here(file, name)) return status;
-  hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
+  hid_t data = hooke_h5_open_own(group, name);
   hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
   const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
   char *text = NULL;
@@ -101,10 +92,13 @@ static int is_text(hid_t attribute) {
   return fits;
 }
 
-/* A text attribute of /hooke; "" if there is none. NULL without memory. */
-static char *read_attribute(hid_t file, const char *name) {
-  const int there = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", name, H5P_DEFAULT) > 0;
-  hid_t attribute = there ? H5Aopen_by_name(file, "hooke", name, H5P_DEFAULT, H5P_DEFAULT) : -1;
+static int has_attribute(hid_t group, const char *name) {
+  return group >= 0 && H5Aexists(group, name) > 0;
+}
+
+/* "" if there is none. NULL without memory. */
+static char *read_attribute(hid_t group, const char *name) {
+  hid_t attribute = has_attribute(group, name) ? H5Aopen(group, name, H5P_DEFAULT) : -1;
   char *word = attribute >= 0 && is_text(attribute) ? attribute_text(attribute) : NULL;
   char *text = hooke_copy_text(word ? word : "");
   if (word) H5free_memory(word);
@@ -132,10 +126,8 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
   return status;
 }
 
-static int32_t read_options(hid_t file, hooke_options *options) {
+static int32_t read_options(hid_t group, hooke_options *options) {
   int32_t status = HOOKE_OK;
-  if (!is_here(file, "hooke") || !is_here(file, "hooke/options")) return status;
-  hid_t group = H5Gopen2(file, "hooke/options", H5P_DEFAULT);
   for (int64_t k = 0; group >= 0 && k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
     const char *name = hooke_options_row(options, k, "name");
     if (H5Aexists(group, name) <= 0) continue;
@@ -143,7 +135,6 @@ static int32_t read_options(hid_t file, hooke_options *options) {
     status = attribute >= 0 ? read_option(attribute, options, name) : refuse_option(name);
     hooke_h5_drop(attribute);
   }
-  hooke_h5_drop(group);
   return status;
 }
 
@@ -152,22 +143,31 @@ static int32_t read_options(hid_t file, hooke_options *options) {
 static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
                                                       "machine"};
 
-static int32_t read_hooke(struct hooke_record *record) {
+/* What hooke keeps in a group of its own. */
+static int32_t read_own(struct hooke_record *record, hid_t file) {
+  hid_t group = hooke_h5_open_own(file, "hooke"), options = hooke_h5_open_own(group, "options");
+  int32_t status = read_text(group, "scene", &record->scene);
+  if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
+  record->run = read_attribute(group, "run");
+  if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
+  for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
+    record->fact[k] = read_attribute(group, facts[k]);
+    if (record->fact[k] == NULL) status = HOOKE_NO_MEMORY;
+  }
+  record->is_run = has_attribute(group, "method");
+  if (status == HOOKE_OK) status = read_options(options, record->options);
+  hooke_h5_drop(options);
+  hooke_h5_drop(group);
+  return status;
+}
+
+static int32_t read_file(struct hooke_record *record) {
   struct hooke_h5_guard guard;
   hooke_h5_guard_begin(&guard);
   hid_t file;
   int32_t status = hooke_dataset_file(&guard, record->path, &file);
   if (status == HOOKE_OK) {
-    status = read_text(file, "hooke/scene", &record->scene);
-    if (status == HOOKE_OK) status = read_text(file, "hooke/status", &record->status);
-    record->run = read_attribute(file, "run");
-    if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
-    for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
-      record->fact[k] = read_attribute(file, facts[k]);
-      if (record->fact[k] == NULL) status = HOOKE_NO_MEMORY;
-    }
-    record->is_run = is_here(file, "hooke") && H5Aexists_by_name(file, "hooke", "method", H5P_DEFAULT) > 0;
-    if (status == HOOKE_OK) status = read_options(file, record->options);
+    status = read_own(record, file);
     /* what could not be read is not what is not there */
     if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
     hooke_record_find_places(record, file);
@@ -195,7 +195,7 @@ int32_t hooke_record_open(const char *path, hooke_record **out) {
   if (record == NULL) return HOOKE_NO_MEMORY;
   record->path = hooke_copy_text(path);
   int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = read_hooke(record);
+  if (status == HOOKE_OK) status = read_file(record);
   if (status == HOOKE_OK) status = read_times(record);
   if (status == HOOKE_OK && record->status == NULL)
     status =
