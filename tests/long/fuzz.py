@@ -35,7 +35,9 @@ def so_far(known: dict[str, Any]) -> dict[str, Any]:
     for name, figures in targets.items():
         step = known.get(name, {"seconds": 0, "processor": 0, "figures": {"executions": 0}})
         if figures["executions"] >= step["figures"]["executions"]:
-            with_counts[name] = step | {"date": figures["date"], "commit": ", ".join(figures["commits"]), "figures": figures}
+            # the step is the last sitting, the counts are of all
+            times = {"seconds": max(step["seconds"], figures["seconds"]), "processor": max(step["processor"], figures["processor_seconds"])}
+            with_counts[name] = step | times | {"date": figures["date"], "commit": ", ".join(figures["commits"]), "figures": figures}
     return with_counts
 
 
