@@ -7,6 +7,7 @@ and from there into the tables of docs/reliability.md.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import fcntl
 import hashlib
@@ -130,6 +131,12 @@ def last_line(log: Path) -> str:
     return lines[-1][:100] if lines else ""
 
 
+def end_group(leader: int) -> None:
+    """Whatever a step that failed left at work."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(leader, signal.SIGTERM)
+
+
 def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], None]) -> int:
     environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "SOURCES": mark, "OPENBLAS_NUM_THREADS": "1"} | step.environment
     environment = {name: value for name, value in environment.items() if value}
@@ -139,15 +146,18 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
             cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
             preexec_fn=die_with_parent, start_new_session=True,
         )  # fmt: skip
-        while True:
-            try:
-                return process.wait(timeout=TELL_EVERY)
-            except subprocess.TimeoutExpired:
-                told(last_line(log))
-            except KeyboardInterrupt:
-                process.terminate()
-                process.wait()
-                raise
+        try:
+            while True:
+                try:
+                    return process.wait(timeout=TELL_EVERY)
+                except subprocess.TimeoutExpired:
+                    told(last_line(log))
+        except KeyboardInterrupt:
+            process.terminate()
+            process.wait()
+            raise
+        finally:
+            end_group(process.pid)
 
 
 def run_part(part: Part, only: str = "") -> int:
