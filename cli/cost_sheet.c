@@ -68,6 +68,11 @@ static void print_name(int width, const char *name) {
   printf("%*s", width - (int)strlen(name), "");
 }
 
+/* Of a group that was not looked at, or not yet when it was interrupted, nothing is known. */
+static int is_known(const hooke_cost *cost, int64_t row) {
+  return !isnan(hooke_cost_number(cost, row, "memory_bytes"));
+}
+
 static void print_row(const hooke_cost *cost, int64_t row, int width) {
   print_name(width, name_of(cost, row));
   print_cell(10, hooke_cost_number(cost, row, "springs"), "%.0f");
@@ -99,19 +104,27 @@ static void print_left_out(const hooke_system *system) {
 void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
   char step[HOOKE_NUMBER_SIZE];
   int width = LEAST_WIDTH;
+  int64_t unknown = 0;
   print_left_out(system);
   if (isnan(hooke_cost_figure(cost, "step"))) return; /* interrupted before there was one */
   for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
     const int length = (int)strlen(name_of(cost, row));
-    if (length > width) width = length;
+    if (is_known(cost, row) && length > width) width = length;
   }
   printf("cost of a step of %s, %s s, on this machine:\n", hooke_cost_method(cost),
          hooke_format_number(hooke_cost_figure(cost, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_cost_row_count(cost) > 0) printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
-  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++)
-    print_row(cost, row, width);
+  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+    if (is_known(cost, row))
+      print_row(cost, row, width);
+    else
+      unknown++;
+  }
+  if (unknown > 0)
+    printf("  and %" PRId64 " more that %s not looked at (--groups sets how many groups are)\n", unknown,
+           unknown == 1 ? "was" : "were");
 }
 
 /* ---- JSON ---- */

@@ -1,7 +1,6 @@
 /* What each ingredient costs: the scene with it against the scene without it. */
 #include "measure/cost.h"
 
-#include "core/figure.h"
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
@@ -28,6 +27,13 @@ static const struct hooke_option_row cost_rows[] = {
      .high = 1e300,
      .fallback = "1",
      .doc = "time that the timing may take, at most 0.2 s an ingredient"},
+    {.name = "groups",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .high = 2147483647.0,
+     .whole = 1,
+     .fallback = "64",
+     .doc = "how many groups are looked at, the largest first; each takes as long as the whole scene"},
 };
 
 static const struct hooke_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
@@ -51,30 +57,6 @@ static int32_t choose_method(hooke_cost *cost) {
   return status;
 }
 
-static void add_row(hooke_cost *cost, int32_t is_there, const char *kind, int64_t group) {
-  if (is_there) cost->row[cost->row_count++] = (struct hooke_cost_row){kind, group, NAN, NAN, NAN, NAN};
-}
-
-static int32_t list_rows(hooke_cost *cost) {
-  enum { OTHERS = 4 };
-  const hooke_system *system = cost->system;
-  cost->row =
-      hooke_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
-                sizeof *cost->row);
-  if (cost->row == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t g = 0; g < system->group_count; g++)
-    add_row(cost, system->group[g].count > 0, "springs", g);
-  for (int64_t g = 0; g < system->bending_group_count; g++)
-    add_row(cost, system->bending_group[g].count > 0, "bending", g);
-  for (int64_t g = 0; g < system->altitude_group_count; g++)
-    add_row(cost, system->altitude_group[g].count > 0, "altitude", g);
-  add_row(cost, hooke_springs_are_damped(&system->springs) || system->altitudes.damped, "damping", -1);
-  add_row(cost, system->drag > 0.0, "drag", -1);
-  add_row(cost, system->force != NULL, "callback", -1);
-  add_row(cost, system->has_gravity, "gravity", -1);
-  return HOOKE_OK;
-}
-
 int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                           hooke_cost **out) {
   int32_t status = hooke_system_require_committed(system);
@@ -91,7 +73,7 @@ int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, 
     status =
         options ? hooke_options_copy(options, &cost->options) : hooke_cost_options_create(&cost->options);
   if (status == HOOKE_OK) status = choose_method(cost);
-  if (status == HOOKE_OK) status = list_rows(cost);
+  if (status == HOOKE_OK) status = hooke_cost_list_rows(cost);
   if (status == HOOKE_OK)
     *out = cost;
   else
@@ -147,7 +129,7 @@ static double memory_of(const hooke_system *system, const struct hooke_timed *ti
 static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke_timed *lean,
                         const hooke_state *state, struct hooke_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
-  const double share = hooke_options_number(cost->options, "budget") / (double)cost->row_count;
+  const double share = hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
   const int32_t status = hooke_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
@@ -158,14 +140,6 @@ static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke
   return status;
 }
 
-static int is_bending(const struct hooke_cost_row *row) {
-  return strcmp(row->kind, "bending") == 0;
-}
-
-static int is_altitude(const struct hooke_cost_row *row) {
-  return strcmp(row->kind, "altitude") == 0;
-}
-
 /* The system without the ingredient of a row; NULL: without nothing. */
 static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row *row, hooke_system **made) {
   struct hooke_variant variant;
@@ -173,12 +147,15 @@ static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row 
   int32_t status = hooke_variant_create(cost->system, &variant);
   if (status != HOOKE_OK) return status;
   if (row && row->group >= 0) {
-    (is_bending(row) ? variant.bending : is_altitude(row) ? variant.altitude : variant.group)[row->group] = 1;
+    uint8_t *const without = hooke_cost_row_is(row, "bending")    ? variant.bending
+                             : hooke_cost_row_is(row, "altitude") ? variant.altitude
+                                                                  : variant.group;
+    without[row->group] = 1;
   }
-  variant.damping = row && strcmp(row->kind, "damping") == 0;
-  variant.drag = row && strcmp(row->kind, "drag") == 0;
-  variant.force = row && strcmp(row->kind, "callback") == 0;
-  variant.gravity = row && strcmp(row->kind, "gravity") == 0;
+  variant.damping = row && hooke_cost_row_is(row, "damping");
+  variant.drag = row && hooke_cost_row_is(row, "drag");
+  variant.force = row && hooke_cost_row_is(row, "callback");
+  variant.gravity = row && hooke_cost_row_is(row, "gravity");
   status = hooke_variant_make(cost->system, &variant, made, &map);
   if (status == HOOKE_OK) hooke_variant_map_release(&map);
   hooke_variant_release(&variant);
@@ -187,7 +164,7 @@ static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row 
 
 static int32_t measure_row(hooke_cost *cost, struct hooke_timed *full, const hooke_system *system,
                            const hooke_state *state, struct hooke_cost_row *row) {
-  const int32_t limits = strcmp(row->kind, "gravity") != 0 && strcmp(row->kind, "callback") != 0;
+  const int32_t limits = !hooke_cost_row_is(row, "gravity") && !hooke_cost_row_is(row, "callback");
   struct hooke_timed lean;
   int32_t status = hooke_timed_create(system, cost->run, &lean);
   if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));
@@ -211,7 +188,7 @@ static void forget(hooke_cost *cost) {
   cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
   for (int64_t k = 0; k < cost->row_count; k++) {
     struct hooke_cost_row *row = &cost->row[k];
-    *row = (struct hooke_cost_row){row->kind, row->group, NAN, NAN, NAN, NAN};
+    row->nanoseconds = row->resolution = row->memory = row->limit = NAN;
   }
 }
 
@@ -227,60 +204,12 @@ int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
   if (status == HOOKE_OK) status = hooke_timed_create(whole, cost->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
-  for (int64_t k = 0; k < cost->row_count && status == HOOKE_OK; k++) {
-    status = tell(cost, (double)k / (double)cost->row_count, hooke_cost_text(cost, k, "name"));
+  for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
+    if (!cost->row[k].chosen) continue;
+    status = tell(cost, (double)done++ / (double)cost->chosen_count, hooke_cost_text(cost, k, "name"));
     if (status == HOOKE_OK) status = find_row(cost, &full, state, &cost->row[k]);
   }
   hooke_timed_release(&full);
   hooke_system_destroy(whole);
   return status;
-}
-
-/* ---- reading ---- */
-
-const char *hooke_cost_method(const hooke_cost *cost) {
-  return cost->method;
-}
-
-double hooke_cost_figure(const hooke_cost *cost, const char *what) {
-  const struct hooke_figure figures[] = {{"step", cost->step},
-                                         {"nanoseconds", cost->nanoseconds},
-                                         {"resolution", cost->resolution},
-                                         {"memory_bytes", cost->memory},
-                                         {"step_limit", cost->limit}};
-  return HOOKE_FIGURE(figures, what);
-}
-
-int64_t hooke_cost_row_count(const hooke_cost *cost) {
-  return cost->row_count;
-}
-
-static const struct hooke_cost_row *row_at(const hooke_cost *cost, int64_t row) {
-  return row >= 0 && row < cost->row_count ? &cost->row[row] : NULL;
-}
-
-const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hooke_cost_row *r = row_at(cost, row);
-  if (r == NULL) return NULL;
-  if (strcmp(what, "kind") == 0) return r->kind;
-  if (strcmp(what, "name") != 0) return NULL;
-  if (r->group < 0) return r->kind;
-  if (is_altitude(r)) return hooke_system_altitude_group_name(cost->system, r->group);
-  return is_bending(r) ? hooke_system_bending_group_name(cost->system, r->group)
-                       : hooke_system_group_name(cost->system, r->group);
-}
-
-double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hooke_cost_row *r = row_at(cost, row);
-  if (r == NULL) return NAN;
-  const int32_t grouped = r->group >= 0, sprung = grouped && !is_bending(r) && !is_altitude(r);
-  const struct hooke_figure figures[] = {
-      {"group", grouped ? (double)r->group : (double)NAN},
-      {"springs", sprung ? (double)hooke_system_group_size(cost->system, r->group) : (double)NAN},
-      {"nanoseconds", r->nanoseconds},
-      {"resolution", r->resolution},
-      {"memory_bytes", r->memory},
-      {"step_limit_without", r->limit},
-  };
-  return HOOKE_FIGURE(figures, what);
 }

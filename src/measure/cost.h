@@ -8,7 +8,8 @@
 
 struct hooke_cost_row {
   const char *kind;
-  int64_t group; /* -1: not of a group */
+  int64_t group;  /* -1: not of a group */
+  int32_t chosen; /* 0: one of too many groups, not looked at */
   double nanoseconds, resolution, memory, limit;
 };
 
@@ -20,8 +21,12 @@ struct hooke_cost {
   hooke_progress *progress;
   void *progress_ctx;
   double step, nanoseconds, resolution, memory, limit;
-  int64_t row_count;
+  int64_t row_count, chosen_count;
   struct hooke_cost_row *row;
 };
+
+/* Lists what is there, and chooses all that is not of a group and as many groups as the options say. HOOKE_NO_MEMORY. */
+int32_t hooke_cost_list_rows(hooke_cost *cost);
+int32_t hooke_cost_row_is(const struct hooke_cost_row *row, const char *kind);
 
 #endif

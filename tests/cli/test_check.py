@@ -175,6 +175,21 @@ def test_costs_without_the_timing(hooke, write):
     assert float(gravity.group(1)) == pytest.approx(answer.json["cost"]["step_limit"], rel=1e-5)
 
 
+def test_costs_of_the_largest_groups(hooke, write):
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["springs"].append({"name": "other", "between": [[0, 2]], "stiffness": 1})
+    file = write(scene)
+    rows = hooke("check", file, "--json", "--predict", "--groups", "1").json["cost"]["rows"]
+    assert [row["ingredient"] for row in rows] == ["edges", "other", "damping", "gravity"]
+    assert [row["memory_bytes"] is None for row in rows] == [False, True, False, False]
+    words = hooke("check", file, "--predict", "--groups", "1").out
+    assert "  edges " in words and "  other " not in words.split("cost of a step")[1]
+    assert "and 1 more that was not looked at" in words
+    assert "not looked at" not in hooke("check", file, "--predict").out
+    answer = hooke("check", file, "--groups", "-1")
+    assert answer.code == 2 and "groups" in answer.err
+
+
 def test_what_does_nothing_is_dropped_and_counted(hooke, write):
     scene = copy.deepcopy(SIX_PARTICLES)
     scene["particles"]["position"] += [[9, 9, 9]]

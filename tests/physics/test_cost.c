@@ -135,6 +135,40 @@ static void limits_are_those_without(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Groups of 1, 3 and 2 springs and of 2 triples: as many as asked, the largest first, of one size the first; and all that is
+ * not of a group. */
+static void the_largest_groups_are_looked_at(void **unused) {
+  (void)unused;
+  enum { GROUPS = 4, MOST = GROUPS + 1 };
+  static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, down[] = {0, 0, -9.81}, coefficient = 1.0;
+  static const int64_t size[] = {1, 3, 2}, place[GROUPS] = {3, 0, 1, 2}; /* of each group among them */
+  static const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triples[] = {0, 1, 2, 1, 2, 3};
+  hooke_system *system = small_system(4, q, NULL, 1.0, 1);
+  for (int g = 0; g < 3; g++)
+    small_springs(system, size[g], ends, (struct springs){.stiffness = 4.0, .rest_length = 1.0});
+  check_ok(hooke_system_add_bending(system, "curl", 2, triples, 1, &coefficient));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  hooke_state *state = start_state(system);
+  hooke_options *options;
+  check_ok(hooke_cost_options_create(&options));
+  check_ok(hooke_options_set_number(options, "predict", 1));
+  for (int64_t most = 0; most <= MOST; most++) {
+    hooke_cost *cost;
+    check_ok(hooke_options_set_number(options, "groups", (double)most));
+    check_ok(hooke_cost_create(system, NULL, options, &cost));
+    check_ok(hooke_cost_find(cost, state));
+    assert_int_equal(hooke_cost_row_count(cost), GROUPS + 1);
+    for (int64_t row = 0; row < GROUPS; row++)
+      assert_int_equal(isnan(hooke_cost_number(cost, row, "memory_bytes")), place[row] >= most);
+    check_between(hooke_cost_number(cost, GROUPS, "memory_bytes"), 0.0, 1e4);
+    hooke_cost_destroy(cost);
+  }
+  hooke_options_destroy(options);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
 /* Every method can be timed, with steps that are far too large, or none given. */
 static void times_are_numbers(void **unused) {
   (void)unused;
@@ -210,6 +244,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rows_are_what_is_there),
       cmocka_unit_test(limits_are_those_without),
+      cmocka_unit_test(the_largest_groups_are_looked_at),
       cmocka_unit_test(times_are_numbers),
       cmocka_unit_test(can_be_stopped),
       cmocka_unit_test(wrong_calls),

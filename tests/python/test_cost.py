@@ -32,6 +32,16 @@ def test_without_the_timing():
     assert hooke.cost(system, predict=True, method="cvode-bdf").method == "symplectic-euler"
 
 
+def test_the_largest_groups_are_looked_at():
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1)
+    system.add_springs("one", [[0, 1]], stiffness=5)
+    system.add_springs("two", [[0, 1], [1, 2]], stiffness=5)
+    found = hooke.cost(system, predict=True, groups=1)
+    assert np.isnan(found.rows["memory_bytes"]).tolist() == [True, False]
+    assert "and 1 more, not looked at" in str(found) and "one" not in str(found)
+
+
 def test_a_callback_is_an_ingredient():
     system, calls = build_oscillator(), []
     system.set_force(lambda t, q, v, force: calls.append(t))

@@ -68,8 +68,11 @@ class Cost:
         lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]
         whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
         fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
-        for name, time, memory, limit in [whole, *self.rows[fields].tolist()]:
+        known = self.rows[~np.isnan(self.rows["memory_bytes"])]
+        for name, time, memory, limit in [whole, *known[fields].tolist()]:
             lines.append(f"{name:28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
+        if len(known) < len(self.rows):
+            lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
         return "\n".join(lines)
 
     def __repr__(self) -> str:
@@ -82,17 +85,19 @@ def cost(
     *,
     predict: bool = False,
     budget: float | None = None,
+    groups: int | None = None,
     progress: WorkProgress | bool | None = None,
     **options: object,
 ) -> Cost:
     """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene
     without the ingredient, at `state` (at the start, if None).
 
-    ``predict=True`` leaves out the timing; `budget` [s] is the time that it may take. ``progress(fraction, what)`` is
+    ``predict=True`` leaves out the timing; `budget` [s] is the time that it may take. Of many groups the
+    `groups` largest are looked at (64 unless given); the numbers of others stay NaN. ``progress(fraction, what)`` is
     told of progress and stops the work by returning a number other than 0. The keywords `options` are those of a run.
     """
     _, system, run = prepare("cost", problem, None, options)
-    chosen = Options.for_cost().set(predict=predict, budget=budget)
+    chosen = Options.for_cost().set(predict=predict, budget=budget, groups=groups)
     at = system.state() if state is None else state
     pointer = COST()
     lib.hooke_cost_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))

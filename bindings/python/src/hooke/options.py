@@ -82,7 +82,7 @@ class Options(MutableMapping[str, Any]):
 
     @classmethod
     def for_cost(cls) -> Options:
-        """Options of a cost: predict, budget [s]."""
+        """Options of a cost: predict, budget [s], groups."""
         return cls(_create(lib.hooke_cost_options_create))
 
     @classmethod
