@@ -217,11 +217,11 @@ class Campaign:
         state["by_build"][folder]["seconds"] += counted[3]
         state["findings"] = findings(target)
 
-    def see_edges(self, target, folder, edges, tally):
+    def see_edges(self, target, folder, edges, tally, are_new):
         state = self.of(target)
-        if edges > state["edges"].get(folder, 0):
+        state["edges"][folder] = max(edges, state["edges"].get(folder, 0))
+        if are_new:
             executions, _, _, seconds = tally.look()
-            state["edges"][folder] = edges
             state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds}
 
     def is_done(self, target):
@@ -236,14 +236,16 @@ class Campaign:
         return min(ahead, key=lambda t: (min(1.0, self.of(t)["executions"] / self.wanted(t)), since_edge(self.of(t))))
 
     def follow(self, target, folder, process, tally):
-        """Reads what libFuzzer says; returns the end of it."""
-        tail = []
+        """Reads what libFuzzer says; returns the end of it. New is an edge that no input reached which it began with."""
+        tail, known, begun = [], 0, False
         for line in process.stderr:
             tail = [*tail[-200:], line]
-            match = re.match(r"#\d+\s.*? cov: (\d+)", line)
+            match = re.match(r"#\d+\s+(\w+)\s.*?cov: (\d+)", line)
             if match:
+                edges = int(match.group(2))
                 with self.lock:
-                    self.see_edges(target, folder, int(match.group(1)), tally)
+                    self.see_edges(target, folder, edges, tally, begun and edges > known)
+                known, begun = max(known, edges), begun or match.group(1) == "INITED"
         return "".join(tail)
 
     def work(self, number):
