@@ -14,6 +14,7 @@ one with all sanitizers, and one that is faster, without the one for addresses.
 """
 
 import argparse
+import copy
 import glob
 import itertools
 import json
@@ -199,8 +200,8 @@ class Campaign:
 
     def of(self, target):
         return self.state.setdefault(target.name, {
-            "executions": 0, "past_syntax": 0, "accepted": 0, "seconds": 0.0, "wall_seconds": 0.0, "findings": [], "commits": {},
-            "edges": {}, "last_edge": {"executions": 0, "seconds": 0.0},
+            "executions": 0, "past_syntax": 0, "accepted": 0, "seconds": 0.0, "findings": [], "commits": {},
+            "counting": {"seconds": 0.0, "wall_seconds": 0.0}, "edges": {}, "last_edge": {"executions": 0, "seconds": 0.0},
             "by_build": {b: {"executions": 0, "seconds": 0.0} for b in ("fuzz", "fuzz-fast")}})
 
     def save(self):
@@ -210,6 +211,8 @@ class Campaign:
 
     def add(self, target, folder, counted):
         state = self.of(target)
+        if state["executions"] < self.wanted(target):
+            state["counting"]["seconds"] += counted[3]
         for name, count in zip(("executions", "past_syntax", "accepted", "seconds"), counted):
             state[name] += count
         state["by_build"][folder]["executions"] += counted[0]
@@ -290,20 +293,21 @@ class Campaign:
 
         signal.signal(signal.SIGINT, interrupt)
         signal.signal(signal.SIGTERM, interrupt)
-        began, used = time.monotonic(), [self.of(target)["seconds"] for target in self.targets]
+        began, before = time.monotonic(), copy.deepcopy(self.state)
         threads = [threading.Thread(target=self.work, args=(k,)) for k in range(self.workers)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        self.share_out(time.monotonic() - began, used)
+        self.share_out(time.monotonic() - began, before)
         self.save()
 
-    def share_out(self, wall, used):
-        """The time that it took, to the targets by the processor's that each had since `used`."""
-        had = [self.of(target)["seconds"] - before for target, before in zip(self.targets, used)]
-        for target, seconds in zip(self.targets, had):
-            self.of(target)["wall_seconds"] += wall * seconds / max(sum(had), 1e-9)
+    def share_out(self, wall, before):
+        """The time that it took, by the processor's, to the targets whose executions were not all counted before."""
+        had = sum(self.of(target)["seconds"] - before[target.name]["seconds"] for target in self.targets)
+        for target in self.targets:
+            counting = self.of(target)["counting"]
+            counting["wall_seconds"] += wall * (counting["seconds"] - before[target.name]["counting"]["seconds"]) / max(had, 1e-9)
 
 
 def commit():
@@ -350,7 +354,8 @@ def write_figures(targets, many, lines):
         figures["targets"][target.name] = {
             "date": time.strftime("%Y-%m-%d"), "executions": of["executions"], "wanted": many.wanted(target), "past_syntax_percent": round(share(of), 1),
             "accepted_percent": round(100 * of["accepted"] / max(of["executions"], 1), 1), "edges": of["edges"],
-            "seconds": round(of["wall_seconds"]), "processor_seconds": round(of["seconds"]), "executions_per_second": rates,
+            "seconds": round(of["counting"]["wall_seconds"]), "processor_seconds": round(of["counting"]["seconds"]),
+            "executions_per_second": rates,
             "commits": of["commits"], "seconds_since_last_edge": round(since_edge(of)),
             "executions_since_last_edge": of["executions"] - of["last_edge"]["executions"],
             "findings": len(of["findings"]), "lines": lines.get(target.name, {})}
