@@ -137,8 +137,6 @@ def test_killed_runs(write, tmp_path, side, planned, kills):
             assert now >= done, "a frame that was there is lost"
             again += now > done
         run.go_on()
-        if kill % 50 == 49:
-            print(f"{kill + 1} kills: {unfinished} in the midst of the frames, {again} of runs that went on", flush=True)
     print(f"{kills} kills: {unfinished} in the midst of the frames, {again} of runs that went on")
     assert unfinished >= kills // 10, "the kills did not hit the runs"
     run.out.unlink()
