@@ -57,6 +57,15 @@ static int32_t choose_method(hooke_cost *cost) {
   return status;
 }
 
+/* What was found. */
+static void forget(hooke_cost *cost) {
+  cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
+  for (int64_t k = 0; k < cost->row_count; k++) {
+    struct hooke_cost_row *row = &cost->row[k];
+    row->nanoseconds = row->resolution = row->memory = row->limit = NAN;
+  }
+}
+
 int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                           hooke_cost **out) {
   int32_t status = hooke_system_require_committed(system);
@@ -67,13 +76,14 @@ int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, 
   hooke_cost *cost = hooke_handle_new("hooke_cost", sizeof *cost);
   if (cost == NULL) return HOOKE_NO_MEMORY;
   cost->system = system;
-  cost->step = cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
+  cost->step = NAN;
   status = run ? hooke_options_copy(run, &cost->run) : hooke_run_options_create(&cost->run);
   if (status == HOOKE_OK)
     status =
         options ? hooke_options_copy(options, &cost->options) : hooke_cost_options_create(&cost->options);
   if (status == HOOKE_OK) status = choose_method(cost);
   if (status == HOOKE_OK) status = hooke_cost_list_rows(cost);
+  forget(cost);
   if (status == HOOKE_OK)
     *out = cost;
   else
@@ -182,14 +192,6 @@ static int32_t find_row(hooke_cost *cost, struct hooke_timed *full, const hooke_
   if (status == HOOKE_OK) status = measure_row(cost, full, lean, state, row);
   hooke_system_destroy(lean);
   return status;
-}
-
-static void forget(hooke_cost *cost) {
-  cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
-  for (int64_t k = 0; k < cost->row_count; k++) {
-    struct hooke_cost_row *row = &cost->row[k];
-    row->nanoseconds = row->resolution = row->memory = row->limit = NAN;
-  }
 }
 
 /* The scene is made again with nothing left out, so that both sides have their memory from the same hands. */

@@ -9,6 +9,7 @@
 struct hooke_cost_row {
   const char *kind;
   int64_t group;  /* -1: not of a group */
+  int64_t size;   /* of the group; 1 of what is there without one */
   int32_t chosen; /* 0: one of too many groups, not looked at */
   double nanoseconds, resolution, memory, limit;
 };

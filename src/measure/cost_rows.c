@@ -16,70 +16,67 @@ int32_t hooke_cost_row_is(const struct hooke_cost_row *row, const char *kind) {
 
 /* ---- listing ---- */
 
-/* A group's row and how much it holds. */
-struct sized {
-  int64_t row, size;
-};
+static void add_row(hooke_cost *cost, const char *kind, int64_t group, int64_t size) {
+  if (size > 0)
+    cost->row[cost->row_count++] =
+        (struct hooke_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
+}
+
+static void add_groups(hooke_cost *cost) {
+  const hooke_system *system = cost->system;
+  for (int64_t g = 0; g < system->group_count; g++)
+    add_row(cost, "springs", g, system->group[g].count);
+  for (int64_t g = 0; g < system->bending_group_count; g++)
+    add_row(cost, "bending", g, system->bending_group[g].count);
+  for (int64_t g = 0; g < system->altitude_group_count; g++)
+    add_row(cost, "altitude", g, system->altitude_group[g].count);
+}
+
+static void add_others(hooke_cost *cost) {
+  const hooke_system *system = cost->system;
+  add_row(cost, "damping", -1, hooke_springs_are_damped(&system->springs) || system->altitudes.damped);
+  add_row(cost, "drag", -1, system->drag > 0.0);
+  add_row(cost, "callback", -1, system->force != NULL);
+  add_row(cost, "gravity", -1, system->has_gravity);
+}
 
 /* The largest first; of one size in the order of the rows. */
 static int compare_sizes(const void *one, const void *two) {
-  const struct sized *a = one, *b = two;
+  const struct hooke_cost_row *a = *(struct hooke_cost_row *const *)one,
+                              *b = *(struct hooke_cost_row *const *)two;
   if (a->size != b->size) return a->size < b->size ? 1 : -1;
-  return (a->row > b->row) - (a->row < b->row);
+  return (a > b) - (a < b);
 }
 
-static struct hooke_cost_row *add_row(hooke_cost *cost, const char *kind, int64_t group) {
-  struct hooke_cost_row *row = &cost->row[cost->row_count++];
-  *row = (struct hooke_cost_row){.kind = kind, .group = group};
-  row->nanoseconds = row->resolution = row->memory = row->limit = NAN;
-  return row;
-}
-
-static void add_group(hooke_cost *cost, const char *kind, int64_t group, int64_t size, struct sized *sized,
-                      int64_t *count) {
-  if (size == 0) return;
-  sized[(*count)++] = (struct sized){cost->row_count, size};
-  add_row(cost, kind, group);
-}
-
-static void add_other(hooke_cost *cost, int32_t is_there, const char *kind) {
-  if (!is_there) return;
-  add_row(cost, kind, -1)->chosen = 1;
-  cost->chosen_count++;
-}
-
-/* Every group makes the scene again, so that the time for all of very many would grow with their square. */
-static void list_groups(hooke_cost *cost, struct sized *sized) {
-  const hooke_system *system = cost->system;
-  const int64_t most = (int64_t)hooke_options_number(cost->options, "groups");
-  int64_t count = 0;
-  for (int64_t g = 0; g < system->group_count; g++)
-    add_group(cost, "springs", g, system->group[g].count, sized, &count);
-  for (int64_t g = 0; g < system->bending_group_count; g++)
-    add_group(cost, "bending", g, system->bending_group[g].count, sized, &count);
-  for (int64_t g = 0; g < system->altitude_group_count; g++)
-    add_group(cost, "altitude", g, system->altitude_group[g].count, sized, &count);
-  if (count > most) qsort(sized, (size_t)count, sizeof *sized, compare_sizes);
-  cost->chosen_count = count < most ? count : most;
-  for (int64_t k = 0; k < cost->chosen_count; k++)
-    cost->row[sized[k].row].chosen = 1;
+/* Every group makes the scene again, so that the time for all of very many would grow with their square. The rows are those of
+ * groups so far. */
+static int32_t leave_small_groups_out(hooke_cost *cost) {
+  const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
+  if (count <= most) return HOOKE_OK;
+  struct hooke_cost_row **sorted = hooke_new(count, sizeof *sorted);
+  if (sorted == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < count; k++)
+    sorted[k] = &cost->row[k];
+  qsort(sorted, (size_t)count, sizeof *sorted, compare_sizes);
+  for (int64_t k = most; k < count; k++)
+    sorted[k]->chosen = 0;
+  hooke_free(sorted);
+  return HOOKE_OK;
 }
 
 int32_t hooke_cost_list_rows(hooke_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
-  const int64_t groups = system->group_count + system->bending_group_count + system->altitude_group_count;
-  struct sized *sized = hooke_new(groups + 1, sizeof *sized);
-  cost->row = sized ? hooke_new(groups + OTHERS, sizeof *cost->row) : NULL;
-  if (cost->row) {
-    list_groups(cost, sized);
-    add_other(cost, hooke_springs_are_damped(&system->springs) || system->altitudes.damped, "damping");
-    add_other(cost, system->drag > 0.0, "drag");
-    add_other(cost, system->force != NULL, "callback");
-    add_other(cost, system->has_gravity, "gravity");
-  }
-  hooke_free(sized);
-  return cost->row ? HOOKE_OK : HOOKE_NO_MEMORY;
+  cost->row =
+      hooke_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
+                sizeof *cost->row);
+  if (cost->row == NULL) return HOOKE_NO_MEMORY;
+  add_groups(cost);
+  const int32_t status = leave_small_groups_out(cost);
+  add_others(cost);
+  for (int64_t k = 0; k < cost->row_count; k++)
+    cost->chosen_count += cost->row[k].chosen;
+  return status;
 }
 
 /* ---- reading ---- */
@@ -119,11 +116,9 @@ const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *wha
 double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
   const struct hooke_cost_row *r = row_at(cost, row);
   if (r == NULL) return NAN;
-  const int32_t grouped = r->group >= 0,
-                sprung = grouped && !hooke_cost_row_is(r, "bending") && !hooke_cost_row_is(r, "altitude");
   const struct hooke_figure figures[] = {
-      {"group", grouped ? (double)r->group : (double)NAN},
-      {"springs", sprung ? (double)hooke_system_group_size(cost->system, r->group) : (double)NAN},
+      {"group", r->group >= 0 ? (double)r->group : (double)NAN},
+      {"springs", hooke_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
       {"nanoseconds", r->nanoseconds},
       {"resolution", r->resolution},
       {"memory_bytes", r->memory},

@@ -170,9 +170,9 @@ static void cost(struct attempt *a, const void *with) {
   hooke_options *run = system ? make_run(a, "verlet", 1e-3, 0.02, 0.01) : NULL, *options = NULL;
   hooke_cost *cost = NULL;
   hooke_state *state = NULL;
-  (void)with;
   if (run == NULL) goto end;
   TRY(a, hooke_cost_options_create(&options));
+  if (with) TRY(a, hooke_options_set_number(options, "groups", 0));
   TRY(a, hooke_options_set_number(options, "budget", 1e-3));
   TRY(a, hooke_cost_create(system, run, options, &cost));
   TRY(a, hooke_state_create(system, &state));
@@ -198,5 +198,6 @@ const struct scenario measuring[] = {
     {"pick", pick, NULL, 2000, "sundials gsl", NULL},
     {"compare", compare, NULL, 3, "sundials", NULL},
     {"cost", cost, NULL, 5, "lapack", NULL},
+    {"cost, groups left out", cost, "", 5, "lapack", NULL},
     {NULL, NULL, NULL, 0, NULL, NULL},
 };
