@@ -169,7 +169,8 @@ def points_of(count, stride=STRIDE):
 def test_every_write(place, case, torn):
     words, whole = case
     before = unfinished = 0
-    for at in points_of(whole.points):
+    points = points_of(whole.points)
+    for at in points:
         place.fill(words)
         killed = place.start_over(at=at, torn=torn)
         assert killed.returncode == -9, (at, killed.stderr)
@@ -183,7 +184,7 @@ def test_every_write(place, case, torn):
         unfinished += len(reported) < len(whole.frames["time"])
         whole.check_end(place, place.resume(), left)
     assert before > 0 and unfinished > 0
-    print(f"{whole.points} points, {before} before the file was there, {unfinished} before its last frame")
+    print(f"{len(points)} of {whole.points} points, {before} before the file was there, {unfinished} before its last frame")
     place.fill(words)
     assert place.start_over(at=whole.points + 1, torn=torn).returncode == whole.code, "there are no more points"
 
@@ -209,14 +210,15 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
     again()
     whole.check_end(place, place.resume())
     count = place.told()[1]
-    for point in points_of(count):
+    points = points_of(count)
+    for point in points:
         again()
         assert place.resume(at=point, torn=torn).returncode == -9
         now, _ = place.told()
         assert now >= reported
         left = whole.check_left(place, now)
         whole.check_end(place, place.resume(), left)
-    print(f"{count} points")
+    print(f"{len(points)} of {count} points")
 
 
 # What comes of a failure: exit code 5, or the run's own where nothing is lost, such as where a file is not there to remove.
@@ -224,7 +226,8 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
 def test_every_failing_write(place, case, more):
     words, whole = case
     harmless = 0
-    for at in points_of(whole.points, 1 if LONG else 41):
+    points = points_of(whole.points, 1 if LONG else 41)
+    for at in points:
         place.fill(words)
         done = place.start_over(at=at, error=errno.ENOSPC if more else errno.EIO, **{"from": more})
         assert done.returncode in (5, whole.code), (at, done.returncode, done.stderr)
@@ -238,4 +241,4 @@ def test_every_failing_write(place, case, more):
         left = whole.check_left(place, reported, more=("failed", "stopped"))
         assert failed or left == whole.status, at
         whole.check_end(place, place.resume(), left)
-    print(f"{whole.points} points, {harmless} of them of no consequence")
+    print(f"{len(points)} of {whole.points} points, {harmless} of them of no consequence")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from steps import Part, Step, tests_passed
@@ -57,8 +58,9 @@ def lives(kinds: list[str], seconds: float) -> Step:
     return Step(f"1e4 lives of {len(kinds)} kinds", command, seconds, figures, KEEPING_NOTHING)
 
 
-def ctest(name: str, pattern: str, seconds: float) -> Step:
-    return Step(name, f"ctest --test-dir {BUILD} -j2 --output-on-failure -R '{pattern}'", seconds, tests_passed)
+def ctest(name: str, pattern: str, seconds: float, figures: Callable[[str], dict[str, Any]] = tests_passed) -> Step:
+    """With all that the tests print, which the figures are read from."""
+    return Step(name, f"ctest --test-dir {BUILD} -j2 -V -R '{pattern}'", seconds, figures, {"PYTEST_ADDOPTS": "-s"})
 
 
 def faults_met(text: str) -> dict[str, Any]:
@@ -69,7 +71,7 @@ def faults_met(text: str) -> dict[str, Any]:
 
 
 def crashes_met(text: str) -> dict[str, Any]:
-    kills, points = (sum(int(n) for n in re.findall(rf"(\d+) {what}", text)) for what in ("kills: ", "points"))
+    kills, points = (sum(int(n) for n in re.findall(rf"(\d+) {what}", text)) for what in ("kills: ", r"of \d+ points"))
     if not kills or not points:
         raise ValueError("nothing was killed")
     return tests_passed(text) | {"kills": kills, "crashes": points}
@@ -99,9 +101,8 @@ PART = Part(
         billion("verlet"),
         billion("symplectic-euler"),
         lives(KINDS, 750),
-        Step("crashes and kills", f"ctest --test-dir {BUILD} -j2 -V -R 'crash|kill|frame_check'", 200, crashes_met,
-             {"PYTEST_ADDOPTS": "-s"}),
-        Step("every failing allocation and write", f"ctest --test-dir {BUILD} -j2 -V -R '^fault/'", 2100, faults_met),
+        ctest("crashes and kills", "crash|kill|frame_check", 200, crashes_met),
+        ctest("every failing allocation and write", "^fault/", 2100, faults_met),
         ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 500),
     ],
     rows,

@@ -131,12 +131,6 @@ def last_line(log: Path) -> str:
     return lines[-1][:100] if lines else ""
 
 
-def end_group(leader: int) -> None:
-    """Whatever a step that failed left at work."""
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(leader, signal.SIGTERM)
-
-
 def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], None]) -> int:
     environment = os.environ | {"HOOKE_LONG": "1", "WORK": str(folder), "SOURCES": mark, "OPENBLAS_NUM_THREADS": "1"} | step.environment
     environment = {name: value for name, value in environment.items() if value}
@@ -152,12 +146,10 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
                     return process.wait(timeout=TELL_EVERY)
                 except subprocess.TimeoutExpired:
                     told(last_line(log))
-        except KeyboardInterrupt:
-            process.terminate()
+        finally:  # what a step left at work that failed or was interrupted
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGTERM)
             process.wait()
-            raise
-        finally:
-            end_group(process.pid)
 
 
 def run_part(part: Part, only: str = "") -> int:
