@@ -7,6 +7,7 @@
 
 #if HOOKE_HAVE_HDF5
 
+#include "io/array_open_h5.h"
 #include "io/dataset_h5.h"
 #include "io/frame_check_h5.h"
 #include "io/object_h5.h"
@@ -126,40 +127,43 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
   return status;
 }
 
-/* Without `checked` a frame of a trajectory is held against its check value. */
-static int32_t read_array(double memory_limit, const char *path, const char *dataset, int64_t frame,
-                          int32_t has_frame, int32_t checked, double **values, int64_t *rows,
-                          int64_t *columns) {
-  struct hooke_h5_guard guard;
-  struct source source = {
-      .guard = &guard, .memory_limit = memory_limit, .path = path, .dataset = dataset, .data = {.id = -1}};
+static int32_t read_open(struct source *source, int64_t frame, int32_t has_frame, int32_t check,
+                         double **values, int64_t *rows, int64_t *columns) {
   *values = NULL;
   *rows = *columns = 0;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = hooke_dataset_file(&guard, path, &source.file);
-  if (status == HOOKE_OK) status = hooke_dataset_open(&guard, source.file, path, dataset, &source.data);
-  if (status == HOOKE_OK) status = choose_frame(&source, &frame, has_frame);
-  if (status == HOOKE_OK) status = read_values(&source, frame, values, rows, columns);
-  if (status == HOOKE_OK && source.data.rank == 3 && !checked)
-    status = hooke_frame_check(&guard, source.file, path, dataset, frame, *values);
+  int32_t status =
+      hooke_dataset_open(source->guard, source->file, source->path, source->dataset, &source->data);
+  if (status == HOOKE_OK) status = choose_frame(source, &frame, has_frame);
+  if (status == HOOKE_OK) status = read_values(source, frame, values, rows, columns);
+  if (status == HOOKE_OK && source->data.rank == 3 && check)
+    status = hooke_frame_check(source->guard, source->file, source->path, source->dataset, frame, *values);
   if (status != HOOKE_OK) {
     hooke_free(*values);
     *values = NULL;
   }
-  hooke_h5_drop(source.data.id);
-  if (source.file >= 0) H5Fclose(source.file);
-  hooke_h5_guard_end(&guard);
+  hooke_h5_drop(source->data.id);
   return status;
+}
+
+int32_t hooke_array_read_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *dataset,
+                              int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
+                              int64_t *columns) {
+  struct source source = {.guard = guard, .path = path, .dataset = dataset, .file = file};
+  return read_open(&source, frame, has_frame, check, values, rows, columns);
 }
 
 int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
                                 int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
-  return read_array(memory_limit, path, dataset, frame, has_frame, 0, values, rows, columns);
-}
-
-int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t frame, double **values,
-                                 int64_t *rows, int64_t *columns) {
-  return read_array(0.0, path, dataset, frame, 1, 1, values, rows, columns);
+  struct hooke_h5_guard guard;
+  struct source source = {.guard = &guard, .memory_limit = memory_limit, .path = path, .dataset = dataset};
+  *values = NULL;
+  *rows = *columns = 0;
+  hooke_h5_guard_begin(&guard);
+  int32_t status = hooke_dataset_file(&guard, path, &source.file);
+  if (status == HOOKE_OK) status = read_open(&source, frame, has_frame, 1, values, rows, columns);
+  if (source.file >= 0) H5Fclose(source.file);
+  hooke_h5_guard_end(&guard);
+  return status;
 }
 
 #else
@@ -171,11 +175,6 @@ int32_t hooke_array_read_within(double memory_limit, const char *path, const cha
   *rows = *columns = 0;
   return hooke_fail(HOOKE_NOT_BUILT, NULL,
                     "%s, dataset %s: reading it needs HDF5, which this build is without", path, dataset);
-}
-
-int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t frame, double **values,
-                                 int64_t *rows, int64_t *columns) {
-  return hooke_array_read(path, dataset, frame, 1, values, rows, columns);
 }
 
 #endif

@@ -17,8 +17,4 @@ int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, i
 int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
                                 int32_t has_frame, double **values, int64_t *rows, int64_t *columns);
 
-/* The same for a frame that was found whole just before, which is then not looked at again. */
-int32_t hooke_array_read_checked(const char *path, const char *dataset, int64_t frame, double **values,
-                                 int64_t *rows, int64_t *columns);
-
 #endif

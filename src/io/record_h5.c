@@ -9,7 +9,7 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/array_h5.h"
+#include "io/array_open_h5.h"
 #include "io/dataset_h5.h"
 #include "io/frame_check_h5.h"
 #include "io/object_h5.h"
@@ -161,30 +161,39 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   return status;
 }
 
-static int32_t read_file(struct hooke_record *record) {
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  hid_t file;
-  int32_t status = hooke_dataset_file(&guard, record->path, &file);
-  if (status == HOOKE_OK) {
-    status = read_own(record, file);
-    /* what could not be read is not what is not there */
-    if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
-    hooke_record_find_places(record, file);
-  }
-  if (file >= 0) H5Fclose(file);
-  hooke_h5_guard_end(&guard);
-  return status == HOOKE_BAD_VALUE ? hooke_fail_before(status, "%s: ", record->path) : status;
-}
-
-static int32_t read_times(struct hooke_record *record) {
+static int32_t read_times(struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file) {
+  static const char times[] = "/particles/all/position/time";
   int64_t rows = 0, columns = 0;
   const int32_t status =
-      hooke_array_read(record->path, "/particles/all/position/time", 0, 0, &record->time, &rows, &columns);
-  if (status == HOOKE_OK && columns != 1)
-    return hooke_dataset_refuse(record->path, "/particles/all/position/time", "is no column");
+      hooke_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
+  if (status == HOOKE_OK && columns != 1) return hooke_dataset_refuse(record->path, times, "is no column");
   while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
     record->frame_count++;
+  return status;
+}
+
+/* close_file() has to follow in any case. */
+static int32_t open_file(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t *file) {
+  hooke_h5_guard_begin(guard);
+  return hooke_dataset_file(guard, record->path, file);
+}
+
+static void close_file(const struct hooke_h5_guard *guard, hid_t file) {
+  if (file >= 0) H5Fclose(file);
+  hooke_h5_guard_end(guard);
+}
+
+static int32_t read_file(struct hooke_record *record) {
+  struct hooke_h5_guard guard;
+  hid_t file;
+  int32_t status = open_file(record, &guard, &file);
+  if (status == HOOKE_OK) status = read_own(record, file);
+  if (status == HOOKE_BAD_VALUE) status = hooke_fail_before(status, "%s: ", record->path);
+  /* what could not be read is not what is not there */
+  if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
+  if (status == HOOKE_OK) status = read_times(record, &guard, file);
+  if (status == HOOKE_OK) hooke_record_find_places(record, file);
+  close_file(&guard, file);
   return status;
 }
 
@@ -196,7 +205,6 @@ int32_t hooke_record_open(const char *path, hooke_record **out) {
   record->path = hooke_copy_text(path);
   int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = read_file(record);
-  if (status == HOOKE_OK) status = read_times(record);
   if (status == HOOKE_OK && record->status == NULL)
     status =
         hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
@@ -264,22 +272,19 @@ int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   if (status != HOOKE_OK) return status;
   struct hooke_h5_guard guard;
   hid_t file;
-  hooke_h5_guard_begin(&guard);
-  status = hooke_dataset_file(&guard, record->path, &file);
+  status = open_file(record, &guard, &file);
   if (status == HOOKE_OK) status = hooke_frame_check(&guard, file, record->path, position, at, NULL);
-  if (file >= 0) H5Fclose(file);
-  hooke_h5_guard_end(&guard);
+  close_file(&guard, file);
   return status;
 }
 
 /* The first of a frame's arrays to be read is where the frame is checked. */
-static int32_t read_rows(const struct hooke_record *record, const char *dataset, int64_t frame, int64_t size,
-                         double *to) {
+static int32_t read_rows(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file,
+                         const char *dataset, int64_t frame, int64_t size, double *to) {
   double *values = NULL;
   int64_t rows = 0, columns = 0;
-  int32_t status = dataset == position
-                       ? hooke_array_read(record->path, dataset, frame, 1, &values, &rows, &columns)
-                       : hooke_array_read_checked(record->path, dataset, frame, &values, &rows, &columns);
+  int32_t status = hooke_array_read_open(guard, file, record->path, dataset, frame, 1, dataset == position,
+                                         &values, &rows, &columns);
   if (status == HOOKE_OK && rows * columns != size) {
     status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
                         record->path, dataset, (long long)(rows * columns), (long long)size);
@@ -292,10 +297,15 @@ static int32_t read_rows(const struct hooke_record *record, const char *dataset,
 int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
   int64_t at;
   const int64_t size = hooke_state_size(state);
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   int32_t status = find_frame(record, frame, &at);
-  if (status == HOOKE_OK) status = read_rows(record, position, at, size, hooke_state_position(state));
-  if (status == HOOKE_OK && hooke_state_velocity(state))
-    status = read_rows(record, velocity, at, size, hooke_state_velocity(state));
+  if (status != HOOKE_OK) return status;
+  struct hooke_h5_guard guard;
+  hid_t file;
+  status = open_file(record, &guard, &file);
+  if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, q);
+  if (status == HOOKE_OK && v) status = read_rows(record, &guard, file, velocity, at, size, v);
+  close_file(&guard, file);
   if (status == HOOKE_OK) hooke_state_set_time(state, record->time[at]);
   return status;
 }
