@@ -50,6 +50,7 @@ static struct {
   int32_t names;
   uint8_t *base, *patched;
   size_t base_size;
+  struct place place[MOST_NAMES]; /* in the base */
   struct image image[KEPT];
   struct opened opened[OPEN];
   const char *path;
@@ -258,17 +259,6 @@ static uint64_t hash_of(const struct edits *edits) {
   return hash | 1;
 }
 
-static struct image *find_image(const struct container *container, const struct edits *edits) {
-  const uint64_t hash = hash_of(edits);
-  struct image *image = &own.image[hash % KEPT];
-  if (image->hash == hash) return image;
-  free(image->bytes);
-  free(image->place);
-  *image = (struct image){.hash = hash};
-  make_image(container, edits, image);
-  return image;
-}
-
 /* The core driver keeps the image in a block of its own. */
 static struct opened *find_opened(const struct image *image) {
   struct opened *opened = &own.opened[image->hash % OPEN];
@@ -304,6 +294,44 @@ static void look_up(const struct image *image, int32_t number, struct place *pla
     }
     H5Tclose(type), H5Sclose(space), H5Dclose(data);
   }
+}
+
+/* Whether an edit is of the object of that name, or of a group on the way to it. */
+static int is_edited(const char *name, const struct edits *edits) {
+  for (int32_t k = 0; k < edits->count && edits->edit[k].kind < EDIT_STRUCTURES; k++) {
+    const char *edited = own.name[edits->edit[k].where % own.names];
+    const size_t length = strlen(edited);
+    if (strncmp(name, edited, length) == 0 && (name[length] == '\0' || name[length] == '/')) return 1;
+  }
+  return 0;
+}
+
+/* What is not edited stays where it is. */
+static void take_places(const struct edits *edits, struct image *image) {
+  for (int32_t k = 0; k < own.names; k++) {
+    if (!is_edited(own.name[k], edits)) image->place[k] = own.place[k];
+  }
+}
+
+static struct image *find_image(const struct container *container, const struct edits *edits) {
+  const uint64_t hash = hash_of(edits);
+  struct image *image = &own.image[hash % KEPT];
+  if (image->hash == hash) return image;
+  free(image->bytes);
+  free(image->place);
+  *image = (struct image){.hash = hash};
+  make_image(container, edits, image);
+  take_places(edits, image);
+  return image;
+}
+
+/* Of all names; an image without edits is the base. */
+static void find_places(const struct container *container) {
+  const struct edits none = {.count = 0};
+  struct image *base = find_image(container, &none);
+  for (int32_t k = 0; k < own.names; k++)
+    look_up(base, k, &own.place[k]);
+  memcpy(base->place, own.place, sizeof own.place);
 }
 
 static void patch_value(const struct place *place, const struct edit *edit) {
@@ -360,6 +388,7 @@ static void patch_check(const struct image *image, int64_t frame) {
 }
 
 void container_edit(struct container *container, const struct edits *edits) {
+  if (!own.place[0].known) find_places(container);
   struct image *image = find_image(container, edits);
   int32_t headers = 0;
   memcpy(own.patched, image->bytes, image->size);
