@@ -53,7 +53,7 @@ def test_planted(planted):
 @pytest.fixture
 def steps(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(LONG))
-    for name in ("steps", "soak", "fuzz", "sanitizers", "arm64", "bits"):
+    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "bits"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     spec = importlib.util.spec_from_file_location("steps", LONG / "steps.py")
     module = importlib.util.module_from_spec(spec)
@@ -68,11 +68,16 @@ def steps(monkeypatch, tmp_path):
 
 
 def test_parts_have_their_place(steps):
-    for name in ("soak", "fuzz", "sanitizers", "arm64"):
+    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64"):
         assert re.search(rf"<!-- figures of {name} -->\n(?:(?!<!--).)*\n<!-- end -->", PAGE, re.DOTALL)
         part = importlib.import_module(name).PART
         assert part.name == name
         assert sum(step.seconds for step in part.steps) < steps.LIMIT
+
+
+def test_parts_took_no_longer_than_they_have(steps):
+    minutes = [int(found) for found in re.findall(r"^\d+ of \d+ steps, (\d+) minutes", PAGE, re.MULTILINE)]
+    assert len(minutes) == 5 and 60 * max(minutes) < steps.LIMIT
 
 
 def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
