@@ -15,6 +15,7 @@ one with all sanitizers, and one that is faster, without the one for addresses.
 
 import argparse
 import copy
+import fcntl
 import glob
 import itertools
 import json
@@ -327,6 +328,11 @@ def share(state):
 
 def campaign(targets, executions, quiet, workers, limit):
     BUILD.mkdir(parents=True, exist_ok=True)
+    lock = (BUILD / "lock").open("w")  # until this returns
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        sys.exit("a campaign is at work already, and what it keeps in build/fuzz is for one at a time: start this one after it")
     for folder in "fuzz", "fuzz-fast":
         build(folder)
     many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), quiet, workers, limit)
