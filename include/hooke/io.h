@@ -143,7 +143,7 @@ HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 /* Frames that are there. */
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
 /* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last. HOOKE_BAD_VALUE if there is
- * none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+ * none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. The state is then as it was. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 
 /* HOOKE_BAD_VALUE for a frame that is damaged: whose numbers are not those that were written, by the check value beside them.

@@ -278,35 +278,41 @@ int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   return status;
 }
 
-/* The first of a frame's arrays to be read is where the frame is checked. */
+/* For hooke_free(). The first of a frame's arrays to be read is where the frame is checked. */
 static int32_t read_rows(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file,
-                         const char *dataset, int64_t frame, int64_t size, double *to) {
-  double *values = NULL;
+                         const char *dataset, int64_t frame, int64_t size, double **values) {
   int64_t rows = 0, columns = 0;
-  int32_t status = hooke_array_read_open(guard, file, record->path, dataset, frame, 1, dataset == position,
-                                         &values, &rows, &columns);
-  if (status == HOOKE_OK && rows * columns != size) {
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
-                        record->path, dataset, (long long)(rows * columns), (long long)size);
-  }
-  if (status == HOOKE_OK) memcpy(to, values, (size_t)size * sizeof(double));
-  hooke_free(values);
-  return status;
+  const int32_t status = hooke_array_read_open(guard, file, record->path, dataset, frame, 1,
+                                               dataset == position, values, &rows, &columns);
+  if (status != HOOKE_OK || rows * columns == size) return status;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
+                    record->path, dataset, (long long)(rows * columns), (long long)size);
+}
+
+/* A state is never half of a frame. */
+static void take_frame(hooke_state *state, double time, const double *q, const double *v) {
+  const size_t bytes = (size_t)hooke_state_size(state) * sizeof *q;
+  memcpy(hooke_state_position(state), q, bytes);
+  if (v) memcpy(hooke_state_velocity(state), v, bytes);
+  hooke_state_set_time(state, time);
 }
 
 int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
   int64_t at;
   const int64_t size = hooke_state_size(state);
-  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  double *q = NULL, *v = NULL;
   int32_t status = find_frame(record, frame, &at);
   if (status != HOOKE_OK) return status;
   struct hooke_h5_guard guard;
   hid_t file;
   status = open_file(record, &guard, &file);
-  if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, q);
-  if (status == HOOKE_OK && v) status = read_rows(record, &guard, file, velocity, at, size, v);
+  if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, &q);
+  if (status == HOOKE_OK && hooke_state_velocity(state))
+    status = read_rows(record, &guard, file, velocity, at, size, &v);
   close_file(&guard, file);
-  if (status == HOOKE_OK) hooke_state_set_time(state, record->time[at]);
+  if (status == HOOKE_OK) take_frame(state, record->time[at], q, v);
+  hooke_free(v);
+  hooke_free(q);
   return status;
 }
 

@@ -84,12 +84,35 @@ static void make_state(int which) {
                      "a state to read into");
 }
 
+/* In a state before a frame is read into it. */
+static const double MARK = 0x1.5a5a5a5a5a5a5p-7;
+
+static void mark(hooke_state *state) {
+  double *const array[] = {hooke_state_position(state), hooke_state_velocity(state)};
+  for (int k = 0; k < 2; k++)
+    for (int64_t i = 0; i < hooke_state_size(state); i++)
+      array[k][i] = MARK;
+  hooke_state_set_time(state, MARK);
+}
+
+static void require_marked(hooke_state *state) {
+  const double *const array[] = {hooke_state_position(state), hooke_state_velocity(state)};
+  int same = hooke_state_time(state) == MARK;
+  for (int k = 0; k < 2; k++)
+    for (int64_t i = 0; i < hooke_state_size(state); i++)
+      same &= array[k][i] == MARK;
+  hooke_fuzz_require(same, "a state as it was, after a failure");
+}
+
 static void ask_frame(const hooke_record *record, int wanted, int by_hdf5) {
   hooke_state *state = own[(wanted & 96) == 96].state;
   const int64_t frames = hooke_record_frame_count(record), frame = wanted % 16 - 8,
                 size = hooke_state_size(state);
-  const int is_read = answered(hooke_record_read(record, frame, state));
-  if (!is_read) return;
+  mark(state);
+  if (!answered(hooke_record_read(record, frame, state))) {
+    require_marked(state);
+    return;
+  }
   const int64_t at = frame < 0 ? frames + frame : frame;
   hooke_fuzz_require(at >= 0 && at < frames, "a frame that is not there");
   hooke_fuzz_require(!isnan(hooke_state_time(state)), "a frame without a time");

@@ -6,6 +6,7 @@ import pytest
 from conftest import SIX_PARTICLES
 
 import hooke
+from hooke._library import lib
 
 
 @pytest.fixture
@@ -68,6 +69,19 @@ def test_an_option_that_cannot_be_read_is_not_left_out(path, value):
         file["hooke/options"].attrs["step"] = value
     with pytest.raises(hooke.Error, match=r"out.h5: step: is neither a single number nor a text"):
         hooke.open(path)
+
+
+def test_a_state_is_never_half_of_a_frame(path):
+    """Positions can be read, velocities cannot: the state keeps what it had."""
+    with h5py.File(path, "r+") as file:
+        del file["hooke/frame_check"], file["particles/all/velocity/value"]
+        file["particles/all/velocity/value"] = np.zeros((len(file["particles/all/position/value"]), 5, 3))
+    record = hooke.open(path)
+    state = record.system.state()
+    state.q[:], state.v[:], state.t = 0.25, 0.5, 3.0
+    with pytest.raises(hooke.Error, match="velocity/value has 15 numbers a frame; the state has 18"):
+        lib.hooke_record_read(record._handle, -1, state._handle)
+    assert np.all(state.q == 0.25) and np.all(state.v == 0.5) and state.t == 3.0
 
 
 def test_a_small_file_cannot_claim_much_memory(path):
