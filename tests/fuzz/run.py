@@ -124,8 +124,8 @@ class Tally:
         return counted
 
 
-def start(command, tally):
-    environment = {**os.environ, **SANITIZERS, "HOOKE_FUZZ_TALLY": str(tally.path)}
+def start(command, tally, **variables):
+    environment = {**os.environ, **SANITIZERS, "HOOKE_FUZZ_TALLY": str(tally.path), **variables}
     return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                             errors="replace")
 
@@ -266,7 +266,7 @@ class Campaign:
                 runs = left // self.workers + 10_000 if left > 0 else -1  # the others do as many
                 tally = Tally(target.work / f"tally-{folder}-{number}")
                 process = start(target.command(folder, f"-max_total_time={CHUNK[folder]}", f"-runs={runs}", str(corpus),
-                                               *target.inputs()), tally)
+                                               *target.inputs()), tally, HOOKE_FUZZ_WHOLE="0")
                 self.processes.add(process)
             log = self.follow(target, folder, process, tally)
             code = process.wait()
