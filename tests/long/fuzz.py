@@ -26,12 +26,12 @@ def counted(name: str) -> Callable[[str], dict[str, Any]]:
 
 
 def so_far(known: dict[str, Any]) -> dict[str, Any]:
-    """With the counts of the driver, where it is done and they are further."""
+    """With the counts of the driver, where it is done and they are not older."""
     targets = json.loads(FIGURES.read_text())["targets"] if FIGURES.exists() else {}
     with_counts = dict(known)
     for name, figures in targets.items():
-        step = known.get(name, {"seconds": 0, "processor": 0, "figures": {"executions": 0}})
-        if figures["executions"] >= max(figures["wanted"], step["figures"]["executions"]):
+        step = known.get(name, {"seconds": 0, "processor": 0, "date": ""})
+        if figures["executions"] >= figures["wanted"] and figures["date"] >= step["date"]:
             # the step is the last sitting, the counts are of all
             times = {"seconds": max(step["seconds"], figures["seconds"]), "processor": max(step["processor"], figures["processor_seconds"])}
             with_counts[name] = step | times | {"date": figures["date"], "commit": ", ".join(figures["commits"]), "figures": figures}
