@@ -384,7 +384,8 @@ static void check_momentum(const struct small_scene *scene) {
 
 static const char *const methods[] = {"symplectic-euler", "forward-euler", "verlet", "rk4"};
 
-/* Backward Euler's step takes as long as thousands of others where there is none. */
+/* Backward Euler's step takes as long as thousands of others where there is none, and a campaign keeps the inputs with the
+ * longest ways to none. */
 static struct stepping choose_steps(uint8_t code, int may_be_long) {
   struct stepping by = {.method = code % 64 == 63 && may_be_long ? "backward-euler" : methods[code % 4],
                         .steps = 1 + code / 4 % 3};
@@ -436,7 +437,7 @@ static int is_whole(void) {
   return left > 0 && left-- > 0;
 }
 
-/* One of millions goes through a part that its bytes choose. */
+/* Others, one of millions, go through a part that their bytes choose. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static int32_t sets;
   hooke_fuzz_begin();
@@ -444,7 +445,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const int whole = is_whole();
   const uint64_t hash = hash_of(data, size);
   struct expected expected[2];
-  expected[0].by = expected[1].by = choose_steps(size > 2 ? data[2] : 0, whole || hash % 256 == 0);
+  expected[0].by = expected[1].by = choose_steps(size > 2 ? data[2] : 0, whole);
   const int32_t from = whole ? 0 : (int32_t)(hash % (uint64_t)sets), to = whole ? sets - 1 : from;
   for (first_set = from; first_set <= to; first_set++)
     check_with(data, size, first_set == from, whole || hash / 16 % 8 == 0, expected);
