@@ -3,9 +3,11 @@
 #include "print.h"
 #include "report.h"
 
-#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+static const double MOST_STEPS = 9007199254740992.0; /* 2^53, to which doubles count one by one */
 
 static int32_t may_be_given(const char *name) {
   static const char *const names[] = {"resume", "threads", "final", "json", "quiet", "help"};
@@ -43,47 +45,27 @@ void hooke_resume_tell_how(const struct hooke_arguments *arguments, const char *
   fputc('\n', stderr);
 }
 
-static void print_json(const struct hooke_arguments *arguments, const hooke_system *system,
-                       const hooke_options *options, double time, double before, double after) {
-  struct hooke_json json;
-  const char *method = hooke_options_text(options, "method");
-  const int adaptive = hooke_method_is_adaptive(method) == 1;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "status", "finished");
-  hooke_json_text(&json, "method", method);
-  if (!adaptive) hooke_json_number(&json, "step", hooke_options_number(options, "step"));
-  if (adaptive) hooke_json_number(&json, "rtol", hooke_options_number(options, "rtol"));
-  if (adaptive) hooke_json_number(&json, "atol", hooke_options_number(options, "atol"));
-  hooke_json_number(&json, "time", time);
-  static const char *const unknown[] = {"steps", "force_evaluations", "wall_seconds"};
-  for (int k = 0; k < 3; k++)
-    hooke_json_number(&json, unknown[k], NAN);
-  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
-  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
-  hooke_json_open(&json, "energy", '{');
-  hooke_json_number(&json, "initial", before);
-  hooke_json_number(&json, "final", after);
-  hooke_json_close(&json);
-  hooke_json_text(&json, "output", arguments->scene);
-  hooke_json_end(&json);
+/* The number of the step after which the last of `frames` was written; -1 if the file does not say. */
+static int32_t read_steps(hooke_record *record, int64_t frames, int64_t *steps) {
+  int64_t rows = 0, columns = 0;
+  *steps = -1;
+  int32_t status = hooke_record_size(record, "step", &rows, &columns);
+  if (status != HOOKE_OK || frames < 1 || rows < frames || columns != 1) return status;
+  double *all = malloc((size_t)rows * sizeof *all);
+  if (all == NULL) return HOOKE_NO_MEMORY;
+  status = hooke_record_numbers(record, "step", all);
+  if (status == HOOKE_OK && all[frames - 1] >= 0.0 && all[frames - 1] <= MOST_STEPS)
+    *steps = (int64_t)all[frames - 1];
+  free(all);
+  return status;
 }
 
-static double energy_of(const hooke_system *system, const hooke_state *state) {
-  return hooke_system_energy(system, hooke_state_position(state), hooke_state_velocity(state));
-}
-
-int hooke_resume_tell_finished(const struct hooke_arguments *arguments, const struct hooke_setup *setup) {
+int32_t hooke_resume_read_finished(const char *output, hooke_state *state, int64_t *frames, int64_t *steps) {
   hooke_record *record = NULL;
-  int32_t status = hooke_record_open(arguments->scene, &record);
-  const double before = energy_of(setup->system, setup->state);
-  if (status == HOOKE_OK) status = hooke_record_read(record, -1, setup->state);
+  int32_t status = hooke_record_open(output, &record);
+  if (status == HOOKE_OK) status = hooke_record_read(record, -1, state);
+  if (status == HOOKE_OK) *frames = hooke_record_frame_count(record);
+  if (status == HOOKE_OK) status = read_steps(record, *frames, steps);
   hooke_record_close(record);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  if (!arguments->quiet)
-    hooke_report_words(arguments, "the run of %s had finished; there is nothing to go on with",
-                       arguments->scene);
-  if (arguments->json)
-    print_json(arguments, setup->system, setup->options, hooke_state_time(setup->state), before,
-               energy_of(setup->system, setup->state));
-  return HOOKE_EXIT_DONE;
+  return status;
 }

@@ -10,7 +10,7 @@ int hooke_resume_check(const struct hooke_arguments *arguments);
 /* How to go on with an interrupted run; `kept`: status of its last checkpoint. */
 void hooke_resume_tell_how(const struct hooke_arguments *arguments, const char *output, int32_t kept);
 
-/* Says that the run had finished, with the results that its file still has. Returns the exit code. */
-int hooke_resume_tell_finished(const struct hooke_arguments *arguments, const struct hooke_setup *setup);
+/* Of a run that had finished: the last frame, how many there are, and the steps that it took, -1 if the file does not say. */
+int32_t hooke_resume_read_finished(const char *output, hooke_state *state, int64_t *frames, int64_t *steps);
 
 #endif

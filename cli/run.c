@@ -3,9 +3,8 @@
 #include "print.h"
 #include "report.h"
 #include "resume.h"
-#include "setup.h"
+#include "run_results.h"
 #include "unit.h"
-#include "watch.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -13,56 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MESSAGE_SIZE = 2048, SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
+enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
 
-/* A run and what is kept of it. */
-struct run {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
-  hooke_integrator *integrator;
-  hooke_trajectory *trajectory; /* NULL without -o */
-  const char *output;
-  const char *resumed;  /* FILE of --resume, which is the output then; NULL: a run from the beginning */
-  int32_t was_finished; /* 1: there was nothing to go on with */
-  int32_t kept_place;   /* 1: of an interrupted run, a checkpoint or a frame to go on from */
-  struct hooke_watch watch;
-  double duration;
-  int64_t frames;       /* reported so far */
-  int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
-  int32_t outcome;
-  hooke_why
-      *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
-  char message[MESSAGE_SIZE]; /* about the outcome, or the write that failed */
-  double energy_before, energy_after;
-};
-
-static double state_energy(const struct run *run) {
+static double state_energy(const struct hooke_run *run) {
   return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
                              hooke_state_velocity(run->setup.state));
 }
 
-static const char *method_of(const struct run *run) {
-  return hooke_options_text(hooke_integrator_options(run->integrator), "method");
-}
-
-static double option_of(const struct run *run, const char *name) {
-  return hooke_options_number(hooke_integrator_options(run->integrator), name);
-}
-
 /* ---- running ---- */
 
-static void keep_message(struct run *run) {
+static void keep_message(struct hooke_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
 }
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
-  struct run *run = ctx;
+  struct hooke_run *run = ctx;
   (void)step;
   return hooke_watch_tell(&run->watch, hooke_state_time(state) / run->duration, NULL);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
-  struct run *run = ctx;
+  struct hooke_run *run = ctx;
   if (run->trajectory) run->write_status = hooke_trajectory_write(run->trajectory, step, state);
   if (run->write_status != HOOKE_OK) {
     keep_message(run);
@@ -73,7 +43,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
-  struct run *run = ctx;
+  struct hooke_run *run = ctx;
   (void)step;
   if (run->trajectory)
     run->write_status = hooke_trajectory_checkpoint(run->trajectory, run->integrator, state);
@@ -83,8 +53,8 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
 }
 
 /* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing. */
-static int64_t stride(const struct run *run) {
-  if (hooke_method_is_adaptive(method_of(run)) != 0) return 1;
+static int64_t stride(const struct hooke_run *run) {
+  if (hooke_method_is_adaptive(hooke_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
@@ -94,16 +64,16 @@ static int64_t stride(const struct run *run) {
 /* The library tells of each kind once a run. */
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
-  const struct run *run = ctx;
+  const struct hooke_run *run = ctx;
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
   hooke_report_words(run->arguments, "warning: %s", sentence);
   return 0;
 }
 
-static int32_t prepare(struct run *run) {
+static int32_t prepare(struct hooke_run *run) {
   int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
   if (status != HOOKE_OK) return status;
-  run->duration = option_of(run, "duration");
+  run->duration = hooke_options_number(hooke_integrator_options(run->integrator), "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
@@ -122,7 +92,7 @@ static int32_t prepare(struct run *run) {
 
 /* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and nobody from
  * numbers that are not finite. */
-static void keep_place(struct run *run) {
+static void keep_place(struct hooke_run *run) {
   if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
   if (run->kept_place != HOOKE_IO_FAILED && run->kept_place != HOOKE_NO_MEMORY) return;
@@ -131,7 +101,7 @@ static void keep_place(struct run *run) {
 }
 
 /* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
-static int32_t write_companion(struct run *run) {
+static int32_t write_companion(struct hooke_run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
   if (status == HOOKE_OK) run->frames = hooke_record_frame_count(record);
@@ -144,7 +114,7 @@ static int32_t write_companion(struct run *run) {
 }
 
 /* The outcome stays what it is without an explanation. */
-static void find_why(struct run *run) {
+static void find_why(struct hooke_run *run) {
   const int32_t status = hooke_why_create(run->integrator, &run->why);
   if (status == HOOKE_OK)
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
@@ -152,14 +122,26 @@ static void find_why(struct run *run) {
     hooke_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
 }
 
+/* The end of a run that had finished. */
+static int take_finished(struct hooke_run *run) {
+  const int32_t status =
+      hooke_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
+  if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+  run->energy_after = state_energy(run);
+  if (!run->arguments->quiet)
+    hooke_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with",
+                       run->output);
+  return HOOKE_EXIT_DONE;
+}
+
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
-static int integrate(struct run *run) {
+static int integrate(struct hooke_run *run) {
   hooke_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
   int32_t status = prepare(run);
   if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
   run->was_finished = run->resumed && !run->trajectory;
-  if (run->was_finished) return HOOKE_EXIT_DONE;
+  if (run->was_finished) return take_finished(run);
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
@@ -183,149 +165,11 @@ static int integrate(struct run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
 }
 
-/* ---- results ---- */
-
-static void print_json(const struct run *run, int32_t with_final) {
-  const hooke_system *system = run->setup.system;
-  hooke_state *state = run->setup.state;
-  struct hooke_json json;
-  double momentum[3];
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "status",
-                  run->outcome == HOOKE_OK         ? "finished"
-                  : run->outcome == HOOKE_DIVERGED ? "diverged"
-                                                   : "stopped");
-  hooke_json_text(&json, "method", method_of(run));
-  if (hooke_method_is_adaptive(method_of(run)) == 0) {
-    hooke_json_number(&json, "step", option_of(run, "step"));
-  } else {
-    hooke_json_number(&json, "rtol", option_of(run, "rtol"));
-    hooke_json_number(&json, "atol", option_of(run, "atol"));
-  }
-  hooke_json_number(&json, "time", hooke_state_time(state));
-  hooke_json_count(&json, "steps", hooke_integrator_count(run->integrator, "steps"));
-  hooke_json_count(&json, "force_evaluations", hooke_integrator_count(run->integrator, "force_evaluations"));
-  hooke_json_number(&json, "wall_seconds", hooke_integrator_wall_seconds(run->integrator));
-  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
-  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
-  hooke_json_open(&json, "energy", '{');
-  hooke_json_number(&json, "initial", run->energy_before);
-  hooke_json_number(&json, "final", run->energy_after);
-  hooke_json_close(&json);
-  hooke_system_momentum(system, hooke_state_velocity(state), momentum);
-  hooke_json_open(&json, "momentum", '[');
-  for (int i = 0; i < 3; i++)
-    hooke_json_number(&json, NULL, momentum[i]);
-  hooke_json_close(&json);
-  hooke_json_text(&json, "output", run->output);
-  hooke_json_text(&json, "diagnosis",
-                  hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
-  if (with_final) {
-    hooke_json_open(&json, "final", '{');
-    hooke_json_vectors(&json, "position", hooke_state_size(state) / 3, hooke_state_position(state));
-    hooke_json_vectors(&json, "velocity", hooke_state_size(state) / 3, hooke_state_velocity(state));
-  }
-  hooke_json_end(&json);
-}
-
-static void print_row(const char *label) {
-  printf("%-22s", label);
-}
-
-static void print_quantity(double value, const char *unit) {
-  char text[HOOKE_NUMBER_SIZE];
-  printf("%s %s", hooke_format_number(value, text), unit);
-}
-
-static void print_count(const struct run *run, const char *label, const char *what) {
-  int64_t count = hooke_integrator_count(run->integrator, what);
-  if (count <= 0) return;
-  print_row(label);
-  printf("%" PRId64 "\n", count);
-}
-
-static void print_work(const struct run *run) {
-  int64_t springs = hooke_system_spring_count(run->setup.system);
-  int64_t steps = hooke_integrator_count(run->integrator, "steps");
-  double seconds = hooke_integrator_wall_seconds(run->integrator);
-  print_count(run, "steps", "steps");
-  print_count(run, "force evaluations", "force_evaluations");
-  print_count(run, "derivative products", "derivative_products");
-  print_count(run, "nonlinear iterations", "nonlinear_iterations");
-  print_count(run, "nonlinear failures", "nonlinear_failures");
-  print_count(run, "linear iterations", "linear_iterations");
-  print_count(run, "error test failures", "error_test_failures");
-  print_row("wall time");
-  printf("%.4g s", seconds);
-  if (springs > 0 && steps > 0) {
-    printf(", %.3g ns per spring-step", 1e9 * seconds / (double)springs / (double)steps);
-  }
-  printf("\n");
-}
-
-static void print_final(hooke_state *state) {
-  const double *q = hooke_state_position(state);
-  const double *v = hooke_state_velocity(state);
-  char text[HOOKE_NUMBER_SIZE];
-  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
-  for (int64_t i = 0; i < hooke_state_size(state) / 3; i++) {
-    printf("%" PRId64, i);
-    for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_number(q[3 * i + k], text));
-    for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_number(v[3 * i + k], text));
-    printf("\n");
-  }
-}
-
-static void print_summary(const struct run *run) {
-  const hooke_system *system = run->setup.system;
-  const char *title = hooke_scene_title(run->setup.scene);
-  int64_t particles = hooke_system_particle_count(system);
-  double momentum[3];
-  char text[HOOKE_NUMBER_SIZE];
-  if (title && title[0]) {
-    print_row("scene");
-    hooke_print_text(stdout, title);
-    printf("\n");
-  }
-  print_row("particles");
-  printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
-         particles - hooke_system_free_count(system), hooke_system_spring_count(system));
-  print_row("method");
-  printf("%s, ", method_of(run));
-  if (hooke_method_is_adaptive(method_of(run)) == 0) {
-    printf("step ");
-    print_quantity(option_of(run, "step"), "s\n");
-  } else {
-    printf("rtol %s, atol ", hooke_format_number(option_of(run, "rtol"), text));
-    print_quantity(option_of(run, "atol"), "m\n");
-  }
-  print_row("time reached");
-  print_quantity(hooke_state_time(run->setup.state), "s of ");
-  print_quantity(run->duration, "s\n");
-  print_work(run);
-  print_row("energy");
-  print_quantity(run->energy_before, "J before, ");
-  print_quantity(run->energy_after, "J after");
-  printf(" (change %+.4g J)\n", run->energy_after - run->energy_before);
-  hooke_system_momentum(system, hooke_state_velocity(run->setup.state), momentum);
-  print_row("momentum");
-  for (int i = 0; i < 3; i++)
-    printf("%s ", hooke_format_number(momentum[i], text));
-  printf("kg m/s\n");
-  if (run->output) {
-    print_row("output");
-    hooke_print_text(stdout, run->output);
-    printf(" (%" PRId64 " frame%s)\n", run->frames, run->frames == 1 ? "" : "s");
-  }
-}
-
 /* On standard error: why a run ended early, what is kept, what to do. */
-static void explain(const struct run *run) {
+static void explain(const struct hooke_run *run) {
   const struct hooke_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
-  char kept[MESSAGE_SIZE] = "";
+  char kept[sizeof run->message] = "";
   if (run->output) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
@@ -345,19 +189,11 @@ static void explain(const struct run *run) {
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
-static int run_and_tell(struct run *run) {
+static int run_and_tell(struct hooke_run *run) {
   int code = integrate(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  if (run->was_finished) return hooke_resume_tell_finished(run->arguments, &run->setup);
-  int32_t with_final = hooke_arguments_text(run->arguments, "final") != NULL;
-  int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
-  if (run->arguments->json) {
-    print_json(run, with_final);
-  } else {
-    print_summary(run);
-    if (with_final) print_final(run->setup.state);
-  }
-  hooke_print_flush();
+  const int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
+  hooke_run_print(run);
   if (coincident > 0 && !run->arguments->quiet) {
     hooke_report_words(run->arguments,
                        "%" PRId64
@@ -390,7 +226,7 @@ static int read_want(const struct hooke_arguments *arguments, const char *text, 
 }
 
 /* Method and step from a quick study of the beginning, and a word on what was picked. */
-static int pick(struct run *run, const char *text) {
+static int pick(struct hooke_run *run, const char *text) {
   const struct hooke_arguments *arguments = run->arguments;
   double want = 0.0;
   char number[HOOKE_NUMBER_SIZE];
@@ -413,9 +249,9 @@ static int pick(struct run *run, const char *text) {
 
 static int do_run(const struct hooke_arguments *arguments) {
   const char *want = hooke_arguments_text(arguments, "want");
-  struct run run = {.arguments = arguments,
-                    .output = hooke_arguments_text(arguments, "output"),
-                    .resumed = hooke_arguments_text(arguments, "resume")};
+  struct hooke_run run = {.arguments = arguments,
+                          .output = hooke_arguments_text(arguments, "output"),
+                          .resumed = hooke_arguments_text(arguments, "resume")};
   int code = hooke_resume_check(arguments);
   if (code == HOOKE_EXIT_DONE) code = hooke_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;

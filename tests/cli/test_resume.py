@@ -162,13 +162,19 @@ def test_one_of_another_run_is_not_taken(hooke, start, write, tmp_path):
     assert b"goes on from the last whole frame, at t = " in err and b"is of another run" in err
 
 
-def test_nothing_is_to_do_for_a_run_that_has_finished(hooke, write, tmp_path):
-    assert hooke("run", write(SIX_PARTICLES, checkpoint=0.1), "-o", "out.h5").code == 0
-    assert not (tmp_path / "out.h5.checkpoint").exists()
+@pytest.mark.parametrize("method", [{}, {"method": "cvode-adams", "rtol": 1e-8}], ids=["a fixed step", "error control"])
+def test_of_a_run_that_has_finished_it_tells_what_the_file_has(hooke, write, tmp_path, method):
+    scene = write(SIX_PARTICLES, checkpoint=0.1, **method)
+    first = hooke("run", scene, "-o", "out.h5", "--json", "--final")
+    assert first.code == 0 and not (tmp_path / "out.h5.checkpoint").exists()
     before = (tmp_path / "out.h5").read_bytes()
-    answer = hooke("run", "--resume", "out.h5", "--json")
-    assert answer.code == 0 and "had finished" in answer.err
-    assert answer.json["status"] == "finished" and answer.json["time"] == 0.5 and answer.json["steps"] is None
+    again = hooke("run", "--resume", "out.h5", "--json", "--final")
+    assert again.code == 0 and "had finished" in again.err
+    assert results(again.out) == results(first.out, force_evaluations=None)  # which no file has
+    assert again.json["wall_seconds"] is None
+    words = hooke("run", "--resume", "out.h5", "--final", "--quiet")
+    assert words.err == "" and f"steps                 {first.json['steps']}\n" in words.out
+    assert "wall time" not in words.out and words.out.count("\n5 ") == 1
     assert (tmp_path / "out.h5").read_bytes() == before
 
 

@@ -54,7 +54,8 @@ def test_a_file_is_gone_on_with(tmp_path, name, value):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.h5", "out.xdmf", "whole.h5", "whole.xdmf"]
     again = hooke.resume(tmp_path / "out.h5")
     assert again.status == "finished" and "had finished" in again.message
-    assert np.array_equal(again.state.q, whole.state.q)
+    assert np.array_equal(again.state.q, whole.state.q) and again.state.t == whole.state.t
+    assert again.counts == {"steps": whole.counts["steps"]} and np.isnan(again.wall_seconds)
 
 
 def push(t, q, v, f):

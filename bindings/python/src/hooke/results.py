@@ -16,7 +16,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
@@ -151,7 +151,8 @@ def resume(
     on_step: tuple[int, Observer] | None = None,
 ) -> Result:
     """Goes on with the run of the file `output`, which stopped or was killed, as if it had never stopped: the file, the
-    final state and the counts are then the same to the bit. Of a run that has finished, the `Result` is the last frame.
+    final state and the counts are then the same to the bit. Of a run that has finished, the `Result` is the last frame,
+    with the one count that its file has, "steps", and NaN for the time that it took.
 
     The options are those of the run, but for `threads`. So is the scene, unless `problem` is given, as it has to be
     where the run was not made from a scene, or with callbacks; `force` is the force callback that it had. It goes on from the
@@ -170,9 +171,11 @@ def resume(
         os.fsencode(output), system._handle, integrator._handle, state._handle, ctypes.byref(file)
     )
     if not file:
-        _read_last(output, state)
         integrator.message = f"the run of {os.fsdecode(output)} had finished"
-        return _result("finished", integrator, state, output, None)
+        steps = _read_last(output, state)
+        return replace(
+            _result("finished", integrator, state, output, None), counts={"steps": steps}, wall_seconds=np.nan
+        )
     watchers: list[Observer] = [] if on_frame is None else [on_frame]
     with shown(progress, fills=False) as tell:
         if tell is not None:
@@ -212,8 +215,13 @@ def _options_of(path: Path) -> Options:
     return Options(Handle(lib.hooke_record_options(record), None, record), read_only=True).copy()
 
 
-def _read_last(path: Path, state: State) -> None:
-    lib.hooke_record_read(_record(path), -1, state._handle)
+def _read_last(path: Path, state: State) -> int:
+    """The number of its step."""
+    from .trajectory import Trajectory  # which needs this module
+
+    with Trajectory(path) as trajectory:
+        lib.hooke_record_read(trajectory._handle, -1, state._handle)
+        return int(trajectory.steps[-1])
 
 
 def resolve(

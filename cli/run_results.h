@@ -1,0 +1,35 @@
+/* A run, and what it gave, printed for a person and for a program. */
+#ifndef HOOKE_CLI_RUN_RESULTS_H
+#define HOOKE_CLI_RUN_RESULTS_H
+
+#include "setup.h"
+#include "watch.h"
+
+/* A run and what is kept of it. */
+struct hooke_run {
+  const struct hooke_arguments *arguments;
+  struct hooke_setup setup;
+  hooke_integrator *integrator;
+  hooke_trajectory *trajectory; /* NULL without -o */
+  const char *output;
+  const char *resumed;    /* FILE of --resume, which is the output then; NULL: a run from the beginning */
+  int32_t was_finished;   /* 1: there was nothing to go on with */
+  int64_t finished_steps; /* that such a run took; -1: its file does not say */
+  int32_t kept_place;     /* 1: of an interrupted run, a checkpoint or a frame to go on from */
+  struct hooke_watch watch;
+  double duration;
+  int64_t frames;       /* reported so far */
+  int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
+  int32_t outcome;
+  hooke_why
+      *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
+  char message[2048]; /* about the outcome, or the write that failed */
+  double energy_before, energy_after;
+};
+
+const char *hooke_run_method(const struct hooke_run *run);
+
+/* With --json, as JSON; with --final, every particle, too. */
+void hooke_run_print(const struct hooke_run *run);
+
+#endif
