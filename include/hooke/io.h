@@ -95,8 +95,9 @@ typedef struct hooke_trajectory hooke_trajectory;
 
 /* Creates an H5MD 1.1 file for all frames that `integrator` is going to report on `system`, sized in advance
  * so that every frame written survives even if the process is killed. An existing file is replaced only when
- * the new one is ready to take frames. `scene_text` may be NULL. HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY. */
+ * the new one is ready to take frames. `scene_text` may be NULL; of a scene that names files the numbers of `system` are
+ * kept in their place, so that the file needs no other (unless the system has callbacks, which no scene can hold).
+ * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);
@@ -166,7 +167,8 @@ HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *wha
 
 /* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
  * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
- * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. */
+ * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. `scene_text` is as for
+ * hooke_trajectory_create(). */
 typedef struct hooke_comparison_file hooke_comparison_file;
 HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
                                                hooke_comparison *comparison, const char *scene_text,
@@ -208,7 +210,7 @@ HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char
 /* ---- studies ---- */
 
 /* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time, orders,
- * reference, recommendation (layout: docs/study.md). `scene_text` may be NULL; `outcome` is what hooke_study_run()
+ * reference, recommendation (layout: docs/study.md). `scene_text` is as for hooke_trajectory_create(); `outcome` is what hooke_study_run()
  * returned. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
                                        int32_t outcome);

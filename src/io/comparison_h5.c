@@ -22,6 +22,7 @@
 #include "io/object_h5.h"
 #include "io/place.h"
 #include "io/recording_h5.h"
+#include "io/scene.h"
 #include "measure/comparison.h"
 
 #include <math.h>
@@ -173,12 +174,8 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
   return 1;
 }
 
-int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
-                                     hooke_comparison *comparison, const char *scene_text,
-                                     hooke_comparison_file **file) {
-  *file = NULL;
-  int32_t status = hooke_comparison_prepare(comparison);
-  if (status != HOOKE_OK) return status;
+static int32_t create(const char *path, const hooke_system *system, hooke_comparison *comparison,
+                      const char *scene_text, hooke_comparison_file **file) {
   hooke_comparison_file *made = hooke_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->file.id = made->file.list = made->file.descriptor = -1;
@@ -188,7 +185,7 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
   made->recording = hooke_new(made->row_count + 1, sizeof *made->recording);
   struct hooke_h5_guard guard;
   hooke_h5_guard_begin(&guard);
-  status = made->recording ? fill(&guard, path, system, scene_text, made) : HOOKE_NO_MEMORY;
+  const int32_t status = made->recording ? fill(&guard, path, system, scene_text, made) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
     hooke_comparison_on_frame(comparison, write_frame, made);
     *file = made;
@@ -196,6 +193,18 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
     release(made);
   }
   hooke_h5_guard_end(&guard);
+  return status;
+}
+
+int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
+                                     hooke_comparison *comparison, const char *scene_text,
+                                     hooke_comparison_file **file) {
+  *file = NULL;
+  int32_t status = hooke_comparison_prepare(comparison);
+  char *whole = NULL;
+  if (status == HOOKE_OK) status = hooke_scene_make_whole(scene_text, system, comparison->options, &whole);
+  if (status == HOOKE_OK) status = create(path, system, comparison, whole ? whole : scene_text, file);
+  hooke_free(whole);
   return status;
 }
 

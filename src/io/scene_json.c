@@ -76,8 +76,8 @@ static size_t give_byte(void *buffer, size_t size, void *ctx) {
 }
 
 /* NULL, with the failure in `status`, if it cannot be had. */
-static json_t *load(const hooke_scene *scene, struct hooke_scene_trouble *trouble, int32_t *status) {
-  struct source source = {.next = scene->text, .left = scene->length};
+static json_t *load(const char *text, int64_t length, struct hooke_scene_trouble *trouble, int32_t *status) {
+  struct source source = {.next = text, .left = length};
   const int kept = errno;
   json_error_t error;
   errno = 0;
@@ -162,7 +162,7 @@ static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root)
 int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
   HOOKE_KEEP_ERRNO;
   int32_t status;
-  json_t *root = load(scene, trouble, &status);
+  json_t *root = load(scene->text, scene->length, trouble, &status);
   if (root == NULL) return status;
   struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
   status = hooke_system_create(&scene->system);
@@ -174,6 +174,34 @@ int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_s
   return status;
 }
 
+/* ---- files ---- */
+
+static int names_file(const json_t *value) {
+  const char *key;
+  json_t *member;
+  size_t k;
+  if (json_is_string(json_object_get(value, "file"))) return 1;
+  json_object_foreach((json_t *)value, key, member) if (names_file(member)) return 1;
+  json_array_foreach(value, k, member) if (names_file(member)) return 1;
+  return 0;
+}
+
+int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+  HOOKE_KEEP_ERRNO;
+  struct hooke_scene_trouble trouble = {0};
+  int32_t status;
+  *names = 0;
+  *title = NULL;
+  if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* most scenes, without being parsed */
+  json_t *root = load(text, (int64_t)strlen(text), &trouble, &status);
+  if (root == NULL) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+  const char *found = json_string_value(json_object_get(root, "title"));
+  *names = names_file(root);
+  if (*names && (*title = hooke_copy_text(found ? found : "")) == NULL) status = HOOKE_NO_MEMORY;
+  json_decref(root);
+  return status;
+}
+
 #else
 
 int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
@@ -181,6 +209,13 @@ int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_s
   (void)folder;
   (void)trouble;
   return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
+}
+
+int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+  (void)text;
+  *names = 0;
+  *title = NULL;
+  return HOOKE_OK;
 }
 
 #endif

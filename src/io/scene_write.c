@@ -4,6 +4,7 @@
 #include "integrate/integrator.h"
 #include "hooke/io.h"
 #include "io/place.h"
+#include "io/scene.h"
 #include "io/scene_words.h"
 #include "io/text.h"
 #include "model/system.h"
@@ -306,4 +307,25 @@ int32_t hooke_scene_of_system(const hooke_system *system, const char *title, con
   if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, scene);
   hooke_text_release(&laid);
   return status;
+}
+
+int32_t hooke_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
+                               char **whole) {
+  struct hooke_text laid = {.bytes = NULL};
+  char *title = NULL;
+  int32_t names = 0;
+  *whole = NULL;
+  int32_t status = text ? hooke_scene_names_files(text, &names, &title) : HOOKE_OK;
+  if (status == HOOKE_OK && names) {
+    status = compose(system, title, run, &laid);
+    hooke_text_add(&laid, "", 1);
+    if (status == HOOKE_OK) status = laid.status;
+  }
+  hooke_free(title);
+  if (status == HOOKE_OK) {
+    *whole = laid.bytes;
+    return HOOKE_OK;
+  }
+  hooke_text_release(&laid);
+  return status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }

@@ -24,6 +24,7 @@
 #include "io/file_h5.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
+#include "io/scene.h"
 #include "measure/study.h"
 
 #include <math.h>
@@ -203,8 +204,8 @@ static double bytes_of(const hooke_study *study, const char *scene_text) {
   return text + 65536.0 + rows * (512.0 + 16.0 * frames) + 8.0 * frames;
 }
 
-int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
-                             int32_t outcome) {
+static int32_t write_file(const hooke_study *study, const char *path, const char *scene_text,
+                          int32_t outcome) {
   struct hooke_h5_guard guard;
   struct hooke_h5_file file;
   hooke_h5_guard_begin(&guard);
@@ -218,6 +219,15 @@ int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const c
   }
   hooke_h5_file_release(&file);
   hooke_h5_guard_end(&guard);
+  return status;
+}
+
+int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
+                             int32_t outcome) {
+  char *whole = NULL;
+  int32_t status = hooke_scene_make_whole(scene_text, study->system, study->run, &whole);
+  if (status == HOOKE_OK) status = write_file(study, path, whole ? whole : scene_text, outcome);
+  hooke_free(whole);
   return status;
 }
 

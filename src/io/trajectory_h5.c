@@ -8,6 +8,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/place.h"
+#include "io/scene.h"
 #include "io/trajectory.h"
 #include "io/trajectory_h5.h"
 
@@ -67,6 +68,22 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   return status == HOOKE_OK ? hooke_h5_file_publish(&made->file) : status;
 }
 
+static int32_t create(const char *path, const hooke_system *system, const hooke_integrator *integrator,
+                      const char *scene_text, hooke_trajectory **trajectory) {
+  hooke_trajectory *made = hooke_trajectory_new();
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  struct hooke_h5_guard guard;
+  hooke_h5_guard_begin(&guard);
+  int32_t status = fill(&guard, path, system, integrator, scene_text, made);
+  if (status == HOOKE_OK) {
+    *trajectory = made;
+  } else {
+    hooke_trajectory_release(made);
+  }
+  hooke_h5_guard_end(&guard);
+  return status;
+}
+
 int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                 const hooke_integrator *integrator, const char *scene_text,
                                 hooke_trajectory **trajectory) {
@@ -79,17 +96,10 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
     return hooke_fail(HOOKE_BAD_VALUE, "duration",
                       "is missing: a trajectory needs to know how many frames come");
   }
-  hooke_trajectory *made = hooke_trajectory_new();
-  if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = fill(&guard, path, system, integrator, scene_text, made);
-  if (status == HOOKE_OK) {
-    *trajectory = made;
-  } else {
-    hooke_trajectory_release(made);
-  }
-  hooke_h5_guard_end(&guard);
+  char *whole = NULL;
+  int32_t status = hooke_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
+  if (status == HOOKE_OK) status = create(path, system, integrator, whole ? whole : scene_text, trajectory);
+  hooke_free(whole);
   return status;
 }
 

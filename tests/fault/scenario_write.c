@@ -6,6 +6,10 @@
 
 enum { PATH_SIZE = 512, FRAMES = 5 };
 
+/* A scene that names a file, in whose place the numbers of the system are kept. */
+static const char of_files[] =
+    "{ \"hooke\": 1, \"title\": \"a rope\", \"particles\": { \"position\": { \"file\": \"rope.h5\" } } }";
+
 /* ---- trajectories ---- */
 
 struct course {
@@ -37,7 +41,7 @@ static void trajectory(struct attempt *a, const void *with) {
   a->planned = FRAMES;
   TRY(a, hooke_integrator_create(system, run, &integrator));
   TRY(a, hooke_state_create(system, &state));
-  TRY(a, hooke_trajectory_create(path, system, integrator, "{ \"hooke\": 1 }", &trajectory));
+  TRY(a, hooke_trajectory_create(path, system, integrator, of_files, &trajectory));
   if (course->behind) TRY(a, hooke_trajectory_write_behind(trajectory));
   for (int64_t k = 0; k < course->frames; k++) {
     put(state, k);
@@ -86,7 +90,7 @@ static void comparison(struct attempt *a, const void *with) {
   hooke_comparison_file *file = NULL;
   (void)with;
   if (comparison == NULL) goto end;
-  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), system, comparison, "{}", &file));
+  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), system, comparison, of_files, &file));
   if (a->on_file) {
     /* a frame that cannot be written stops the run, and closing tells why */
     const int32_t status = hooke_comparison_run(comparison);
@@ -119,7 +123,7 @@ static void study(struct attempt *a, const void *with) {
   hooke_study *study = make_study(a, system, run, "symplectic-euler");
   if (study == NULL) goto end;
   TRY(a, hooke_study_run(study));
-  if (kind == STUDY_H5) TRY(a, hooke_study_write_h5(study, path_of(a, "out.h5"), "{}", HOOKE_OK));
+  if (kind == STUDY_H5) TRY(a, hooke_study_write_h5(study, path_of(a, "out.h5"), of_files, HOOKE_OK));
   if (kind == STUDY_CSV) TRY(a, hooke_study_write_csv(study, path_of(a, "out.csv")));
   if (kind == STUDY_REPORT) TRY(a, hooke_study_write_report(study, path_of(a, "out.html"), "rope", "hooke"));
 end:

@@ -1,5 +1,8 @@
 """Runs that stopped go on: from files, from checkpoints, with callbacks, after exceptions."""
 
+import copy
+
+import h5py
 import numpy as np
 import pytest
 from conftest import SIX_PARTICLES, build_six_particles
@@ -106,3 +109,19 @@ def test_an_integrator_writes_and_reads_checkpoints(tmp_path):
     other = hooke.Integrator(problem, **{**options, "rtol": 1e-7})
     with pytest.raises(hooke.BadValue, match="other options"):
         other.read_checkpoint(path, state)
+
+
+def test_a_scene_that_names_files_is_kept_with_their_numbers_where_a_scene_can_hold_it(tmp_path):
+    with h5py.File(tmp_path / "arrays.h5", "w") as file:
+        file["position"] = SIX_PARTICLES["particles"]["position"]
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["particles"]["position"] = {"file": "arrays.h5", "dataset": "position"}
+    kept = []
+    for force in (None, push):
+        loaded = hooke.Scene.parse(scene, folder=tmp_path)
+        hooke.run(loaded, output=tmp_path / "out.h5", force=force, duration=0.1, every=0.1)
+        with h5py.File(tmp_path / "out.h5") as file:
+            kept.append(file["hooke/scene"].asstr()[()])
+    assert kept[1] == loaded.text and "arrays.h5" in kept[1]
+    (tmp_path / "arrays.h5").unlink()
+    assert hooke.Scene.parse(kept[0]).system.particle_count == 6
