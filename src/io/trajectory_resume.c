@@ -7,6 +7,7 @@
 #include "io/checkpoint_file.h"
 #include "io/checkpoint_form.h"
 #include "io/place.h"
+#include "io/record.h"
 #include "io/trajectory.h"
 
 #include <fcntl.h>
@@ -199,9 +200,12 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (status == HOOKE_OK) status = hooke_run_check_duration(integrator);
   if (status == HOOKE_OK) status = hooke_record_open(path, &going.record);
   if (status != HOOKE_OK) return status;
-  if (strcmp(hooke_record_text(going.record, "status"), "finished") == 0) {
+  if (!hooke_record_is_run(going.record))
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run", path);
+  if (status != HOOKE_OK || strcmp(hooke_record_text(going.record, "status"), "finished") == 0) {
     hooke_record_close(going.record);
-    return HOOKE_OK;
+    return status;
   }
   status = hooke_state_create_sized(state->size, 1, &going.state);
   if (status == HOOKE_OK) status = hooke_state_copy(state, going.state);

@@ -193,3 +193,8 @@ def test_what_is_no_trajectory(hooke, write, tmp_path):
     assert hooke("run", "--resume", "text.h5").code == 3
     assert hooke("run", "--resume", "nothing.h5").code == 3
     assert hooke("run", "--resume", write(SIX_PARTICLES)).code == 5
+    assert hooke("compare", "scene.json", "--methods", "rk4", "-o", "several.h5").code == 0
+    several = (tmp_path / "several.h5").read_bytes()
+    answer = hooke("run", "--resume", "several.h5")
+    assert answer.code == 3 and "several.h5: is of several runs" in answer.err
+    assert (tmp_path / "several.h5").read_bytes() == several
