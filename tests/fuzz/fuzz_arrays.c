@@ -92,32 +92,54 @@ static void read_array(const struct wanted *wanted, int by_hdf5) {
 
 /* ---- by way of a scene ---- */
 
+#define FOUR "'particles': {'mass': 1, 'position': [[0,0,0],[1,0,0],[0,2,0],[0,0,3]]"
+
+/* Scenes with ' for ", @ for the array and # for a particle, or what stands in its place. */
+static const char *const scenes[] = {
+    "'particles': {'position': @, 'mass': 1}",
+    FOUR ", 'velocity': @}",
+    "'particles': {'position': [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], 'mass': @}",
+    FOUR ", 'pinned': @}",
+    FOUR "}, 'springs': [{'between': @, 'stiffness': 5}]",
+    FOUR "}, 'springs': [{'between': [[0,1],[1,2],[0,3]], 'stiffness': @, 'rest_length': 1}]",
+    "'parts': [{'kind': 'mesh', 'vertices': @, 'triangles': [[0,1,2]], 'mass': 1, 'structural': "
+    "{'stiffness': 5}}]",
+    FOUR "}, 'driven': [{'particles': [0], 'motion': 'table', 'time': [0, 1, 2, 3], 'position': @}]",
+    FOUR "}, 'driven': [{'particles': [0], 'motion': 'table', 'time': @, 'position': [[0,0,0],[1,0,0]]}]",
+    "'parts': [{'kind': 'rope', 'name': 'p', 'from': [0,0,0], 'to': [1,0,0], 'segments': 3, 'mass': 1}], "
+    "'particles': {'position': @, 'mass': 1}, 'springs': [{'between': [[0, #]], 'stiffness': 5}]",
+    FOUR "}, 'springs': [{'between': [[0, 1], #], 'stiffness': @}]",
+    FOUR ", 'velocity': @, 'pinned': [0, #]}",
+    "'particles': {'position': [[0,0,0], #], 'mass': @}",
+    "'particles': {'position': [[0,0,#]], 'mass': @}",
+};
+static const char *const particles[] = {
+    "1",     "7",          "['p', 2]", "['p', 9]", "['p', -1]", "['q', 0]",
+    "['p']", "['p', 1.5]", "[0, 1]",   "1.5",      "'p'",       "{}",
+};
+
+static void print_scene(const uint8_t head[EDIT_HEAD], const char *array, char *scene, size_t size) {
+  const char *from = scenes[head[2] % (sizeof scenes / sizeof scenes[0])];
+  const char *particle = particles[head[3] % (sizeof particles / sizeof particles[0])];
+  size_t used = (size_t)snprintf(scene, size, "{'hooke': 1, ");
+  for (; *from; from++) {
+    const char one[] = {*from, '\0'};
+    used += (size_t)snprintf(scene + used, size - used, "%s",
+                             *from == '@'   ? array
+                             : *from == '#' ? particle
+                                            : one);
+  }
+  snprintf(scene + used, size - used, "}");
+  for (char *c = scene; *c; c++)
+    if (*c == '\'') *c = '"';
+}
+
 static void load_scene(const uint8_t head[EDIT_HEAD], const struct wanted *wanted) {
-  static const char *const text[] = {
-      "{\"hooke\": 1, \"particles\": {\"position\": %s, \"mass\": 1}}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"velocity\": %s, "
-      "\"mass\": 1}}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"mass\": %s}}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"mass\": 1, "
-      "\"pinned\": %s}}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"mass\": 1}, "
-      "\"springs\": "
-      "[{\"between\": %s, \"stiffness\": 5}]}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"mass\": 1}, "
-      "\"springs\": "
-      "[{\"between\": [[0,1],[1,2],[0,3]], \"stiffness\": %s, \"rest_length\": 1}]}",
-      "{\"hooke\": 1, \"parts\": [{\"kind\": \"mesh\", \"vertices\": %s, \"triangles\": [[0,1,2]], \"mass\": "
-      "1, "
-      "\"stretch\": {\"stiffness\": 5}}]}",
-      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0],[0,2,0],[0,0,3]], \"mass\": 1}, "
-      "\"driven\": "
-      "[{\"particles\": [0], \"motion\": \"table\", \"time\": [0, 1, 2, 3], \"displacement\": %s}]}",
-  };
   char source[512], frame[48] = "", whole[1024];
-  if (wanted->has_frame) snprintf(frame, sizeof frame, ", \"frame\": %lld", (long long)wanted->frame);
-  snprintf(source, sizeof source, "{\"file\": \"%s\", \"dataset\": \"%s\"%s}",
-           head[2] == 255 ? "other.h5" : "c.h5", wanted->dataset, frame);
-  snprintf(whole, sizeof whole, text[head[2] % (sizeof text / sizeof text[0])], source);
+  if (wanted->has_frame) snprintf(frame, sizeof frame, ", 'frame': %lld", (long long)wanted->frame);
+  snprintf(source, sizeof source, "{'file': '%s', 'dataset': '%s'%s}", head[2] == 255 ? "other.h5" : "c.h5",
+           wanted->dataset, frame);
+  print_scene(head, source, whole, sizeof whole);
   hooke_scene *scene = NULL;
   const int32_t status = hooke_scene_parse(whole, (int64_t)strlen(whole), "scene", container.folder, &scene);
   hooke_fuzz_require(status <= HOOKE_OK && (status == HOOKE_OK) == (scene != NULL), "a scene or a failure");
