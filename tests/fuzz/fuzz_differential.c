@@ -25,6 +25,13 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
   return small_scene_mutate(data, size, most, seed);
 }
 
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *one, size_t one_size, const uint8_t *two, size_t two_size,
+                                 uint8_t *out, size_t most, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *one, size_t one_size, const uint8_t *two, size_t two_size,
+                                 uint8_t *out, size_t most, unsigned seed) {
+  return small_scene_cross(one, one_size, two, two_size, out, most, seed);
+}
+
 /* The linker puts the second in place of the first everywhere else. */
 const struct hooke_spring_set *__real_hooke_spring_set(int32_t set);
 const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set);

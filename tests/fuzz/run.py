@@ -7,7 +7,9 @@
     run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
 
 A target is tests/fuzz/fuzz_<name>.c. Its comment says which files are its own and how long inputs are at most. Committed are
-corpus/<name>, inputs to begin with, found/<name>, inputs that were findings once, and <name>.dict, words of its inputs.
+corpus/<name>, inputs to begin with, found/<name>, inputs that were findings once, and <name>.dict, words of its inputs. Where a
+target takes long for an input, campaign/<name> has more, which reach what the others leave out and which campaigns alone
+begin with; --minimise then replaces these.
 
 A campaign works in build/fuzz: inputs in <name>/corpus, findings in <name>/found, and state.json. Two programs take turns:
 one with all sanitizers, and one that is faster, without the one for addresses.
@@ -86,10 +88,14 @@ class Target:
         self.longest = int(longest.group(1)) if longest else 4096
         self.mostly = int(longest.group(2)) if longest and longest.group(2) else self.longest
         self.corpus, self.found, self.words = HERE / "corpus" / name, HERE / "found" / name, HERE / f"{name}.dict"
+        self.campaign = HERE / "campaign" / name
         self.work = BUILD / name
 
     def inputs(self):
         return [str(folder) for folder in (self.corpus, self.found) if folder.is_dir()]
+
+    def campaign_inputs(self):
+        return [str(self.work / "corpus"), *self.inputs(), *([str(self.campaign)] if self.campaign.is_dir() else [])]
 
     def program(self, folder):
         kind = "replay" if folder == "fuzz-coverage" else "fuzz"
@@ -260,13 +266,12 @@ class Campaign:
                     return
                 turn = next(self.turn)
                 folder = "fuzz" if turn % TURNS == 0 else "fuzz-fast"
-                corpus = target.work / "corpus"
-                corpus.mkdir(parents=True, exist_ok=True)
+                (target.work / "corpus").mkdir(parents=True, exist_ok=True)
                 left = int(self.wanted(target) - self.of(target)["executions"])
                 runs = left // self.workers + 10_000 if left > 0 else -1  # the others do as many
                 tally = Tally(target.work / f"tally-{folder}-{number}")
-                process = start(target.command(folder, f"-max_total_time={CHUNK[folder]}", f"-runs={runs}", str(corpus),
-                                               *target.inputs()), tally, HOOKE_FUZZ_WHOLE="0")
+                process = start(target.command(folder, f"-max_total_time={CHUNK[folder]}", f"-runs={runs}",
+                                               *target.campaign_inputs()), tally, HOOKE_FUZZ_WHOLE="0")
                 self.processes.add(process)
             log = self.follow(target, folder, process, tally)
             code = process.wait()
@@ -338,7 +343,7 @@ def campaign(targets, executions, quiet, workers, limit):
     many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), quiet, workers, limit)
     many.run()
     for target in targets:  # everything that came up on the way, with every sanitizer
-        once = subprocess.run(target.command("fuzz", "-runs=0", str(target.work / "corpus"), *target.inputs()),
+        once = subprocess.run(target.command("fuzz", "-runs=0", *target.campaign_inputs()),
                               env={**os.environ, **SANITIZERS}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if once.returncode and not many.stop:
             many.of(target)["findings"] = findings(target) or ["the inputs gathered do not replay"]
@@ -379,8 +384,7 @@ def coverage(targets):
     for target in targets:
         target.work.mkdir(parents=True, exist_ok=True)
         raw, data = target.work / "lines.profraw", target.work / "lines.profdata"
-        inputs = [*target.inputs(), str(target.work / "corpus")]
-        subprocess.run([target.program("fuzz-coverage"), *inputs], env={**os.environ, "LLVM_PROFILE_FILE": str(raw)},
+        subprocess.run([target.program("fuzz-coverage"), *target.campaign_inputs()], env={**os.environ, "LLVM_PROFILE_FILE": str(raw)},
                        check=True, stdout=subprocess.DEVNULL)
         tools = [shutil.which(f"{tool}-14") or tool for tool in ("llvm-profdata", "llvm-cov")]
         subprocess.run([tools[0], "merge", "-sparse", str(raw), "-o", str(data)], check=True)
@@ -406,20 +410,36 @@ def tell_coverage(targets):
 # ---- the committed inputs ----
 
 
+def merge(target, folder, into, *inputs, **variables):
+    """Copies inputs that reach what those in `into` do not; small ones come first."""
+    subprocess.run(target.command(folder, "-merge=1", "-use_counters=0", str(into), *(str(f) for f in inputs if f.is_dir())),
+                   check=True, env={**os.environ, **SANITIZERS, **variables}, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+
+
 def minimise(targets):
-    """The fewest inputs that reach as much; small ones come first."""
+    """The fewest inputs that reach as much."""
     build("fuzz")
     seeds.make(BUILD / "seeds")
     for target in targets:
-        new = target.work / "minimised"
+        new, kept = target.work / "minimised", target.corpus
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
-        old = [str(f) for f in (BUILD / "seeds" / target.name, target.corpus, target.work / "corpus") if f.is_dir()]
-        subprocess.run(target.command("fuzz", "-merge=1", "-use_counters=0", str(new), *old), check=True, env={**os.environ, **SANITIZERS},
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        shutil.rmtree(target.corpus, ignore_errors=True)
-        shutil.copytree(new, target.corpus)
-        files = list(target.corpus.iterdir())
+        if target.campaign.is_dir():
+            old = [file for folder in target.inputs() for file in pathlib.Path(folder).iterdir()]
+            for file in old:
+                shutil.copy(file, new)
+            for folder in "fuzz", "fuzz-fast":  # whose kernels have other edges
+                build(folder)
+                merge(target, folder, new, target.campaign, target.work / "corpus", HOOKE_FUZZ_WHOLE="0")
+            for file in old:
+                (new / file.name).unlink()
+            kept = target.campaign
+        else:
+            merge(target, "fuzz", new, BUILD / "seeds" / target.name, target.corpus, target.work / "corpus")
+        shutil.rmtree(kept, ignore_errors=True)
+        shutil.copytree(new, kept)
+        files = list(kept.iterdir())
         print(f"{target.name}: {len(files)} inputs, {sum(f.stat().st_size for f in files)} bytes")
     return 0
 

@@ -301,18 +301,23 @@ void small_scene_destroy(struct small_scene *scene) {
 
 /* ---- mutating ---- */
 
+static size_t records_in(size_t size) {
+  const size_t count = size < SCENE_HEAD ? 0 : (size - SCENE_HEAD) / SCENE_RECORD;
+  return count < MOST_RECORDS ? count : MOST_RECORDS;
+}
+
 size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed) {
   uint64_t state = seed, bytes;
   if (most < SCENE_HEAD) return 0;
   if (size < SCENE_HEAD) memset(data + size, 0, SCENE_HEAD - size);
-  size_t count = size < SCENE_HEAD ? 0 : (size - SCENE_HEAD) / SCENE_RECORD;
-  size_t room = (most - SCENE_HEAD) / SCENE_RECORD;
-  if (room > MOST_RECORDS) room = MOST_RECORDS;
+  const size_t room = records_in(most);
+  size_t count = records_in(size);
   if (count > room) count = room;
   uint8_t *list = data + SCENE_HEAD;
   for (uint64_t times = 1 + mix(++state) % 3; times > 0; times--) {
-    const uint64_t what = mix(state += 7) % 8;
+    const uint64_t what = mix(state += 7) % 12;
     uint8_t *at = count > 0 ? list + mix(state + 1) % count * SCENE_RECORD : list;
+    const uint8_t *other = count > 0 ? list + mix(state + 4) % count * SCENE_RECORD : list;
     bytes = mix(state + 2);
     if (what == 0) {
       data[mix(state + 3) % SCENE_HEAD] = (uint8_t)bytes;
@@ -322,9 +327,30 @@ size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed
       memmove(at, list + --count * SCENE_RECORD, SCENE_RECORD);
     } else if (what == 3 && count > 0) {
       LLVMFuzzerMutate(at, SCENE_RECORD, SCENE_RECORD);
+    } else if (what < 6 && count > 0 && count < room) {
+      /* nearly the same once more: what the library takes together differs in little */
+      at = memcpy(list + count++ * SCENE_RECORD, other, SCENE_RECORD);
+      at[1 + mix(state + 3) % (SCENE_RECORD - 1)] = (uint8_t)bytes;
+    } else if (what < 8 && count > 0) {
+      const uint64_t k = mix(state + 3) % SCENE_RECORD;
+      at[k] = other[k];
     } else if (count > 0) {
       at[mix(state + 3) % SCENE_RECORD] = (uint8_t)bytes;
     }
+  }
+  return SCENE_HEAD + count * SCENE_RECORD;
+}
+
+size_t small_scene_cross(const uint8_t *one, size_t one_size, const uint8_t *two, size_t two_size,
+                         uint8_t *out, size_t most, unsigned seed) {
+  const size_t room = records_in(most), first = records_in(one_size), second = records_in(two_size);
+  size_t count = 0;
+  if (most < SCENE_HEAD || one_size < SCENE_HEAD || two_size < SCENE_HEAD) return 0;
+  memcpy(out, mix(seed) & 1 ? one : two, SCENE_HEAD);
+  for (size_t k = 0; k < first + second && count < room; k++) {
+    if (mix(seed + 1 + k) & 1) continue;
+    const uint8_t *from = k < first ? one + k * SCENE_RECORD : two + (k - first) * SCENE_RECORD;
+    memcpy(out + SCENE_HEAD + count++ * SCENE_RECORD, from + SCENE_HEAD, SCENE_RECORD);
   }
   return SCENE_HEAD + count * SCENE_RECORD;
 }

@@ -30,4 +30,8 @@ void small_scene_destroy(struct small_scene *scene);
 /* For LLVMFuzzerCustomMutator: keeps records records. */
 size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed);
 
+/* For LLVMFuzzerCustomCrossOver: the head of one of two scenes and about half of the records of each. */
+size_t small_scene_cross(const uint8_t *one, size_t one_size, const uint8_t *two, size_t two_size,
+                         uint8_t *out, size_t most, unsigned seed);
+
 #endif
