@@ -52,13 +52,13 @@ def test_a_mesh_has_no_resolution(hooke, scenes):
     assert answer.code == 0 and "a mesh has no resolution to change" in answer.out
 
 
-def test_a_trajectory_finds_the_file_beside_it(hooke, scenes, tmp_path):
+def test_a_trajectory_holds_the_mesh_and_a_scene_needs_its_file(hooke, scenes, tmp_path):
     answer = hooke("run", "mesh.json", *SHORT, "-o", "out.h5", "--json", "--final")
     assert answer.code == 0, answer.err
-    again = hooke("run", "out.h5", "--json", "--final")
-    assert again.json["final"] == answer.json["final"]
     (tmp_path / "ball.obj").unlink()
-    lost = hooke("run", "out.h5")
+    again = hooke("run", "out.h5", "--json", "--final")
+    assert again.code == 0 and again.json["final"] == answer.json["final"]
+    lost = hooke("run", "mesh.json")
     assert lost.code == 3 and 'parts[0].file: "ball.obj" cannot be opened' in lost.err
 
 
