@@ -7,10 +7,8 @@
 #include "unit.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
 

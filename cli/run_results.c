@@ -176,7 +176,7 @@ static void print_words(const struct hooke_run *run) {
   print_method(run);
   print_row("time reached");
   print_quantity(hooke_state_time(run->setup.state), "s of ");
-  print_quantity(option_of(run, "duration"), "s\n");
+  print_quantity(run->duration, "s\n");
   print_work(run);
   print_motion(run);
   if (run->output) {

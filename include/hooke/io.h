@@ -210,8 +210,9 @@ HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char
 /* ---- studies ---- */
 
 /* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time, orders,
- * reference, recommendation (layout: docs/study.md). `scene_text` is as for hooke_trajectory_create(); `outcome` is what hooke_study_run()
- * returned. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * reference, recommendation (layout: docs/study.md). `scene_text` is as for hooke_trajectory_create(); `outcome` is what
+ * hooke_study_run() returned. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
                                        int32_t outcome);
 

@@ -1,6 +1,7 @@
-/* What a file is, told by its first bytes. */
+/* What a file is, told by its first bytes, and whether it will do. */
 #include "io/record.h"
 
+#include "core/status.h"
 #include "io/place.h"
 
 #include <string.h>
@@ -14,4 +15,10 @@ int32_t hooke_record_is_one(const char *path) {
   const ssize_t got = read(file, begin, sizeof begin);
   close(file);
   return got == (ssize_t)sizeof begin && memcmp(begin, signature, sizeof begin) == 0;
+}
+
+int32_t hooke_record_require_run(const hooke_record *record) {
+  if (hooke_record_is_run(record)) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run",
+                    hooke_record_path(record));
 }

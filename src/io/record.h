@@ -16,4 +16,7 @@ double hooke_record_time(const hooke_record *record, int64_t frame);
 /* 0 for a file of several runs, a comparison or a study. */
 int32_t hooke_record_is_run(const hooke_record *record);
 
+/* HOOKE_BAD_VALUE for such a file. */
+int32_t hooke_record_require_run(const hooke_record *record);
+
 #endif

@@ -200,9 +200,7 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (status == HOOKE_OK) status = hooke_run_check_duration(integrator);
   if (status == HOOKE_OK) status = hooke_record_open(path, &going.record);
   if (status != HOOKE_OK) return status;
-  if (!hooke_record_is_run(going.record))
-    status =
-        hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run", path);
+  status = hooke_record_require_run(going.record);
   if (status != HOOKE_OK || strcmp(hooke_record_text(going.record, "status"), "finished") == 0) {
     hooke_record_close(going.record);
     return status;

@@ -96,10 +96,10 @@ static int32_t find_makers(const struct hooke_verify *verify) {
 
 static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
   int32_t status = hooke_record_open(verify->path, &verify->record);
-  if (status == HOOKE_OK &&
-      (!hooke_record_is_run(verify->record) || hooke_record_frame_count(verify->record) == 0))
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a trajectory of one run", verify->path,
-                        hooke_record_is_run(verify->record) ? "has no frames" : "is of several runs");
+  if (status == HOOKE_OK) status = hooke_record_require_run(verify->record);
+  if (status == HOOKE_OK && hooke_record_frame_count(verify->record) == 0)
+    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run",
+                        verify->path);
   if (status == HOOKE_OK) status = hooke_scene_load_within(verify->path, limits, &verify->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(verify->scene);
   if (status != HOOKE_OK) return status;

@@ -16,6 +16,7 @@ pytestmark = pytest.mark.everything
 BALL = Path(__file__).resolve().parents[2] / "examples" / "scenes" / "ball.obj"
 TITLE = 'a "whole" scene </b> é'
 
+
 @pytest.fixture
 def scene(tmp_path):
     """Arrays and a mesh of other files, in a folder; its path, and the folder beside it for what is written."""
