@@ -105,7 +105,7 @@ class Target:
         (self.work / "found").mkdir(parents=True, exist_ok=True)
         words = [f"-dict={self.words}"] if self.words.exists() else []
         longest = self.mostly if folder == "fuzz-fast" else self.longest
-        return [self.program(folder), f"-max_len={longest}", "-timeout=600", "-rss_limit_mb=2560", "-print_funcs=0", "-reload=0",
+        return [self.program(folder), f"-max_len={longest}", "-timeout=600", "-rss_limit_mb=2560", "-print_funcs=0", "-print_pcs=1", "-reload=0",
                 f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
@@ -227,12 +227,13 @@ class Campaign:
         state["by_build"][folder]["seconds"] += counted[3]
         state["findings"] = findings(target)
 
-    def see_edges(self, target, folder, edges, tally, are_new):
+    def see_edges(self, target, folder, edges, tally, new):
         state = self.of(target)
         state["edges"][folder] = max(edges, state["edges"].get(folder, 0))
-        if are_new:
+        if new:
             executions, _, _, seconds = tally.look()
-            state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds}
+            state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds,
+                                  "at": ", ".join(new[:4])}
 
     def is_done(self, target):
         return self.of(target)["executions"] >= self.wanted(target) and since_edge(self.of(target)) >= self.quiet
@@ -247,15 +248,17 @@ class Campaign:
 
     def follow(self, target, folder, process, tally):
         """Reads what libFuzzer says; returns the end of it. New is an edge that no input reached which it began with."""
-        tail, known, begun = [], 0, False
+        tail, new = [], []
         for line in process.stderr:
             tail = [*tail[-200:], line]
-            match = re.match(r"#\d+\s+(\w+)\s.*?cov: (\d+)", line)
+            place = re.match(r"\s*NEW_PC: (.*)", line)
+            if place:
+                new.append(os.path.basename(place.group(1)))
+            match = re.match(r"#\d+\s+\w+\s.*?cov: (\d+)", line)
             if match:
-                edges = int(match.group(2))
                 with self.lock:
-                    self.see_edges(target, folder, edges, tally, begun and edges > known)
-                known, begun = max(known, edges), begun or match.group(1) == "INITED"
+                    self.see_edges(target, folder, int(match.group(1)), tally, new)
+                new = []
         return "".join(tail)
 
     def work(self, number):
@@ -289,7 +292,7 @@ class Campaign:
         state = self.of(target)
         print(f"{target.name:10} {state['executions']:>12} executions, {share(state):3.0f} % past the syntax, "
               f"{max(state['edges'].values(), default=0)} edges, the last new one "
-              f"{since_edge(state):.0f} s ago", flush=True)
+              f"{since_edge(state):.0f} s ago at {state['last_edge'].get('at', 'an input to begin with')}", flush=True)
 
     def run(self):
         def interrupt(*_):
