@@ -44,7 +44,7 @@ WARNINGS = "-Wno-pass-failed"
 FLAGS = {
     "fuzz": None,
     "fuzz-fast": "-O2 -gline-tables-only -fsanitize-coverage=inline-8bit-counters,pc-table "
-    f"-fsanitize=undefined,float-cast-overflow -fsanitize-trap=all {WARNINGS}",
+    f"-fsanitize-coverage-ignorelist={HERE / 'uncounted.txt'} -fsanitize=undefined,float-cast-overflow -fsanitize-trap=all {WARNINGS}",
     "fuzz-coverage": f"-O1 -fprofile-instr-generate -fcoverage-mapping {WARNINGS}",
 }
 # [s] that a turn takes, which begins with all inputs that came up before.
@@ -199,7 +199,7 @@ class Campaign:
         self.targets, self.wanted, self.quiet, self.workers = targets, executions, quiet, workers
         self.until = time.monotonic() + limit if limit else None
         self.state, self.lock, self.stop, self.commit = load_state(), threading.Lock(), False, commit()
-        self.processes, self.turn = set(), itertools.count()
+        self.processes, self.tallies, self.turn = set(), {}, itertools.count()
         for target in targets:
             self.of(target)
             for left in target.work.glob("tally-*"):  # of a campaign that was interrupted
@@ -227,13 +227,13 @@ class Campaign:
         state["by_build"][folder]["seconds"] += counted[3]
         state["findings"] = findings(target)
 
-    def see_edges(self, target, folder, edges, tally, new):
+    def see_edges(self, target, folder, edges, new):
         state = self.of(target)
         state["edges"][folder] = max(edges, state["edges"].get(folder, 0))
         if new:
-            executions, _, _, seconds = tally.look()
-            state["last_edge"] = {"executions": state["executions"] + executions, "seconds": state["seconds"] + seconds,
-                                  "at": ", ".join(new[:4])}
+            at_work = [tally.look() for tally, its in self.tallies.items() if its is target]
+            state["last_edge"] = {"executions": state["executions"] + sum(look[0] for look in at_work),
+                                  "seconds": state["seconds"] + sum(look[3] for look in at_work), "at": ", ".join(new[:4])}
 
     def is_done(self, target):
         return self.of(target)["executions"] >= self.wanted(target) and since_edge(self.of(target)) >= self.quiet
@@ -246,7 +246,7 @@ class Campaign:
             return None
         return min(ahead, key=lambda t: (min(1.0, self.of(t)["executions"] / self.wanted(t)), since_edge(self.of(t))))
 
-    def follow(self, target, folder, process, tally):
+    def follow(self, target, folder, process):
         """Reads what libFuzzer says; returns the end of it. New is an edge that no input reached which it began with."""
         tail, new = [], []
         for line in process.stderr:
@@ -257,7 +257,7 @@ class Campaign:
             match = re.match(r"#\d+\s+\w+\s.*?cov: (\d+)", line)
             if match:
                 with self.lock:
-                    self.see_edges(target, folder, int(match.group(1)), tally, new)
+                    self.see_edges(target, folder, int(match.group(1)), new)
                 new = []
         return "".join(tail)
 
@@ -276,10 +276,12 @@ class Campaign:
                 process = start(target.command(folder, f"-max_total_time={CHUNK[folder]}", f"-runs={runs}",
                                                *target.campaign_inputs()), tally, HOOKE_FUZZ_WHOLE="0")
                 self.processes.add(process)
-            log = self.follow(target, folder, process, tally)
+                self.tallies[tally] = target
+            log = self.follow(target, folder, process)
             code = process.wait()
             with self.lock:
                 self.processes.discard(process)
+                del self.tallies[tally]
                 self.add(target, folder, tally.take())
                 self.save()
                 if code and not self.stop:
@@ -326,8 +328,8 @@ def commit():
 
 
 def since_edge(state):
-    """Seconds of processor since the last new edge."""
-    return state["seconds"] - state["last_edge"]["seconds"]
+    """Seconds of processor since the last new edge, in turns that are over."""
+    return max(0.0, state["seconds"] - state["last_edge"]["seconds"])
 
 
 def share(state):
