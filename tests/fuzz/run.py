@@ -9,7 +9,7 @@
 A target is tests/fuzz/fuzz_<name>.c. Its comment says which files are its own and how long inputs are at most. Committed are
 corpus/<name>, inputs to begin with, found/<name>, inputs that were findings once, and <name>.dict, words of its inputs. Where a
 target takes long for an input, campaign/<name> has more, which reach what the others leave out and which campaigns alone
-begin with; --minimise then replaces these.
+begin with; --minimise then replaces these. What is reached in the sources of uncounted.txt is not looked at.
 
 A campaign works in build/fuzz: inputs in <name>/corpus, findings in <name>/found, and state.json. Two programs take turns:
 one with all sanitizers, and one that is faster, without the one for addresses.
