@@ -32,11 +32,24 @@ static int32_t fail(const struct source *source, const char *what) {
   return hooke_h5_fail(source->guard, source->path, what);
 }
 
+/* For numbers of a part of `data`, and for what HDF5 takes to read them. */
+static int32_t check_room(const struct source *source, const struct hooke_dataset *data,
+                          const hsize_t *part) {
+  double bytes = sizeof(double);
+  for (int k = 0; k < data->rank; k++)
+    bytes *= (double)part[k];
+  char what[192];
+  snprintf(what, sizeof what, "dataset %.150s", source->dataset);
+  return hooke_room_require(source->memory_limit, bytes + hooke_dataset_read_bytes(data, part), what);
+}
+
 /* Frames before the first without a time. */
-static int32_t count_timed(const struct source *source, hid_t data, int64_t *frames) {
+static int32_t count_timed(const struct source *source, const struct hooke_dataset *data, int64_t *frames) {
+  int32_t status = check_room(source, data, data->size);
+  if (status != HOOKE_OK) return status;
   double *time = hooke_new(*frames, sizeof(double));
-  int32_t status = time ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (time && H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, time) < 0)
+  if (time == NULL) return HOOKE_NO_MEMORY;
+  if (H5Dread(data->id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, time) < 0)
     status = fail(source, "read the times of the frames");
   for (int64_t k = 0; status == HOOKE_OK && k < *frames; k++) {
     if (isnan(time[k])) *frames = k;
@@ -58,7 +71,7 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   int32_t status = hooke_dataset_find(source->guard, source->file, source->path, name, &time);
   hooke_free(name);
   const int each = time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0];
-  if (status == HOOKE_OK && each) status = count_timed(source, time.id, frames);
+  if (status == HOOKE_OK && each) status = count_timed(source, &time, frames);
   hooke_h5_drop(time.id);
   return status == HOOKE_BAD_VALUE && !each ? HOOKE_OK : status;
 }
@@ -83,24 +96,6 @@ static int32_t choose_frame(const struct source *source, int64_t *frame, int32_t
   return HOOKE_OK;
 }
 
-/* Numbers, and a chunk of the file, which HDF5 takes as a whole however little of it is asked for. */
-static int32_t check_room(const struct source *source, double count) {
-  hid_t list = H5Dget_create_plist(source->data.id), type = H5Dget_type(source->data.id);
-  hsize_t chunk[3] = {0, 0, 0};
-  double bytes = 0.0;
-  if (list >= 0 && type >= 0 && H5Pget_layout(list) == H5D_CHUNKED) {
-    const int rank = H5Pget_chunk(list, 3, chunk);
-    bytes = (double)H5Tget_size(type);
-    for (int k = 0; k < rank && k < 3; k++)
-      bytes *= (double)chunk[k];
-  }
-  hooke_h5_drop(type);
-  hooke_h5_drop(list);
-  char what[192];
-  snprintf(what, sizeof what, "dataset %.150s", source->dataset);
-  return hooke_room_require(source->memory_limit, 8.0 * count + bytes, what);
-}
-
 static int32_t read_values(const struct source *source, int64_t frame, double **values, int64_t *rows,
                            int64_t *columns) {
   const int framed = source->data.rank == 3;
@@ -110,9 +105,9 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
     return refuse(source, "has more numbers than a system has coordinates (3 x 2147483647)");
   }
   const hsize_t count = high * wide;
-  const int32_t room = check_room(source, (double)count);
-  if (room != HOOKE_OK) return room;
   const hsize_t begin[3] = {(hsize_t)frame, 0, 0}, part[3] = {1, high, wide};
+  const int32_t room = check_room(source, &source->data, part + !framed);
+  if (room != HOOKE_OK) return room;
   *values = hooke_new((int64_t)count, sizeof(double));
   if (*values == NULL) return HOOKE_NO_MEMORY;
   hid_t there = H5Dget_space(source->data.id), here = H5Screate_simple(1, &count, NULL);

@@ -24,6 +24,10 @@ int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char 
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data);
 
+/* Bytes that HDF5 takes, besides the numbers, to read so much of it along each dimension: a whole chunk however little of it is
+ * asked for, and what it keeps of each. */
+double hooke_dataset_read_bytes(const struct hooke_dataset *data, const hsize_t *part);
+
 /* Fails with HOOKE_BAD_VALUE, "path: dataset <name> <what>". */
 int32_t hooke_dataset_refuse(const char *path, const char *name, const char *what);
 

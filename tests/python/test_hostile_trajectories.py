@@ -99,3 +99,47 @@ def test_a_small_file_cannot_claim_much_memory(path):
     path.write_bytes(whole)
     with pytest.raises(hooke.Error, match="only|could not|claims"):
         _ = hooke.open(path).mass
+
+
+def grown(data, columns):
+    """The file of a dataset, with so many columns in its header; what is stored stays as it was."""
+    where, old = h5py.h5o.get_info(data.id).addr, data.shape[1].to_bytes(8, "little")
+    name = data.file.filename
+    data.file.close()
+    with open(name, "r+b") as file:
+        file.seek(where)
+        header = file.read(256)
+        assert old in header
+        file.seek(where)
+        file.write(header.replace(old, columns.to_bytes(8, "little")))
+
+
+@pytest.mark.parametrize("layout", [h5py.h5d.COMPACT, h5py.h5d.CONTIGUOUS])
+def test_an_array_in_one_piece_is_not_read_beyond_it(tmp_path, layout):
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    properties.set_layout(layout)
+    with h5py.File(tmp_path / "state.h5", "w") as file:
+        space = h5py.h5s.create_simple((4, 29))
+        made = h5py.h5d.create(file.id, b"position", h5py.h5t.NATIVE_DOUBLE, space, dcpl=properties)
+        data = h5py.Dataset(made)
+        data[:] = 1.0
+        grown(data, 1000)
+    scene = {"hooke": 1, "particles": {"position": {"file": "state.h5", "dataset": "position"}, "mass": 1}}
+    with pytest.raises(hooke.Error, match="dataset position claims 4000 numbers, but only 928 bytes are stored"):
+        hooke.Scene.parse(scene, folder=tmp_path)
+
+
+@pytest.mark.parametrize("times, need", [(False, "49.2"), (True, "16.4")])
+def test_an_array_of_many_pieces_needs_their_memory(tmp_path, times, need):
+    """HDF5 takes kilobytes for each chunk, of whatever size."""
+    position, pieces = np.ones((2000, 3)), {"chunks": (1, 1)}
+    if times:
+        position, pieces = np.ones((2000, 1, 3)), {}
+    with h5py.File(tmp_path / "state.h5", "w") as file:
+        file.create_dataset("run/value", data=position, **pieces)
+        file.create_dataset("run/time", data=np.arange(2000.0), chunks=(1,) if times else None)
+    scene = {"hooke": 1, "particles": {"position": {"file": "state.h5", "dataset": "run/value"}, "mass": 1}}
+    with pytest.raises(hooke.NoMemory, match=rf"run/value needs {need} MB of memory; there are 10 MB"):
+        hooke.Scene.parse(scene, folder=tmp_path, memory=0.01)
+    expected = 1 if times else len(position)
+    assert hooke.Scene.parse(scene, folder=tmp_path).system.particle_count == expected
