@@ -288,7 +288,8 @@ static void look_up(const struct image *image, int32_t number, struct place *pla
     place->stored = H5Dget_storage_size(data);
     place->data = at;
     if (at == HADDR_UNDEF || at + place->stored > image->size) place->stored = 0;
-    if (H5Oget_info2(data, &info, H5O_INFO_HDR) >= 0 && info.addr + info.hdr.space.total <= image->size) {
+    if (H5Oget_info2(data, &info, H5O_INFO_BASIC | H5O_INFO_HDR) >= 0 && info.hdr.nchunks == 1 &&
+        info.addr + info.hdr.space.total <= image->size) {
       place->header = info.addr;
       place->header_size = info.hdr.space.total;
     }
