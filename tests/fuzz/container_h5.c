@@ -342,19 +342,29 @@ static void patch_value(const struct place *place, const struct edit *edit) {
          width < sizeof edit->value ? width : sizeof edit->value);
 }
 
-static void replace_words(const struct place *place, uint64_t from, uint64_t to) {
-  uint8_t *header = own.patched + place->header;
-  for (uint64_t at = 0; at + 8 <= place->header_size; at++) {
-    if (memcmp(header + at, &from, 8) == 0) memcpy(header + at, &to, 8);
+static void replace_words(uint8_t *message, size_t size, uint64_t from, uint64_t to) {
+  for (size_t at = 0; at + 8 <= size; at++) {
+    if (memcmp(message + at, &from, 8) == 0) memcpy(message + at, &to, 8);
   }
 }
 
-/* Both the extent and the room that go with it, so that one alone does not give it away; or one of them. */
+/* Both the extent and the room that goes with it, so that one alone does not give it away; or one of them. Nothing else of the
+ * header, which is HDF5's: HDF5 File Format Specification 3.0, IV.A.1.a, messages 0x0001 and 0x0008. */
 static void patch_extent(const struct place *place, const struct edit *edit) {
-  if (place->rank < 1 || place->rank > 4 || place->header_size == 0) return;
+  enum { PREFIX = 16, MESSAGE = 8, DATASPACE = 0x0001, LAYOUT = 0x0008 };
+  const uint8_t *header = own.patched + place->header;
+  if (place->rank < 1 || place->rank > 4 || place->header_size == 0 || header[0] != 1) return;
   const uint64_t old = place->size[edit->what % place->rank];
-  if (edit->how & 1) replace_words(place, old, edit->value);
-  if ((edit->how & 2) && old > 0) replace_words(place, place->stored, place->stored / old * edit->value);
+  for (uint64_t at = PREFIX; at + MESSAGE <= place->header_size;) {
+    uint16_t type, size;
+    memcpy(&type, header + at, sizeof type), memcpy(&size, header + at + 2, sizeof size);
+    uint8_t *message = own.patched + place->header + at + MESSAGE;
+    at += MESSAGE + size;
+    if (at > place->header_size) return;
+    if (type == DATASPACE && (edit->how & 1)) replace_words(message, size, old, edit->value);
+    if (type == LAYOUT && (edit->how & 2) && old > 0 && message[1] == H5D_CONTIGUOUS)
+      replace_words(message, size, place->stored, place->stored / old * edit->value);
+  }
 }
 
 /* ---- check values ---- */
