@@ -24,9 +24,9 @@
 
 enum { MOST_NAMES = 192, KEPT = 4096, OPEN = 512, LARGEST_IMAGE = 1 << 20, FRAMES = 4 };
 
-/* Where the numbers of an object lie; `known` 0: nobody has asked yet. */
+/* Where the numbers of an object lie, or its characters; `known` 0: nobody has asked yet. */
 struct place {
-  int32_t known, rank, width;
+  int32_t known, rank, width, is_text;
   uint64_t data, stored, header, header_size;
   uint64_t size[4];
 };
@@ -285,6 +285,7 @@ static void look_up(const struct image *image, int32_t number, struct place *pla
     place->rank = H5Sget_simple_extent_ndims(space);
     if (place->rank > 0 && place->rank <= 4) H5Sget_simple_extent_dims(space, (hsize_t *)place->size, NULL);
     place->width = (int32_t)H5Tget_size(type);
+    place->is_text = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
     place->stored = H5Dget_storage_size(data);
     place->data = at;
     if (at == HADDR_UNDEF || at + place->stored > image->size) place->stored = 0;
@@ -340,6 +341,15 @@ static void patch_value(const struct place *place, const struct edit *edit) {
   if (numbers == 0) return;
   memcpy(own.patched + place->data + (edit->what + 256u * (edit->how & 3u)) % numbers * width, &edit->value,
          width < sizeof edit->value ? width : sizeof edit->value);
+}
+
+/* One character, of few: what any text does to those who parse it is for the targets of their own to find out, and with all
+ * texts here what else is in a container would hardly ever come up. */
+static void patch_text(const struct place *place, const struct edit *edit) {
+  static const char characters[] = "\0 \n\"{}[],:-09.e\\\xff";
+  if (place->stored == 0) return;
+  own.patched[place->data + (edit->what + 256u * (edit->how & 3u)) % place->stored] =
+      (uint8_t)characters[edit->value % (sizeof characters - 1)];
 }
 
 static void replace_words(uint8_t *message, size_t size, uint64_t from, uint64_t to) {
@@ -401,7 +411,7 @@ static void patch_check(const struct image *image, int64_t frame) {
 void container_edit(struct container *container, const struct edits *edits) {
   if (!own.place[0].known) find_places(container);
   struct image *image = find_image(container, edits);
-  int32_t headers = 0;
+  int32_t headers = 0, texts = 0;
   memcpy(own.patched, image->bytes, image->size);
   container->structures = 0;
   for (int32_t k = 0; k < edits->count; k++) {
@@ -411,7 +421,8 @@ void container_edit(struct container *container, const struct edits *edits) {
     if (edit->kind < EDIT_STRUCTURES) continue;
     if (!place->known) look_up(image, edit->where % own.names, place);
     if (edit->kind == EDIT_CHECK) patch_check(image, edit->what % 4);
-    if (edit->kind == EDIT_VALUE) patch_value(place, edit);
+    if (edit->kind == EDIT_VALUE && !place->is_text) patch_value(place, edit);
+    if (edit->kind == EDIT_VALUE && place->is_text && texts++ == 0) patch_text(place, edit);
     if (edit->kind == EDIT_EXTENT) patch_extent(place, edit), headers++;
   }
   const struct opened *opened = find_opened(image);

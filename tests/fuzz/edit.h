@@ -21,7 +21,7 @@ enum edit_kind {
   EDIT_RENAME,    /* to a name that nobody looks for */
   EDIT_ATTRIBUTE, /* an option of the run, or another attribute, of another type, shape, value */
   EDIT_STRUCTURES,
-  EDIT_VALUE = EDIT_STRUCTURES, /* one number of an array */
+  EDIT_VALUE = EDIT_STRUCTURES, /* one number of an array, or one character of one text */
   EDIT_EXTENT,                  /* the claimed size of an array, and of its room in the file */
   EDIT_CHECKS,
   EDIT_CHECK = EDIT_CHECKS, /* the check value of a frame is made to fit what is there now */

@@ -229,7 +229,7 @@ static void check_texts(const hooke_record *record) {
 
 /* `often` 0: what takes long is left out. */
 static void ask(const uint8_t head[EDIT_HEAD], int often) {
-  const int what = head[1] & (often ? ~0 : ~(ASK_HDF5 | ASK_SCENE | ASK_RESUME | ASK_VIEW | ASK_XDMF));
+  const int what = head[1] & (often ? ~0 : ~(ASK_HDF5 | ASK_RESUME | ASK_XDMF));
   hooke_record *record = NULL;
   if (answered(hooke_record_open(container.path, &record))) {
     hooke_fuzz_is_accepted();
