@@ -16,7 +16,6 @@ one with all sanitizers, and one that is faster, without the one for addresses.
 """
 
 import argparse
-import copy
 import fcntl
 import glob
 import itertools
@@ -204,6 +203,7 @@ class Campaign:
         self.until = time.monotonic() + limit if limit else None
         self.state, self.lock, self.stop, self.commit = load_state(), threading.Lock(), False, commit()
         self.processes, self.tallies, self.turn = set(), {}, itertools.count()
+        self.last_turn = time.monotonic()  # when it ended
         for target in targets:
             self.of(target)
             for left in target.work.glob("tally-*"):  # of a campaign that was interrupted
@@ -221,9 +221,11 @@ class Campaign:
         new.replace(STATE)
 
     def add(self, target, folder, counted):
-        state = self.of(target)
+        state, now = self.of(target), time.monotonic()
         if state["executions"] < self.wanted(target):
             state["counting"]["seconds"] += counted[3]
+            state["counting"]["wall_seconds"] += now - self.last_turn
+        self.last_turn = now
         for name, count in zip(("executions", "past_syntax", "accepted", "seconds"), counted):
             state[name] += count
         state["by_build"][folder]["executions"] += counted[0]
@@ -308,21 +310,11 @@ class Campaign:
 
         signal.signal(signal.SIGINT, interrupt)
         signal.signal(signal.SIGTERM, interrupt)
-        began, before = time.monotonic(), copy.deepcopy(self.state)
         threads = [threading.Thread(target=self.work, args=(k,)) for k in range(self.workers)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        self.share_out(time.monotonic() - began, before)
-        self.save()
-
-    def share_out(self, wall, before):
-        """The time that it took, by the processor's, to the targets whose executions were not all counted before."""
-        had = sum(self.of(target)["seconds"] - before[target.name]["seconds"] for target in self.targets)
-        for target in self.targets:
-            counting = self.of(target)["counting"]
-            counting["wall_seconds"] += wall * (counting["seconds"] - before[target.name]["counting"]["seconds"]) / max(had, 1e-9)
 
 
 def commit():
