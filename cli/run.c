@@ -7,6 +7,7 @@
 #include "unit.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -113,11 +114,16 @@ static int32_t write_companion(struct hooke_run *run) {
 
 /* The outcome stays what it is without an explanation. */
 static void find_why(struct hooke_run *run) {
-  const int32_t status = hooke_why_create(run->integrator, &run->why);
+  if (hooke_arguments_text(run->arguments, "no-why")) return;
+  hooke_watch_start(&run->watch, run->arguments);
+  const int32_t status = hooke_why_create(run->integrator, NAN, hooke_watch_progress, &run->watch, &run->why);
+  hooke_watch_end(&run->watch);
   if (status == HOOKE_OK)
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
   if (status == HOOKE_NO_MEMORY)
     hooke_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
+  if (status == HOOKE_STOPPED)
+    hooke_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
 }
 
 /* The end of a run that had finished. */
@@ -155,7 +161,6 @@ static int integrate(struct hooke_run *run) {
     if (run->outcome != HOOKE_OK) hooke_report_words(run->arguments, "%s", run->message);
     return hooke_report_status(run->arguments, status);
   }
-  if (code == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
@@ -163,8 +168,8 @@ static int integrate(struct hooke_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
 }
 
-/* On standard error: why a run ended early, what is kept, what to do. */
-static void explain(const struct hooke_run *run) {
+/* On standard error: that a run ended early, and what is kept. */
+static void tell_end(const struct hooke_run *run) {
   const struct hooke_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
@@ -181,7 +186,15 @@ static void explain(const struct hooke_run *run) {
   hooke_report_words(arguments, "%s", run->message);
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
                      hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+}
+
+/* On standard error: why, and what to do. */
+static void explain(const struct hooke_run *run) {
+  const struct hooke_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
+  const char *left_out = hooke_why_text(run->why, "left_out");
+  hooke_report_words(arguments, "%s", run->message);
+  if (left_out[0]) hooke_report_words(arguments, "%s", left_out);
   if (hooke_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK)
     (void)hooke_report_missing_words(arguments);
   fputs("'hooke why' on the same says more\n", stderr);
@@ -191,7 +204,8 @@ static int run_and_tell(struct hooke_run *run) {
   int code = integrate(run);
   if (code != HOOKE_EXIT_DONE) return code;
   const int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
-  hooke_run_print(run);
+  /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
+  if (!run->arguments->json) hooke_run_print(run);
   if (coincident > 0 && !run->arguments->quiet) {
     hooke_report_words(run->arguments,
                        "%" PRId64
@@ -199,7 +213,10 @@ static int run_and_tell(struct hooke_run *run) {
                        "exerts no force",
                        coincident);
   }
-  if (run->outcome != HOOKE_OK) explain(run);
+  if (run->outcome != HOOKE_OK) tell_end(run);
+  if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
+  if (run->arguments->json) hooke_run_print(run);
+  explain(run);
   return hooke_exit_code(run->outcome);
 }
 
@@ -273,10 +290,11 @@ static const struct hooke_verb_row rows[] = {
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
      "it had never "
-     "stopped; only --threads, --final, --json and --quiet may be given with it"},
+     "stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
 
 const struct hooke_verb hooke_verb_run = {
