@@ -100,6 +100,24 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   return trial->spent;
 }
 
+/* What a run by a method holds [bytes]: as much as the run that ended, where that was as simple. */
+static double bytes_of_trial(const struct hooke_plan *plan, const char *method) {
+  static const struct {
+    const char *method;
+    double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
+  } heavy[] = {{"backward-euler", 300.0}, {"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
+  const hooke_integrator *run = plan->inquiry->run;
+  const double n = (double)plan->inquiry->system->particle_count;
+  double numbers = 25.0;
+  for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
+    if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;
+  }
+  const double same = strcmp(method, run->method->name) == 0
+                          ? (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double)
+                          : 0.0;
+  return fmax(same, numbers * n * sizeof(double));
+}
+
 /* Runs with `options` as far as the work allows; `reached` is how far, and `steps` how many it took. */
 static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, double *reached,
                        int32_t *finished, int64_t *steps) {
@@ -174,18 +192,32 @@ void hooke_plan_take(struct hooke_plan *plan, struct hooke_change *change, const
     snprintf(advice->value, sizeof advice->value, "%s", hooke_options_text(advice->run, change->option));
 }
 
+/* 1 if there is time and room for a trial; if not, that is noted. */
+static int32_t can_try(const struct hooke_plan *plan, const hooke_options *options) {
+  struct hooke_inquiry *inquiry = plan->inquiry;
+  const double bytes = bytes_of_trial(plan, hooke_options_text(options, "method"));
+  if (hooke_patience_ends(&inquiry->patience, "trying what to do")) return 0;
+  return hooke_inquiry_has_room(inquiry, bytes, "trials of what to do");
+}
+
 int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken) {
+  struct hooke_patience *patience = &plan->inquiry->patience;
   hooke_options *options = NULL;
   double reached = NAN;
   int32_t finished = 0, status = HOOKE_OK;
   int64_t steps = 0;
   char proof[96];
   *taken = 0;
-  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change) &&
-      !hooke_patience_ends(&plan->inquiry->patience, "trying what to do")) {
+  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
     status = changed_options(plan, change, &options);
-    if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, &steps);
-    *taken = status == HOOKE_OK && proves(plan, reached, finished, proof, sizeof proof);
+    const int32_t tries = status == HOOKE_OK && can_try(plan, options);
+    if (tries) status = try_run(plan, options, &reached, &finished, &steps);
+    *taken = tries && status == HOOKE_OK && proves(plan, reached, finished, proof, sizeof proof);
+    if (status == HOOKE_OK && !*taken && plan->backed && (!tries || patience->spent)) {
+      snprintf(proof, sizeof proof, " (not tried to its end, for want of %s)",
+               patience->spent ? "time" : "memory");
+      *taken = 1;
+    }
     if (*taken) hooke_plan_take(plan, change, proof);
   }
   hooke_options_destroy(options);

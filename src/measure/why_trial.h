@@ -16,6 +16,7 @@ struct hooke_plan {
   double step, every, duration; /* of the run; NaN: free */
   double size;                  /* particles and springs: the work of an evaluation */
   int32_t trials;
+  int32_t backed; /* what is offered has a step below the limits that are known: it is advice untried, too */
 };
 
 /* HOOKE_NO_MEMORY, HOOKE_STOPPED; hooke_plan_release() has to follow. */
