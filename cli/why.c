@@ -144,15 +144,17 @@ static void print_number(const char *label, double value, const char *unit) {
 
 static void print_springs(const hooke_why *found) {
   const int64_t count = hooke_why_blame_count(found);
+  int64_t forces = 0;
   for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
     const char *group = hooke_why_blame_text(found, k, "group");
     const double share = hooke_why_blame_number(found, k, "share");
     if (k > 0 && share < SMALLEST_SHARE) return;
     if (hooke_why_blame_text(found, k, "force")[0]) {
       printf("%-12s%s, share %.3g\n", "force", hooke_why_blame_text(found, k, "force"), share);
+      forces++;
       continue;
     }
-    printf("%-12s%.0f, between particles %.0f and %.0f", k == 0 ? "springs" : "",
+    printf("%-12s%.0f, between particles %.0f and %.0f", k == forces ? "springs" : "",
            hooke_why_blame_number(found, k, "spring"), hooke_why_blame_number(found, k, "first"),
            hooke_why_blame_number(found, k, "second"));
     if (group[0]) {

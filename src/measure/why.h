@@ -68,8 +68,10 @@ struct hooke_inquiry {
   int64_t last_step;  /* steps before it */
   int32_t reproduced; /* the steps again went wrong again */
   double bad_time;
-  int64_t bad_particle;  /* the one that moves fastest then */
-  int32_t sudden;        /* from a sensible size beyond all numbers within three steps */
+  int64_t bad_particle; /* the one that moves fastest then */
+  int32_t sudden;       /* from a sensible size beyond all numbers within three steps */
+  double
+      squares; /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
   double size, bad_size; /* largest position or velocity, before and after */
   struct hooke_slip slip;
   struct hooke_excess excess;
@@ -97,6 +99,9 @@ int32_t hooke_inquiry_survey(struct hooke_inquiry *inquiry, struct hooke_node_bl
 /* The limit of `method` at q, if there is room and time for it; else the bound below it, and `known` is 0. */
 int32_t hooke_inquiry_limit(struct hooke_inquiry *inquiry, const double *q, const char *method,
                             double accuracy, double *limit, int32_t *known);
+
+/* 1 if the model gains energy by itself: at much smaller steps, too. */
+int32_t hooke_inquiry_gains(struct hooke_inquiry *inquiry, int32_t *gains);
 
 /* Finds the springs and the force to blame for an excess, and a remedy. */
 int32_t hooke_inquiry_blame(struct hooke_inquiry *inquiry);

@@ -68,7 +68,8 @@ static int32_t offer_step(struct hooke_plan *plan, const char *method, double li
   double step = hooke_handy_step(plan->step, most, plan->every, plan->duration);
   if (!(step > 0.0) || (!other && step == plan->step)) return HOOKE_OK;
   int32_t status = hooke_change_begin(&change, other ? "method" : "step");
-  const int too_long = !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
+  const int too_long =
+      plan->inquiry->squares > 0.0 || !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hooke_handy_step(NAN, most, NAN, NAN);
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
   if (status == HOOKE_OK && step != plan->step) status = hooke_options_set_number(change.run, "step", step);
@@ -102,7 +103,7 @@ static int32_t offer_fixed(struct hooke_plan *plan, const char *method) {
   int32_t taken;
   int32_t status = stable_step(plan, method, &limit);
   if (status != HOOKE_OK) return status;
-  plan->backed = 1;
+  plan->backed = plan->inquiry->excess.found;
   status = offer_step(plan, method, MARGIN * limit,
                       isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
   plan->backed = 0;
@@ -251,6 +252,22 @@ static int32_t offer_for_solver(struct hooke_plan *plan) {
   return status == HOOKE_OK ? offer_others(plan) : status;
 }
 
+/* No step cures it; damping does, and so may what a method damps. */
+static int32_t offer_for_gain(struct hooke_plan *plan) {
+  int32_t status = offer_shorter(plan);
+  if (status == HOOKE_OK) status = hooke_plan_try_damping(plan);
+  if (status == HOOKE_OK) status = offer_fixed(plan, "backward-euler");
+  return status == HOOKE_OK ? offer_adaptive(plan, "cvode-bdf", 1.0) : status;
+}
+
+/* As long as the squares of what moves have numbers. */
+static int32_t offer_for_squares(struct hooke_plan *plan) {
+  int32_t taken;
+  if (isnan(plan->step)) return HOOKE_OK;
+  return offer_step(plan, plan->inquiry->run->method->name, plan->inquiry->squares,
+                    ", by which nothing moves beyond numbers that have squares", &taken);
+}
+
 static int32_t offer_all(struct hooke_plan *plan) {
   const struct hooke_why *why = plan->inquiry->why;
   int32_t status;
@@ -262,6 +279,10 @@ static int32_t offer_all(struct hooke_plan *plan) {
     status = offer_for_solver(plan);
   else if (strcmp(why->cause, "never-stable") == 0)
     status = offer_others(plan);
+  else if (strcmp(why->cause, "model-gains-energy") == 0)
+    status = offer_for_gain(plan);
+  else if (strcmp(why->cause, "overflow") == 0 && plan->inquiry->squares > 0.0)
+    status = offer_for_squares(plan);
   else
     status = offer_for_step(plan);
   return status == HOOKE_OK && why->advice_count == 0 ? offer_shorter(plan) : status;
@@ -279,6 +300,12 @@ static void advise_scene(struct hooke_inquiry *inquiry) {
                 inquiry->slip.time);
   } else if (inquiry->remedy[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
+  } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
+             !isnan(why->particle) && why->blame_count == 0) {
+    snprintf(
+        advice->change, sizeof advice->change,
+        "look at the units of the scene: positions in m, velocities in m/s; no square of them may be beyond "
+        "1.8e308");
   } else if (strcmp(why->cause, "overflow") == 0) {
     snprintf(
         advice->change, sizeof advice->change,

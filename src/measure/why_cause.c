@@ -199,6 +199,51 @@ static void judge_collapse(struct hooke_inquiry *inquiry, int64_t spring, const 
       where, what, show(inquiry, end));
 }
 
+/* ---- squares ---- */
+
+/* Lengths and speeds above this have no square: it is beyond all numbers. */
+static const double HAS_SQUARE = 1e154;
+
+/* The particle of a state with the largest number of those that have no square, and that number; -1 if all have. */
+static int64_t largest_unsquared(const hooke_system *system, const double *x, double *most) {
+  int64_t found = -1;
+  *most = HAS_SQUARE;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++) {
+    if (!(fabs(x[k]) > *most) || system->held[k / 3]) continue;
+    *most = fabs(x[k]);
+    found = k / 3;
+  }
+  return found;
+}
+
+/* 1 if a spring, or a motion from one step to the next, is too long for its square, or a speed too large. */
+static int32_t judge_squares(struct hooke_inquiry *inquiry, double t, const double *q, const double *v) {
+  const char *const words[] = {"is at a speed of", "is at a distance of"}, *const units[] = {"m/s", "m"};
+  const double *const x[] = {v, q};
+  for (int k = 0; k < 2; k++) {
+    double most;
+    const int64_t particle = x[k] ? largest_unsquared(inquiry->system, x[k], &most) : -1;
+    if (particle < 0) continue;
+    inquiry->why->particle = (double)particle;
+    inquiry->squares = k == 0 ? 1e-4 * HAS_SQUARE / most : 0.0;
+    say(inquiry, "overflow",
+        "particle %lld %s %.3g %s at t = %.6g s, and squares of numbers above 1.3e154 leave the range of "
+        "double precision",
+        (long long)particle, words[k], most, units[k], t);
+    return 1;
+  }
+  return 0;
+}
+
+/* At the start already; where it is not known, at the last state. */
+static int32_t judge_start(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  const hooke_state *known = run->recent.first ? run->recent.first : hooke_inquiry_last(inquiry);
+  if (run->recent.first == NULL && run->t0 == 0.0)
+    return judge_squares(inquiry, 0.0, inquiry->system->position, inquiry->system->velocity);
+  return judge_squares(inquiry, *known->t, known->q, known->v);
+}
+
 /* ---- solvers ---- */
 
 /* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
@@ -249,6 +294,7 @@ static int32_t judge_solver(struct hooke_inquiry *inquiry) {
   const int32_t status = is_beyond_numbers(inquiry, &beyond);
   if (status != HOOKE_OK) return status;
   const int64_t shortest = shortest_spring(inquiry, &ratio);
+  if (judge_start(inquiry)) return HOOKE_OK;
   if (beyond) {
     judge_overflow(inquiry);
   } else if (inquiry->run->outcome == HOOKE_SOLVER_FAILED && shortest >= 0 && ratio < COLLAPSED) {
@@ -277,8 +323,24 @@ static int grew_before(const struct hooke_inquiry *inquiry) {
   return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
 }
 
+static int32_t judge_gain(struct hooke_inquiry *inquiry) {
+  char end[160];
+  say(inquiry, "model-gains-energy",
+      "with %s steps it does, too, so it is no matter of the step %.6g s: the model gains energy by itself, "
+      "as "
+      "altitude springs do wherever another altitude of a tetrahedron comes to be the shortest, far from "
+      "rest; %s",
+      inquiry->run->method->adaptive ? "far tighter tolerances and smaller" : "16 times smaller",
+      inquiry->why->step, show(inquiry, end));
+  return HOOKE_OK;
+}
+
 static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   char end[160], what[120];
+  int32_t gains = 0;
+  if (judge_start(inquiry)) return HOOKE_OK;
+  const int32_t status = hooke_inquiry_gains(inquiry, &gains);
+  if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
   if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
   } else if (inquiry->excess.found) {
@@ -288,6 +350,9 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
     hooke_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
                 (long long)inquiry->flips, inquiry->flip_time);
     judge_collapse(inquiry, inquiry->flipped, what);
+  } else if (judge_squares(inquiry, *hooke_inquiry_last(inquiry)->t, hooke_inquiry_last(inquiry)->q,
+                           hooke_inquiry_last(inquiry)->v)) {
+    return HOOKE_OK;
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",
         "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
@@ -304,11 +369,27 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
+/* Adds to the sentence that springs began without a direction. */
+static void tell_coincident(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  char *text = inquiry->why->sentence;
+  const size_t used = strlen(text);
+  const double *q = run->recent.first ? run->recent.first->q
+                    : run->t0 == 0.0  ? inquiry->system->position
+                                      : NULL;
+  const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
+  if (count > 0)
+    hooke_print(text + used, sizeof inquiry->why->sentence - used,
+                "; %lld springs began with both ends at one place, without a direction", (long long)count);
+}
+
 int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry) {
   inquiry->why->time = *hooke_inquiry_last(inquiry)->t;
-  if (inquiry->slip.found) {
+  int32_t status = HOOKE_OK;
+  if (inquiry->slip.found)
     judge_slip(inquiry);
-    return HOOKE_OK;
-  }
-  return inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  else
+    status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  tell_coincident(inquiry);
+  return status;
 }
