@@ -28,27 +28,23 @@ static void print_fact(const char *label, const char *format, ...) {
 
 /* Why errors are not judged over the whole run. */
 static void print_why_not_all(const hooke_study *study, const char *time) {
-  const double until = hooke_study_figure(study, "trusted_until");
-  const int32_t spent = hooke_study_figure(study, "budget_spent") == 1.0;
-  if (until >= hooke_study_figure(study, "checked_until")) {
-    print_fact(
-        "WARNING",
-        "the budget left no time to check the reference beyond %s s. Errors and energy drift are those "
-        "up to %s s; a larger --budget or a shorter --duration checks all of it.",
-        time, time);
-  } else if (hooke_study_figure(study, "growth") > CHAOTIC) {
-    print_fact(
-        "WARNING",
-        "this motion is chaotic: small differences grow so much that the two integrators part after %s s, "
-        "and where the particles are later cannot be computed to the wanted digits. Errors and energy drift "
-        "are those up to %s s.",
-        time, time);
-  } else {
-    print_fact("WARNING",
-               "the two integrators part after %s s, although differences do not grow much: their tolerances "
-               "do not reach the wanted digits%s. Errors and energy drift are those up to %s s.",
-               time, spent ? "; a larger --budget may" : "", time);
-  }
+  const int32_t hurried = strcmp(hooke_study_reference(study, "ended"), "time") == 0;
+  const char *format =
+      hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "checked_until")
+          ? "its share of the budget left no time to check the reference beyond %s s. Errors and energy "
+            "drift are those "
+            "up to %s s; a larger --budget or a shorter --duration checks all of it."
+      : hurried ? "at the tolerances that their share of the budget leaves time for, the two integrators "
+                  "part after %s s. Errors "
+                  "and energy drift are those up to %s s; a larger --budget may know more."
+      : hooke_study_figure(study, "growth_seen") > CHAOTIC
+          ? "this motion is chaotic: small differences grow so much that the two integrators part after %s s "
+            "even where rounding alone sets them apart, and where the particles are later cannot be computed "
+            "to the wanted digits. Errors and energy drift are those up to %s s."
+          : "the two integrators part after %s s, although differences do not grow much: rounding keeps them "
+            "from the wanted digits even at their tightest tolerances. Errors and energy drift are those up "
+            "to %s s.";
+  print_fact("WARNING", format, time, time);
 }
 
 static void print_trust(const hooke_study *study, double agreement) {

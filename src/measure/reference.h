@@ -8,8 +8,9 @@
 struct hooke_reference {
   struct hooke_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
-  double rtol;
-  double extent;    /* diagonal of the box that holds all frames [m] */
+  double rtol, atol;               /* its tolerances, */
+  double evaluations, run_seconds; /* force evaluations and wall time */
+  double extent;                   /* diagonal of the box that holds all frames [m] */
   double digits;    /* distance up to which frames are trusted: the wanted one, or as `coarse` says [m] */
   double agreement; /* twice the largest rms distance of the two over trusted frames [m]; at most `digits` */
   double energy_agreement; /* twice the largest difference of their energies there [J] */

@@ -20,10 +20,17 @@ static const struct hooke_study_row *row_at(const hooke_study *study, int64_t ro
   return row >= 0 && row < study->row_count ? &study->row[row] : NULL;
 }
 
+static const char *how_it_ended(const struct hooke_reference *r) {
+  if (r->trusted == r->frames.count && !r->coarse) return "agreed";
+  return r->hurried ? "time" : "rounding";
+}
+
 const char *hooke_study_reference(const hooke_study *study, const char *what) {
   if (study->reference.method == NULL) return "";
   if (strcmp(what, "method") == 0) return study->reference.method;
-  return strcmp(what, "check") == 0 ? study->reference.check : NULL;
+  if (strcmp(what, "check") == 0) return study->reference.check;
+  if (strcmp(what, "ended") == 0) return how_it_ended(&study->reference);
+  return NULL;
 }
 
 /* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */

@@ -14,7 +14,10 @@ static const double GOAL = 0.92,
 static const double FARTHEST = 64.0; /* beyond the finest row, times in step */
 static const double LOOSEST = 0.1;   /* the largest rtol that a run takes */
 static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0; /* while the coarsest row meets the want */
-static const double FINER = 4.0;                                  /* while runs diverge */
+static const double HOPELESS = 4.0; /* times the cost of the best, by a slope that may become steeper */
+static const double FINER = 4.0;    /* while runs diverge */
+static const double FARTHEST_STEP = 8.0, FARTHEST_TOLERANCE = 1e3; /* at once */
+static const double TIGHTEST = 1e-14;                              /* the smallest rtol that a run takes */
 
 /* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
 static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
@@ -107,6 +110,7 @@ void hooke_study_candidate_release(struct hooke_study_candidate *c) {
 
 static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, double value) {
   struct hooke_study_row row;
+  study->row_deadline = study->deadline;
   const int32_t status = hooke_study_measure(study, c->method, value, &row);
   if (status == HOOKE_OK && row.trial.status && learn(c, &row)) {
     hooke_study_candidate_release(c);
@@ -118,16 +122,38 @@ static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, do
   return status;
 }
 
-/* Beyond the finest row, by the slope of the order that the method has, or until a run does not diverge; NaN when that
- * leads too far. */
-static double finer(const hooke_study *study, const struct hooke_study_candidate *c) {
-  if (c->most <= 0.0) return NAN;
+/* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that takes as many
+ * evaluations of forces. */
+static double as_fine_as_reference(const hooke_study *study, int32_t method) {
+  const struct hooke_reference *r = &study->reference;
+  if (!hooke_study_is_adaptive(study, method))
+    return hooke_study_fitting_step(study, study->duration / fmax(1.0, r->evaluations));
+  const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
+  return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
+}
+
+/* Where a search ends: farther than the ladder, and as fine as the reference. */
+static double least_value(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
+  return is_adaptive(study, c) ? least : fmin(least, farthest);
+}
+
+/* Where the slope of the order that the method has leads to, from the finest row on. */
+static double by_slope(const hooke_study *study, const struct hooke_study_candidate *c) {
   const double order = study->order[c->method].order;
   const double slope = isnan(order) || order < 0.5 ? 1.0 : order;
-  const double value = isnan(c->error_at_fails)
-                           ? c->fails / FINER
-                           : c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
-  return value >= c->finest / FARTHEST && value < c->fails ? value : NAN;
+  return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
+}
+
+/* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not diverge. NaN
+ * when that has led far enough. */
+static double finer(const hooke_study *study, const struct hooke_study_candidate *c) {
+  if (c->most <= 0.0) return NAN;
+  const double least = least_value(study, c);
+  if (c->fails <= least * (1.0 + 1e-9)) return NAN;
+  const double farthest = is_adaptive(study, c) ? FARTHEST_TOLERANCE : FARTHEST_STEP;
+  const double value = isnan(c->error_at_fails) ? c->fails / FINER : by_slope(study, c);
+  return fmax(least, fmax(c->fails / farthest, value));
 }
 
 static double coarser(const hooke_study *study, const struct hooke_study_candidate *c) {
@@ -178,19 +204,32 @@ static double next_cost(const hooke_study *study, const struct hooke_study_candi
   return hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
+/* Where it does not meet the want yet: 1 if it is not going to come below `cost` by the slope that it has; nor, where no
+ * run has come to its end, if any other method has done better. */
+static int is_hopeless(const hooke_study *study, const struct hooke_study_candidate *c, double cost) {
+  if (!isnan(c->meets) || isinf(cost)) return 0;
+  return isnan(c->error_at_fails) || next_cost(study, c, by_slope(study, c)) >= HOPELESS * cost;
+}
+
 int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *c, double cost) {
   int32_t status = HOOKE_OK;
   for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
     const double value = next_value(study, c, run);
-    /* where no run has come to its end, only if no other method has done better */
-    const int hopeless = isnan(c->meets) && isnan(c->error_at_fails) && !isinf(cost);
-    if (isnan(value) || hopeless || least_cost(study, c) >= cost) break;
-    if (hooke_clock_seconds() + next_cost(study, c, value) > study->deadline) {
-      study->budget_spent = 1;
-      break;
-    }
+    if (isnan(value) || is_hopeless(study, c, cost) || least_cost(study, c) >= cost) break;
+    const int late = hooke_clock_seconds() + next_cost(study, c, value) > study->deadline;
+    study->budget_spent |= late;
+    /* where nothing meets the want yet, what time is left is better spent on it */
+    if (late && !isinf(cost)) break;
     status = try_value(study, c, value);
     if (study->late) break;
   }
   return status;
+}
+
+int32_t hooke_study_candidate_try_finest(hooke_study *study, struct hooke_study_candidate *c) {
+  const double value = as_fine_as_reference(study, c->method);
+  if (c->most <= 0.0 || !isnan(c->meets) || c->fails <= value) return HOOKE_OK;
+  if (hooke_clock_seconds() < study->deadline) return try_value(study, c, value);
+  study->budget_spent = 1;
+  return HOOKE_OK;
 }
