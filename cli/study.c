@@ -156,7 +156,9 @@ static int tell(struct hooke_study_results *results, const char *output) {
   }
   if (written != HOOKE_OK) return hooke_exit_code(written);
   if (found != HOOKE_OK) return hooke_report_missing_words(arguments);
-  return results->interrupted ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_DONE;
+  if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
+  const int32_t made = hooke_study_recommendation_text(results->study, "note") != NULL;
+  return made && recommended(results, "met") != 1.0 ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
 static int do_study(const struct hooke_arguments *arguments) {

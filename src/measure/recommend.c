@@ -182,7 +182,7 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
   study->work_ahead = 0.0;
   struct hooke_study_candidate *best = NULL;
   /* what the reference took is known, what a search takes beyond the rows is not */
-  const int far = c[0].predicted > study->reference.run_seconds;
+  const int far = !(c[0].predicted < study->reference.run_seconds);
   int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
   if (status == HOOKE_OK) status = search_all(study, c);
   if (status == HOOKE_OK) status = search_from_reference(study, c);

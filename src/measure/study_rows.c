@@ -13,7 +13,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-static const double SEARCH_SHARE = 0.2; /* of a budget, kept for the search where a length is wanted */
+/* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference, but at most
+ * this share of what is left. */
+static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
 static const double REPEATS = 4.0, REPEAT_SECONDS = 0.3; /* short rows are repeated, for their time */
 
 /* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their turn. */
@@ -194,13 +196,20 @@ static void plan_level(hooke_study *study, int32_t number, struct level *level) 
   qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);
 }
 
+/* A search is to have time for a run as fine as the reference. */
+static double end_of_rows(const hooke_study *study) {
+  const double end = study->begun + study->budget, left = end - hooke_clock_seconds();
+  if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
+  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_seconds);
+  return end - fmin(search, MOST_SEARCH * left);
+}
+
 int32_t hooke_study_run_ladders(hooke_study *study) {
   const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
   int32_t status = HOOKE_OK;
   struct level *level = hooke_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;
-  const int wanted = !isnan(hooke_options_number(study->options, "want"));
-  study->deadline = study->begun + (wanted ? 1.0 - SEARCH_SHARE : 1.0) * study->budget;
+  study->deadline = end_of_rows(study);
   for (int32_t number = 0; status == HOOKE_OK; number++) {
     *level = (struct level){.study = study};
     study->work_ahead = seconds_ahead(study, number);

@@ -13,9 +13,9 @@ static const double GOAL = 0.92,
                     BEYOND = 0.8;    /* what is aimed at, in that share, between rows and beyond the finest */
 static const double FARTHEST = 64.0; /* beyond the finest row, times in step */
 static const double LOOSEST = 0.1;   /* the largest rtol that a run takes */
-static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0; /* while the coarsest row meets the want */
-static const double HOPELESS = 4.0; /* times the cost of the best, by a slope that may become steeper */
-static const double FINER = 4.0;    /* while runs diverge */
+static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0;  /* while the coarsest row meets the want */
+static const double HOPELESS = 4.0;                                /* times the cost of the best */
+static const double FINER = 4.0;                                   /* while runs diverge */
 static const double FARTHEST_STEP = 8.0, FARTHEST_TOLERANCE = 1e3; /* at once */
 static const double TIGHTEST = 1e-14;                              /* the smallest rtol that a run takes */
 
@@ -46,15 +46,21 @@ static double interpolate(const struct hooke_study_candidate *c) {
   return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
 }
 
+/* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference takes as long. */
+static double predict_beyond(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double order = study->order[c->method].order;
+  if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
+  if (is_adaptive(study, c)) return study->reference.run_seconds;
+  return isnan(order) || order < 0.5
+             ? INFINITY
+             : hooke_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);
+}
+
 static void predict(const hooke_study *study, struct hooke_study_candidate *c) {
-  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0, seconds = hooke_study_candidate_cost(c);
-  c->predicted = INFINITY;
-  if (!isnan(c->meets)) {
-    const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
-    c->predicted = seconds * pow(c->best.value / value, power);
-  } else if (c->error_at_fails > 0.0 && c->most > 0.0) {
-    c->predicted = seconds * fmin(FARTHEST, c->error_at_fails / c->most);
-  }
+  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
+  const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
+  c->predicted = isnan(c->meets) ? predict_beyond(study, c)
+                                 : hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
 /* A row joins what is known. 1 if it is the best so far. */
@@ -138,11 +144,21 @@ static double least_value(const hooke_study *study, const struct hooke_study_can
   return is_adaptive(study, c) ? least : fmin(least, farthest);
 }
 
-/* Where the slope of the order that the method has leads to, from the finest row on. */
-static double by_slope(const hooke_study *study, const struct hooke_study_candidate *c) {
-  const double order = study->order[c->method].order;
-  const double slope = isnan(order) || order < 0.5 ? 1.0 : order;
+/* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest row on. */
+static double by_slope(const struct hooke_study_candidate *c, double slope) {
   return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
+}
+
+/* By the order that the method has been seen to have. */
+static double by_order(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double order = study->order[c->method].order;
+  return by_slope(c, isnan(order) || order < 0.5 ? 1.0 : order);
+}
+
+/* By the best that it can have. */
+static double by_theory(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double theory = study->order[c->method].theory;
+  return by_slope(c, isnan(theory) ? 1.0 : theory);
 }
 
 /* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not diverge. NaN
@@ -152,7 +168,7 @@ static double finer(const hooke_study *study, const struct hooke_study_candidate
   const double least = least_value(study, c);
   if (c->fails <= least * (1.0 + 1e-9)) return NAN;
   const double farthest = is_adaptive(study, c) ? FARTHEST_TOLERANCE : FARTHEST_STEP;
-  const double value = isnan(c->error_at_fails) ? c->fails / FINER : by_slope(study, c);
+  const double value = isnan(c->error_at_fails) ? c->fails / FINER : by_order(study, c);
   return fmax(least, fmax(c->fails / farthest, value));
 }
 
@@ -204,11 +220,11 @@ static double next_cost(const hooke_study *study, const struct hooke_study_candi
   return hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
-/* Where it does not meet the want yet: 1 if it is not going to come below `cost` by the slope that it has; nor, where no
+/* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical order; nor, where no
  * run has come to its end, if any other method has done better. */
 static int is_hopeless(const hooke_study *study, const struct hooke_study_candidate *c, double cost) {
   if (!isnan(c->meets) || isinf(cost)) return 0;
-  return isnan(c->error_at_fails) || next_cost(study, c, by_slope(study, c)) >= HOPELESS * cost;
+  return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;
 }
 
 int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *c, double cost) {
