@@ -111,6 +111,8 @@ static double number_of(const void *study, int64_t row, const char *what) {
 
 static char mark_of(const void *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0) return hooke_study_number(study, row, "near_floor") == 1.0 ? '*' : ' ';
+  if (strcmp(what, "energy_drift") == 0)
+    return hooke_study_number(study, row, "near_energy_floor") == 1.0 ? '*' : ' ';
   return hooke_study_number(study, row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 

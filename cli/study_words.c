@@ -47,9 +47,22 @@ static void print_why_not_all(const hooke_study *study, const char *time) {
   print_fact("WARNING", format, time, time);
 }
 
+static void print_growth(const hooke_study *study) {
+  const double bound = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
+  const double count = hooke_study_figure(study, "displacements");
+  if (!isnan(bound)) {
+    print_fact(
+        "growth",
+        "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; "
+        "random ones grow %.3g times",
+        bound, count, seen);
+  } else if (!isnan(seen)) {
+    print_fact("growth", "a random displacement of the start grows %.3g times; others may grow more", seen);
+  }
+}
+
 static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
-  double growth = hooke_study_figure(study, "growth");
   double duration = hooke_study_figure(study, "duration");
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
   hooke_format_number(until, time);
@@ -57,11 +70,11 @@ static void print_trust(const hooke_study *study, double agreement) {
   int32_t whole = until >= duration * (1.0 - 1e-9);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
-             "%.3g m%s: no error below that means anything; those within ten times of it are marked *",
-             agreement, parted ? ", until they part" : "");
+             "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
+             "as is energy drift within ten times of %.3g J",
+             agreement, parted ? ", until they part" : "", hooke_study_figure(study, "energy_agreement"));
   print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
-  if (!isnan(growth))
-    print_fact("growth", "a small displacement of the start grows at most %.3g times", growth);
+  print_growth(study);
   if (!whole) print_why_not_all(study, time);
 }
 

@@ -20,10 +20,11 @@ struct hooke_reference {
   int32_t
       hurried; /* 1: time was short to compare them further, or at tighter tolerances; 0: they agree, or rounding
                     * keeps them apart at the tightest */
-  double
-      growth; /* largest growth of a small displacement at the start, over the frames that were run; NaN: not asked
-                  * for */
-  double wall_seconds; /* of everything */
+  double growth; /* a bound for small displacements of the start (reference_growth.c); NaN: none is known */
+  double growth_seen;       /* largest growth of one random displacement; NaN: not measured */
+  int32_t displacements;    /* that were run */
+  int32_t growth_saturated; /* 1: they grew beyond what is small, so that there is no bound */
+  double wall_seconds;      /* of everything */
 };
 
 /* What a reference is asked for. */

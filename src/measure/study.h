@@ -107,7 +107,7 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want);
 void hooke_study_fit_order(hooke_study *study, int32_t method);
 
 /* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */
-enum { HOOKE_STUDY_ROW_NUMBERS = 15 };
+enum { HOOKE_STUDY_ROW_NUMBERS = 16 };
 extern const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
 
 #endif
