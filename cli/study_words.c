@@ -120,6 +120,8 @@ static void print_orders(const struct hooke_study_results *results, int32_t widt
     any = 1;
     print_order(results->study, method, width);
   }
+  if (any)
+    printf("95 %% interval: of the slope of a straight line, as if errors scattered about it by chance\n");
 }
 
 /* ---- the recommendation ---- */

@@ -19,7 +19,7 @@ struct hooke_study_row {
 
 struct hooke_study_order {
   double order, low, high, theory;
-  char note[256];
+  char note[512];
 };
 
 struct hooke_study_recommendation {
