@@ -161,8 +161,8 @@ static void note_splits(hooke_needs *needs) {
   }
   if (count == 0) return;
   snprintf(needs->lean_note, sizeof needs->lean_note,
-           "%s: written spring by spring, and no longer with %s, since single springs are left out", names,
-           count == 1 ? "its part" : "their parts");
+           "%s: written spring by spring, not as a part has it, since single springs of %s are left out",
+           names, count == 1 ? "it" : "them");
 }
 
 /* Once more, in turns, so that the two times may be compared. */

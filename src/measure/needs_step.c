@@ -10,6 +10,8 @@
 static const double BELOW_LIMIT = 0.9; /* where the search begins */
 static const double DIFFERENCE_FACTOR =
     2.0; /* error of a step over the change when it is halved, at order 1 or more */
+static const double FINE_FACTOR =
+    1.25; /* error of the finer of two runs over their change: 1 at order 1, and room for what is beyond it */
 static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
 static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
 static const double LEAST_GAIN =
@@ -213,7 +215,7 @@ static int32_t judge_full(struct search *search, double limit, struct hooke_need
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
   needs->judged = agreed(search, bound / MARGIN);
-  needs->own_error = hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+  needs->own_error = FINE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
   hand_over(&search->path[1], fine);
   const int32_t status = hooke_needs_path_create(needs, &search->path[1]);
   begin_search(search, limit);
@@ -261,7 +263,7 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
   int32_t status = start(&search, limit);
   if (status == HOOKE_OK) status = find_step(&search);
   if (status == HOOKE_OK && has_finished(&search) && trial->map == NULL)
-    needs->own_error = search.error / DIFFERENCE_FACTOR;
+    needs->own_error = FINE_FACTOR * search.error / DIFFERENCE_FACTOR;
   if (status == HOOKE_OK && has_finished(&search)) status = judge_full(&search, limit, fine);
   int32_t finished = has_finished(&search);
   fill_cost(&search, limit, cost);

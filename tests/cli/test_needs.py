@@ -2,6 +2,7 @@
 
 import copy
 import json
+import pathlib
 import subprocess
 
 import pytest
@@ -25,6 +26,7 @@ SCENE = {
     ],
     "run": {"method": "symplectic-euler", "step": 1e-3, "duration": 0.2, "every": 0.02},
 }
+RESTING = pathlib.Path(__file__).parent / "scenes" / "needs" / "balanced-mass.json"
 WATCH = ("--want", "3mm", "--watch", "cloth")
 COST = {"wall_seconds", "springs", "step_limit", "particles", "step", "rtol", "force_evaluations", "steps"}
 BLUE, RED = "#7fb2e5", "#b00020"  # of the full scene, of the lean one
@@ -237,6 +239,11 @@ def test_other_pages(hooke, write, tmp_path):
     seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
     assert seen.console == [] and "drag" in seen.text["verdict"] and "No spring is between" in seen.text["pictured"]
     assert (seen.drawn("picture")["springs"], seen.drawn("picture")["points"]) == (0, 2)
+    # nothing moves
+    assert hooke("needs", RESTING, "--want", "1cm", "--report", "out.html").code == 0
+    seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
+    assert seen.console == [] and "nothing moves" in seen.text["lead"] and "cannot be told" in seen.text["verdict"]
+    assert (seen.drawn("changes")["needed"], seen.drawn("changes")["unknown"]) == (2, 3)
 
 
 @needs_page
