@@ -82,6 +82,8 @@ static void print_lean(struct hooke_json *json, const struct hooke_needs_results
     hooke_json_number(json, numbers[k] + sizeof "lean_" - 1, hooke_needs_figure(needs, numbers[k]));
   print_cheapest(json, needs);
   hooke_json_number(json, "times_less", hooke_needs_figure(needs, "times_less"));
+  hooke_json_text(json, "other_method", hooke_needs_word(needs, "other_method"));
+  hooke_json_number(json, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
   hooke_json_text(json, "note", hooke_needs_word(needs, "lean_note"));
   hooke_json_text(json, "command", results->command);
   hooke_json_close(json);

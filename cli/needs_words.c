@@ -81,16 +81,21 @@ static int32_t has_unknown(const hooke_needs *needs) {
 /* Both within the want, each at its cheapest. */
 static void print_saving(const hooke_needs *needs) {
   const double less = hooke_needs_figure(needs, "times_less");
-  char text[512], ratio[64];
+  const char *other = hooke_needs_word(needs, "other_method");
+  char text[512], ratio[64], cheaper[160] = "";
   snprintf(ratio, sizeof ratio, less >= 1.0 ? "%.1f times less" : "%.1f times more",
            less >= 1.0 ? less : 1.0 / less);
-  snprintf(
-      text, sizeof text,
-      "left out together: error at most %.3g m, wall time %.3g s where the full scene takes %.3g s within "
-      "the want (%s), %.0f springs instead of %.0f",
-      hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_wall_seconds"),
-      hooke_needs_figure(needs, "cheapest_wall_seconds"), ratio, hooke_needs_figure(needs, "lean_springs"),
-      hooke_needs_figure(needs, "springs"));
+  if (other)
+    snprintf(cheaper, sizeof cheaper, "; %s would bring the full scene there in %.3g s", other,
+             hooke_needs_figure(needs, "other_seconds"));
+  snprintf(text, sizeof text,
+           "left out together: error at most %.3g m, %.0f springs instead of %.0f; wall time %.3g s by %s, "
+           "where the "
+           "full scene takes %.3g s to be within the want (%s)%s",
+           hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_springs"),
+           hooke_needs_figure(needs, "springs"), hooke_needs_figure(needs, "lean_wall_seconds"),
+           hooke_needs_word(needs, "method"), hooke_needs_figure(needs, "cheapest_wall_seconds"), ratio,
+           cheaper);
   printf("%-*s", LABEL, "");
   hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }

@@ -57,10 +57,11 @@ HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
  * The same words after "lean_" for the run of the lean system that is recommended, and after "cheapest_" for a run of the
  * full system by the same method: each with the largest step, or tolerances, within what is wanted, all errors together.
  * "lean_error" and "cheapest_error" [m]: at most that far from the full system, the distance from its finer run and
- * "own_error" together. "times_less": the wall time of the full system's over that of the lean one's, taken in turns. NaN
- * where it does not apply. */
+ * "own_error" together. "times_less": the wall time of the full system's over that of the lean one's, taken in turns.
+ * "other_seconds" [s]: of the full system's run within what is wanted by "other_method", which takes clearly less. NaN where
+ * it does not apply. */
 HOOKE_API double hooke_needs_figure(const hooke_needs *needs, const char *what);
-/* "method"; "note": that nothing moves, or less than is wanted; "lean_note": which groups of parts the lean system has spring by
+/* "method"; "other_method" (NULL if none was seen to be cheaper for the full system, or nothing is left out); "note": that nothing moves, or less than is wanted; "lean_note": which groups of parts the lean system has spring by
  * spring, since it has some of their springs only; both "" where there is nothing to say. NULL for another word. */
 HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *what);
 

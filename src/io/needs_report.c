@@ -49,6 +49,8 @@ static void add_lean(struct hooke_text *data, const hooke_needs *needs, const ch
   hooke_text_number(data, "error", hooke_needs_figure(needs, "lean_error"));
   hooke_text_number(data, "times_less", hooke_needs_figure(needs, "times_less"));
   hooke_text_word(data, "note", hooke_needs_word(needs, "lean_note"));
+  hooke_text_word(data, "other_method", hooke_needs_word(needs, "other_method"));
+  hooke_text_number(data, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
   for (int k = 0; k < COUNT_OF(costs); k++)
     hooke_text_number(data, costs[k] + BARE, hooke_needs_figure(needs, costs[k]));
   hooke_report_add_step(data, "step_limit", hooke_needs_figure(needs, "lean_step_limit"));

@@ -86,7 +86,7 @@ int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
   hooke_needs *needs = hooke_handle_new("hooke_needs", sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
   needs->system = system;
-  needs->lean_error = needs->cheapest_error = NAN;
+  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
   status = prepare(needs, run, options);
   if (status == HOOKE_OK)
     *out = needs;
@@ -159,10 +159,11 @@ int32_t hooke_needs_rests(const hooke_needs *needs) {
 static void say_how_it_moves(hooke_needs *needs) {
   needs->moved = hooke_needs_moved(needs, &needs->path);
   if (hooke_needs_rests(needs)) {
-    hooke_print(needs->note, sizeof needs->note,
-                "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
-                "thousandth of what is wanted, so that what changes nothing here may be needed in any motion",
-                needs->moved);
+    hooke_print(
+        needs->note, sizeof needs->note,
+        "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
+        "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
+        needs->moved);
   } else if (needs->moved <= needs->want) {
     hooke_print(needs->note, sizeof needs->note,
                 "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "

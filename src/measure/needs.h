@@ -69,6 +69,9 @@ struct hooke_needs {
   char lean_note[HOOKE_NEEDS_NOTE];
   struct hooke_needs_cost cheapest; /* of the full system within the want, as of the lean one */
   double cheapest_error;
+  const char
+      *other_method; /* by which the full system is cheaper than by its own; NULL: none is seen to be */
+  double other_seconds;
 
   int64_t part_count;
   struct hooke_needs_part *part;
@@ -121,6 +124,9 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
  * smaller than that of the full system. */
 int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
                         struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error);
+/* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than `most` [s], or the
+ * method does not suit it. */
+int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
 /* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the least of each. */
 int32_t hooke_needs_time_in_turns(hooke_needs *needs, const struct hooke_needs_trial trial[2],
                                   struct hooke_needs_cost *const cost[2]);

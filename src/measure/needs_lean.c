@@ -3,11 +3,13 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+static const double CLEARLY_LESS = 0.8; /* of a time: more may be noise */
 static const double WORTH_SPLITTING =
     0.5; /* of the work, which is left if a part is written spring by spring */
 
@@ -169,10 +171,34 @@ static void note_splits(hooke_needs *needs) {
 static int32_t compare_times(hooke_needs *needs) {
   const struct hooke_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
   struct hooke_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
-  for (int64_t k = 0; k < needs->row_count; k++) {
-    if (needs->row[k].left_out) return hooke_needs_time_in_turns(needs, trial, cost);
+  return hooke_needs_time_in_turns(needs, trial, cost);
+}
+
+static int32_t is_to_try(const hooke_needs *needs, const char *method) {
+  return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
+         !hooke_method_find(method)->reference;
+}
+
+/* So that what another method would save is not put down to what was left out. */
+static int32_t find_other_method(hooke_needs *needs) {
+  double most = CLEARLY_LESS * needs->cheapest.wall_seconds;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
+    const char *method = hooke_method_name(k);
+    double seconds = NAN;
+    if (is_to_try(needs, method)) status = hooke_needs_try_method(needs, method, most, &seconds);
+    if (!(seconds < most)) continue;
+    needs->other_method = method;
+    needs->other_seconds = most = seconds;
   }
-  return HOOKE_OK;
+  return status;
+}
+
+static int32_t has_left_out(const hooke_needs *needs) {
+  int32_t some = 0;
+  for (int64_t k = 0; k < needs->row_count; k++)
+    some |= needs->row[k].left_out;
+  return some;
 }
 
 int32_t hooke_needs_find_lean(hooke_needs *needs) {
@@ -192,7 +218,8 @@ int32_t hooke_needs_find_lean(hooke_needs *needs) {
   note_splits(needs);
   for (int64_t k = 0; k < needs->row_count; k++)
     say_why_it_stays(needs, &needs->row[k]);
-  status = compare_times(needs);
+  if (has_left_out(needs)) status = compare_times(needs);
+  if (has_left_out(needs) && status == HOOKE_OK) status = find_other_method(needs);
   needs->pieces_done++;
   return status;
 }
@@ -211,6 +238,8 @@ static void forget(hooke_needs *needs) {
   needs->lean_run = NULL;
   needs->lean_error = needs->cheapest_error = NAN;
   needs->lean_note[0] = '\0';
+  needs->other_method = NULL;
+  needs->other_seconds = NAN;
   memset(&needs->lean_cost, 0, sizeof needs->lean_cost);
 }
 

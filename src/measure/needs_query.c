@@ -33,6 +33,7 @@ double hooke_needs_figure(const hooke_needs *needs, const char *what) {
       {"judged_until", (double)(needs->judged - 1) * needs->every},
       {"lean_error", needs->lean_error},
       {"cheapest_error", needs->cheapest_error},
+      {"other_seconds", needs->other_seconds},
       {"times_less",
        needs->lean ? needs->cheapest.wall_seconds / needs->lean_cost.wall_seconds : (double)NAN},
   };
@@ -48,6 +49,7 @@ double hooke_needs_figure(const hooke_needs *needs, const char *what) {
 }
 
 const char *hooke_needs_word(const hooke_needs *needs, const char *what) {
+  if (strcmp(what, "other_method") == 0) return needs->other_method;
   if (strcmp(what, "note") == 0) return needs->note;
   if (strcmp(what, "lean_note") == 0) return needs->lean_note;
   return strcmp(what, "method") == 0 ? hooke_options_text(needs->run, "method") : NULL;

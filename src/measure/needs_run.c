@@ -1,6 +1,7 @@
 /* One run of a variant: where the watched particles are at every frame, and what it takes. */
 #include "measure/needs_run.h"
 
+#include "core/clock.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/trial.h"
@@ -101,7 +102,9 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
 }
 
 static int32_t see_progress(double share, void *ctx) {
-  const struct hooke_needs_recorder *recorder = ctx;
+  struct hooke_needs_recorder *recorder = ctx;
+  recorder->expired = recorder->deadline > 0.0 && hooke_clock_seconds() > recorder->deadline;
+  if (recorder->expired) return 1;
   return hooke_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
 }
 
@@ -118,6 +121,7 @@ int32_t hooke_needs_run_once(struct hooke_needs_recorder *recorder, const hooke_
   hooke_frames_release(&none);
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
+  if (status == HOOKE_STOPPED && recorder->expired) return HOOKE_OK;
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT ? HOOKE_OK
                                                                                                  : status;
 }

@@ -1,6 +1,7 @@
 /* Finding the step with which a variant is off by a tenth of the want at most. */
 #include "measure/needs_run.h"
 
+#include "core/clock.h"
 #include "core/status.h"
 #include "integrate/method.h"
 #include "measure/limit_predict.h"
@@ -22,7 +23,9 @@ static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below
 static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
 static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
-static const double SHORT = 0.02; /* [s]: runs are repeated that long for their time */
+static const double TRIES = 4.0,
+                    AT_LEAST = 0.01; /* times what a run may take, and [s]: for all runs of another method */
+static const double SHORT = 0.02;    /* [s]: runs are repeated that long for their time */
 
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
@@ -333,4 +336,54 @@ int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *tria
     *error = NAN;
   end(&search);
   return status;
+}
+
+/* ---- the full system by another method ---- */
+
+static int32_t start_with(struct search *search, const char *method, double limit) {
+  int32_t status = start(search, limit);
+  if (status == HOOKE_OK) status = hooke_options_set_text(search->options, "method", method);
+  if (status == HOOKE_OK && search->adaptive) status = hooke_options_unset(search->options, "step");
+  return status;
+}
+
+/* Cheap, as it is for a run that may never be made. */
+static double safe_step(const hooke_system *system, const char *method) {
+  hooke_state *state = NULL;
+  double bound = NAN;
+  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
+  if (hooke_step_bound(system, method, hooke_state_position(state), &bound) != HOOKE_OK) bound = NAN;
+  hooke_state_destroy(state);
+  return bound;
+}
+
+/* As find_coarsest(), but no further than to runs that take longer than `most` [s]. */
+static int32_t find_quick(struct search *search, double most, double *error) {
+  search->recorder.deadline = hooke_clock_seconds() + TRIES * most + AT_LEAST;
+  for (;;) {
+    const int32_t status = run_at(search, search->value, 0);
+    if (status != HOOKE_OK) return status;
+    *error = error_of(search, 0);
+    if (*error <= search->recorder.needs->want || search->cost[0].wall_seconds > most ||
+        search->recorder.expired || is_exhausted(search))
+      return HOOKE_OK;
+    search->value = finer(search, search->value);
+  }
+}
+
+int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
+  const struct hooke_needs_trial trial = {needs->system, NULL};
+  const double limit = safe_step(trial.system, method);
+  struct search search = {.recorder = {.needs = needs, .trial = &trial},
+                          .adaptive = hooke_method_find(method)->adaptive};
+  double error = NAN;
+  *wall_seconds = NAN;
+  int32_t status = start_with(&search, method, limit), finished;
+  if (status == HOOKE_OK) status = find_quick(&search, most, &error);
+  finished = error <= needs->want;
+  search.recorder.deadline = 0.0;
+  if (status == HOOKE_OK && finished) status = find_time(&search, &search.cost[0], &finished);
+  if (status == HOOKE_OK && finished) *wall_seconds = search.cost[0].wall_seconds;
+  end(&search);
+  return status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }

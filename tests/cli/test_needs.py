@@ -83,7 +83,8 @@ def test_keys(found):
     assert answer["full"]["own_error"] <= answer["full"]["step_error"] and answer["full"]["moved"] > 0.03
     assert answer["warnings"] == []
     assert all(set(row) == COST | {"without", "kind", "error", "needed", "note"} for row in answer["rows"])
-    assert set(answer["lean"]) == COST | {"scene", "without", "error", "full", "times_less", "note", "command"}
+    assert set(answer["lean"]) == COST | {"scene", "without", "error", "full", "times_less", "other_method", "other_seconds",
+                                           "note", "command"}
     assert set(answer["lean"]["full"]) == {"error", "wall_seconds", "step", "rtol", "force_evaluations", "steps"}
     assert (answer["lean"]["scene"], answer["lean"]["command"]) == ("lean.json", "hooke run lean.json")
     names = [row["without"] for row in answer["rows"]]

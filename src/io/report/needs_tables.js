@@ -24,6 +24,8 @@ function writeLean(box) {
     `${whole(full.springs)}. Within what is wanted it takes ${words(lean.wall_seconds)} s of wall time, and the full one ` +
     `${words(lean.cheapest.wall_seconds)} s by the same method with the largest step that does ` +
     (faster >= 1 ? `(${words(faster, 2)} times less).` : `(${words(1 / faster, 2)} times more).`)));
+  if (lean.other_method) box.append(element("p", `${lean.other_method} would bring the full scene there in ` +
+    `${words(lean.other_seconds)} s.`));
   if (lean.note) box.append(element("p", `${lean.note}.`));
   if (lean.command) box.append(element("pre", lean.command));
 }

@@ -62,8 +62,9 @@ class Needs(Closing):
 
     `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] at most how far that is from the
     full system, `own_error` included. `cheapest` is the cost of the full system's own run within what is wanted, by
-    the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one. None and NaN
-    while there are none. `lean_note` names groups of parts that the lean system has spring by spring.
+    the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one;
+    `other_method` is one that would take the full system there in clearly less, `other_seconds` [s]. None and NaN
+    where there are none. `lean_note` names groups of parts that the lean system has spring by spring.
 
     `moved` [m] is by how much the watched particles move from where they begin, and `note` says so where nothing moves,
     or less than is wanted; both notes are "" otherwise.
@@ -95,6 +96,8 @@ class Needs(Closing):
     cheapest: RunCost | None
     cheapest_error: float
     times_less: float
+    other_method: str | None
+    other_seconds: float
 
     def __init__(self, handle: Handle, scene: Scene | None, system: System, status: int):
         self._handle = handle
@@ -102,8 +105,10 @@ class Needs(Closing):
         self._system = system  # its callbacks have to live as long as the lean one
         self.outcome = OUTCOMES.get(status, "stopped")
         self.method = text(lib.hooke_needs_word(handle, b"method"))
-        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error", "times_less"):
+        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error", "times_less", "other_seconds"):
             setattr(self, name, lib.hooke_needs_figure(handle, name.encode()))
+        other = lib.hooke_needs_word(handle, b"other_method")
+        self.other_method = text(other) if other else None
         self.note = text(lib.hooke_needs_word(handle, b"note"))
         self.lean_note = text(lib.hooke_needs_word(handle, b"lean_note"))
         self.runs = int(lib.hooke_needs_figure(handle, b"runs"))
