@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* All that a scene file can hold, in turns; nothing that starts without a direction, whose motion hangs on rounding. */
+/* What a scene file can hold, in turns; no springs that start without a direction, whose motion hangs on rounding. */
 static struct random_scene_request request(uint64_t seed) {
   static const int32_t features[] = {
       SCENE_GRAVITY | SCENE_PINNED, SCENE_GRAVITY | SCENE_DAMPING | SCENE_DRAG | SCENE_PINNED,
@@ -17,7 +17,6 @@ static struct random_scene_request request(uint64_t seed) {
   return (struct random_scene_request){.seed = seed,
                                        .particles = 6 + (int64_t)(seed % 7),
                                        .springs = 10 + 3 * (int64_t)(seed % 4),
-                                       .triples = seed % 3 == 0 ? 4 : 0,
                                        .features = features[turn],
                                        .rope = seed % 4 == 1 ? 6 : 0,
                                        .cloth = {seed % 4 == 2 ? 4 : 0, seed % 4 == 2 ? 3 : 0},
