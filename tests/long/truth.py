@@ -8,9 +8,15 @@ import json
 import math
 import os
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+from wants import distance
+
+ROOT = Path(__file__).resolve().parents[2]
 
 TOLERANCES = (1e-14, 1e-15)  # of a step
 EVALUATIONS = 5e6  # where the reference is given up: too stiff, or too long
@@ -25,10 +31,6 @@ class Truth:
     def distance(self, time: float, positions: Any) -> float:
         """Root mean square over the free particles of how far they are from here [m]."""
         return distance(self.free, self.positions[time], [x for row in positions for x in row])
-
-
-def distance(free: list[int], a: list[float], b: list[float]) -> float:
-    return math.sqrt(sum((a[3 * p + k] - b[3 * p + k]) ** 2 for p in free for k in range(3)) / len(free))
 
 
 # ---- what a system does not tell of itself ----

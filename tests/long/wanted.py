@@ -1,4 +1,4 @@
-"""Holds `hooke run --want` and the estimate of plain runs to their word: wanted.py [--want LENGTH]... [--plain] SCENE...
+"""Holds runs and studies with a want, and what plain runs say of their error: wanted.py [--want LENGTH]... [--plain] [--study] SCENE...
 
 `cloth.md` stands for the cloth that README.md makes, and `random:20` for twenty random scenes. For each scene and want a line: what
 was picked, what it said, and its error at the end by extrapolation in long double. Ends with 1 where a run claims what does
@@ -19,46 +19,13 @@ import time
 from pathlib import Path
 from typing import Any
 
-from truth import Truth, truth
-
-ROOT = Path(__file__).resolve().parents[2]
-FACTOR = 3.0  # by which an estimate may be off
-FLOOR = 1e-12  # [m] below which errors are rounding
-WITHIN = 0.1  # of a want: how well the truth has to be known to judge it
-WANTS = {"1cm": 1e-2, "1mm": 1e-3, "10um": 1e-5}
+from truth import ROOT, truth
+from wants import WANTS, WITHIN, complaints, estimate_complaints, study_complaints  # of tests/cli
 
 
 def call(hooke: str, *words: str) -> tuple[int, dict[str, Any], str]:
     done = subprocess.run([hooke, *words], capture_output=True, text=True)
     return done.returncode, json.loads(done.stdout) if done.stdout.startswith("{") else {}, done.stderr
-
-
-# ---- what is asked of an answer ----
-
-
-def complaints(code: int, value: dict[str, Any], known: bool, error: float, want: float) -> list[str]:
-    """Of a run with a want, whose error at the end is `error` where that is `known`."""
-    met = value.get("want", {}).get("met")
-    found = []
-    if code not in (0, 7):
-        return [f"exit {code}"]
-    if (code == 0) != (met is True):
-        found.append(f"exit {code} with met {met}")
-    if code == 0 and known and not error <= want:
-        found.append("claims an error that it has not")
-    if code == 0 and not known:
-        found.append("claims what nobody can know")
-    return found + estimate_complaints(value, error if known else math.nan)
-
-
-def estimate_complaints(value: dict[str, Any], error: float) -> list[str]:
-    """An estimate of the error at the end is right within the factor; one of an earlier time says so."""
-    estimate, until = (value.get("error", {}).get(key) for key in ("estimate", "known_until"))
-    if estimate is None or until < value["time"] * (1 - 1e-9):
-        return []
-    if max(estimate, error) <= FLOOR or estimate / FACTOR <= error <= FACTOR * estimate or math.isnan(error):
-        return []
-    return [f"is estimated as {estimate:.3g} m, wrong by more than {FACTOR:g}"]
 
 
 # ---- scenes ----
@@ -103,54 +70,84 @@ def find_scenes(hooke: str, names: list[str], folder: Path) -> list[Path]:
 
 def picked(value: dict[str, Any]) -> str:
     setting = next((f"{key} {value[key]:.3g}" for key in ("step", "rtol") if value.get(key) is not None), "")
-    return f"{value.get('method', '-')} {setting}"
+    return f"{value.get('method') or '-'} {setting}"
 
 
-def line(scene: str, asked: str, code: int, value: dict[str, Any], error: float, seconds: float, found: list[str]) -> None:
-    figures = value.get("error", {})
-    estimate = figures.get("estimate")
-    said = "-" if estimate is None else f"{estimate:.2e}"
-    print(f"{scene:16} {asked:>5} {code:4d} {str(value.get('want', {}).get('met', '-')):>5} {picked(value):30} {said:>9} "
-          f"{error:9.2e} {value.get('force_evaluations', 0):9d} {seconds:7.1f}  {'; '.join(found)}", flush=True)  # fmt: skip
+class Judge:
+    """Of one program and one scene after the other; counts what it hears."""
 
+    def __init__(self, hooke: str, kept: Path, evaluations: float, budget: float):
+        self.hooke, self.kept, self.evaluations, self.budget = hooke, kept, evaluations, budget
+        self.asked = self.met = self.refused = self.wrong = 0
+        print(f"{'scene':16} {'asked':>11} {'exit':>4} {'met':>5} {'run':30} {'estimate':>9} {'error':>9} {'forces':>9} {'time':>7}")
 
-def judge(hooke: str, path: Path, asked: str | None, true: Truth | None, end: float) -> list[str]:
-    began = time.monotonic()
-    words = ["--want", asked] if asked else []
-    code, value, message = call(hooke, "run", str(path), "--json", "--final", *words)
-    seconds = time.monotonic() - began
-    ended = value.get("status") == "finished" and true is not None
-    error = true.distance(end, value["final"]["position"]) if ended and true else math.nan
-    if asked:
-        known = ended and true is not None and true.apart[end] <= WITHIN * WANTS[asked]
-        found = complaints(code, value, known, error, WANTS[asked])
-    else:
-        found = [f"exit {code}"] if code != 0 else estimate_complaints(value, error)
-    line(path.stem, asked or "plain", code, value, error, seconds, found + ([message.strip()[-100:]] if code not in (0, 7) else []))
-    return found
+    def take(self, path: Path) -> None:
+        self.path, self.end = path, json.loads(path.read_text())["run"]["duration"]
+        self.true = truth(path, [self.end], self.evaluations, self.kept)
+        apart = f"known to {self.true.apart[self.end]:.1e} m" if self.true else "not known"
+        print(f"{path.stem:16} the solution is {apart}", flush=True)
+
+    def error(self, value: dict[str, Any]) -> float:
+        there = self.true is not None and value.get("status") == "finished" and value["time"] == self.end
+        return self.true.distance(self.end, value["final"]["position"]) if self.true and there else math.nan
+
+    def known(self, asked: str, error: float) -> bool:
+        return self.true is not None and self.true.apart[self.end] <= WITHIN * WANTS[asked] and not math.isnan(error)
+
+    def note(self, asked: str, code: int, met: Any, value: dict[str, Any], said: float | None, seconds: float, found: list[str]) -> None:
+        self.asked += 1
+        self.met += met is True and not found
+        self.refused += code == 7 and not found
+        self.wrong += bool(found)
+        estimate = "-" if said is None else f"{said:.2e}"
+        print(f"{self.path.stem:16} {asked:>11} {code:4d} {met!s:>5} {picked(value):30} {estimate:>9} {self.error(value):9.2e} "
+              f"{value.get('force_evaluations') or 0:9d} {seconds:7.1f}  {'; '.join(found)}", flush=True)  # fmt: skip
+
+    def run(self, asked: str | None) -> None:
+        began = time.monotonic()
+        words = ["--want", asked] if asked else []
+        code, value, _ = call(self.hooke, "run", str(self.path), "--json", "--final", *words)
+        seconds, error = time.monotonic() - began, self.error(value)
+        if asked:
+            found = complaints(code, value, self.known(asked, error), error, WANTS[asked])
+        else:
+            found = [f"exit {code}"] if code != 0 else estimate_complaints(value, error)
+        met = value.get("want", {}).get("met")
+        self.note(asked or "plain", code, met, value, value.get("error", {}).get("estimate"), seconds, found)
+
+    def study(self, asked: str) -> None:
+        began = time.monotonic()
+        code, value, message = call(self.hooke, "study", str(self.path), "--want", asked, "--budget", str(self.budget), "--json")
+        seconds, one = time.monotonic() - began, value.get("recommendation") or {}
+        if not one:
+            return self.note("study " + asked, code, None, {}, None, seconds, [f"exit {code} {message.strip()[-80:]}"])
+        again, run = 0, {}
+        if one["met"]:
+            again, run, _ = call(self.hooke, *shlex.split(one["command"])[1:], "--json", "--final")
+        found = study_complaints(code, value, again, self.error(run), WANTS[asked], self.known(asked, self.error(run)))
+        return self.note("study " + asked, code, one["met"], run, one["error"], seconds, found)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--want", action="append", default=[], choices=list(WANTS))
-    parser.add_argument("--plain", action="store_true")
+    parser.add_argument("--plain", action="store_true", help="hold plain runs to their estimates")
+    parser.add_argument("--study", action="store_true", help="hold studies to the wants, too")
     parser.add_argument("--hooke", default="build/long/release/hooke")
     parser.add_argument("--kept", type=Path, default=ROOT / "build/long/want", help="folder for scenes and solutions")
-    parser.add_argument("--evaluations", type=float, default=5e6, help="that the solution may take")
+    parser.add_argument("--evaluations", type=float, default=5e6, help="that a solution may take")
+    parser.add_argument("--budget", type=float, default=30.0, help="[s] of a study")
     given = parser.parse_args()
-    print(f"{'scene':16} {'want':>5} {'exit':>4} {'met':>5} {'run':30} {'estimate':>9} {'error':>9} {'forces':>9} {'time':>7}")
-    wrong = asked = 0
+    judge = Judge(given.hooke, given.kept, given.evaluations, given.budget)
     for path in find_scenes(given.hooke, given.scenes, given.kept / "scenes"):
-        end = json.loads(path.read_text())["run"]["duration"]
-        true = truth(path, [end], given.evaluations, given.kept)
-        apart = math.nan if true is None else true.apart[end]
-        print(f"{path.stem:16} the solution is known to {apart:.1e} m", flush=True)
+        judge.take(path)
         for want in [*given.want, *([None] if given.plain else [])]:
-            asked += 1
-            wrong += bool(judge(given.hooke, path, want, true, end))
-    print(f"{asked} runs asked for, {wrong} of them wrong")
-    return 1 if wrong else 0
+            judge.run(want)
+        for want in given.want if given.study else []:
+            judge.study(want)
+    print(f"{judge.asked} asked for, {judge.met} met, {judge.refused} said not to be met or known, {judge.wrong} wrong")
+    return 1 if judge.wrong else 0
 
 
 if __name__ == "__main__":
