@@ -10,7 +10,7 @@
 static const double MOST_STEPS = 9007199254740992.0; /* 2^53, to which doubles count one by one */
 
 static int32_t may_be_given(const char *name) {
-  static const char *const names[] = {"resume", "threads", "final", "json", "quiet", "help"};
+  static const char *const names[] = {"resume", "threads", "final", "no-why", "json", "quiet", "help"};
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
     if (strcmp(names[k], name) == 0) return 1;
   }

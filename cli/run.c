@@ -1,12 +1,12 @@
 /* hooke run: integrates a scene and says what came out. */
 #include "advice.h"
-#include "print.h"
 #include "report.h"
 #include "resume.h"
 #include "run_results.h"
-#include "unit.h"
+#include "want.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@ static void keep_message(struct hooke_run *run) {
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   struct hooke_run *run = ctx;
-  (void)step;
+  if (run->estimate) hooke_estimate_see(step, state, run->estimate);
   return hooke_watch_tell(&run->watch, hooke_state_time(state) / run->duration, NULL);
 }
 
@@ -113,11 +113,16 @@ static int32_t write_companion(struct hooke_run *run) {
 
 /* The outcome stays what it is without an explanation. */
 static void find_why(struct hooke_run *run) {
-  const int32_t status = hooke_why_create(run->integrator, &run->why);
+  if (hooke_arguments_text(run->arguments, "no-why")) return;
+  hooke_watch_start(&run->watch, run->arguments);
+  const int32_t status = hooke_why_create(run->integrator, NAN, hooke_watch_progress, &run->watch, &run->why);
+  hooke_watch_end(&run->watch);
   if (status == HOOKE_OK)
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
   if (status == HOOKE_NO_MEMORY)
     hooke_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
+  if (status == HOOKE_STOPPED)
+    hooke_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
 }
 
 /* The end of a run that had finished. */
@@ -140,6 +145,10 @@ static int integrate(struct hooke_run *run) {
   if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
   run->was_finished = run->resumed && !run->trajectory;
   if (run->was_finished) return take_finished(run);
+  if (run->estimate) {
+    status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
+    if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+  }
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
@@ -155,7 +164,6 @@ static int integrate(struct hooke_run *run) {
     if (run->outcome != HOOKE_OK) hooke_report_words(run->arguments, "%s", run->message);
     return hooke_report_status(run->arguments, status);
   }
-  if (code == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return hooke_report(run->arguments, code, "%s", run->message);
   }
@@ -163,8 +171,8 @@ static int integrate(struct hooke_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
 }
 
-/* On standard error: why a run ended early, what is kept, what to do. */
-static void explain(const struct hooke_run *run) {
+/* On standard error: that a run ended early, and what is kept. */
+static void tell_end(const struct hooke_run *run) {
   const struct hooke_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
@@ -181,17 +189,61 @@ static void explain(const struct hooke_run *run) {
   hooke_report_words(arguments, "%s", run->message);
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
                      hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+}
+
+/* On standard error: why, and what to do. */
+static void explain(const struct hooke_run *run) {
+  const struct hooke_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
+  const char *left_out = hooke_why_text(run->why, "left_out");
+  hooke_report_words(arguments, "%s", run->message);
+  if (left_out[0]) hooke_report_words(arguments, "%s", left_out);
   if (hooke_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK)
     (void)hooke_report_missing_words(arguments);
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
-static int run_and_tell(struct hooke_run *run) {
+/* As at the beginning, for another run. */
+static int begin_again(struct hooke_run *run) {
+  hooke_integrator_destroy(run->integrator);
+  hooke_state_destroy(run->setup.state);
+  run->integrator = NULL;
+  run->setup.state = NULL;
+  run->frames = 0;
+  const int32_t status = hooke_state_create(run->setup.system, &run->setup.state);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+}
+
+/* Runs, with a wanted error until it is met or nothing finer is known to help. */
+static int integrate_to_want(struct hooke_run *run) {
   int code = integrate(run);
+  if (!hooke_arguments_text(run->arguments, "want")) return code;
+  while (code == HOOKE_EXIT_DONE) {
+    const int32_t status = hooke_want_measure(run);
+    if (status != HOOKE_OK && status != HOOKE_STOPPED) return hooke_report_status(run->arguments, status);
+    if (!hooke_want_goes_on(run)) break;
+    code = begin_again(run);
+    if (code == HOOKE_EXIT_DONE) code = integrate(run);
+  }
+  return code;
+}
+
+/* The error of a run that is over, after all else was told. */
+static void estimate(struct hooke_run *run) {
+  const int wanted = hooke_arguments_text(run->arguments, "want") != NULL;
+  const int32_t status = wanted ? HOOKE_OK : hooke_want_measure(run);
+  if (status == HOOKE_STOPPED)
+    hooke_report_words(run->arguments, "interrupted: how wrong the run is is not looked into");
+  if (status == HOOKE_NO_MEMORY)
+    hooke_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
+}
+
+static int run_and_tell(struct hooke_run *run) {
+  int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
   const int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
-  hooke_run_print(run);
+  /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
+  if (!run->arguments->json) hooke_run_print(run);
   if (coincident > 0 && !run->arguments->quiet) {
     hooke_report_words(run->arguments,
                        "%" PRId64
@@ -199,54 +251,16 @@ static int run_and_tell(struct hooke_run *run) {
                        "exerts no force",
                        coincident);
   }
-  if (run->outcome != HOOKE_OK) explain(run);
-  return hooke_exit_code(run->outcome);
-}
-
-/* ---- --want ---- */
-
-/* The length of --want [m]; the option table of a study knows what is allowed. */
-static int read_want(const struct hooke_arguments *arguments, const char *text, double *want) {
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  char *value = hooke_unit_read(text, "m", word);
-  if (!value) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--want %s: there is no unit '%s'; allowed: %s", text,
-                        word, hooke_unit_list("m", list));
-  }
-  hooke_options *options = NULL;
-  int32_t status = hooke_study_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "want", value);
-  if (status == HOOKE_OK) *want = hooke_options_number(options, "want");
-  hooke_options_destroy(options);
-  free(value);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
-}
-
-/* Method and step from a quick study of the beginning, and a word on what was picked. */
-static int pick(struct hooke_run *run, const char *text) {
-  const struct hooke_arguments *arguments = run->arguments;
-  double want = 0.0;
-  char number[HOOKE_NUMBER_SIZE];
-  int code = hooke_setup_require_duration(arguments, &run->setup);
-  if (code == HOOKE_EXIT_DONE) code = read_want(arguments, text, &want);
-  if (code != HOOKE_EXIT_DONE) return code;
-  hooke_watch_start(&run->watch, arguments);
-  int32_t status =
-      hooke_study_pick(run->setup.system, run->setup.options, want, hooke_watch_progress, &run->watch);
-  hooke_watch_end(&run->watch);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  const char *method = hooke_options_text(run->setup.options, "method");
-  const int adaptive = hooke_method_is_adaptive(method);
-  hooke_report_words(
-      arguments, "picked for an error of %s: %s, %s %s, from a quick study of the beginning", text, method,
-      adaptive ? "rtol" : "step",
-      hooke_format_number(hooke_options_number(run->setup.options, adaptive ? "rtol" : "step"), number));
-  return HOOKE_EXIT_DONE;
+  if (run->outcome != HOOKE_OK) tell_end(run);
+  estimate(run);
+  if (!run->arguments->json) hooke_want_print(run);
+  if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
+  if (run->arguments->json) hooke_run_print(run);
+  explain(run);
+  return run->outcome == HOOKE_OK ? hooke_want_exit_code(run) : hooke_exit_code(run->outcome);
 }
 
 static int do_run(const struct hooke_arguments *arguments) {
-  const char *want = hooke_arguments_text(arguments, "want");
   struct hooke_run run = {.arguments = arguments,
                           .output = hooke_arguments_text(arguments, "output"),
                           .resumed = hooke_arguments_text(arguments, "resume")};
@@ -255,12 +269,13 @@ static int do_run(const struct hooke_arguments *arguments) {
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;
   code = hooke_setup_load(arguments, &run.setup);
-  if (code == HOOKE_EXIT_DONE && want) code = pick(&run, want);
+  if (code == HOOKE_EXIT_DONE) code = hooke_want_pick(&run);
   if (code == HOOKE_EXIT_DONE) {
     code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
   hooke_why_destroy(run.why);
+  hooke_estimate_destroy(run.estimate);
   hooke_integrator_destroy(run.integrator);
   hooke_setup_destroy(&run.setup);
   return code;
@@ -273,10 +288,13 @@ static const struct hooke_verb_row rows[] = {
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
      "it had never "
-     "stopped; only --threads, --final, --json and --quiet may be given with it"},
+     "stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
     {"want", 0, "LENGTH",
-     "picks a method and its step or tolerance for this error at the end (1mm, 1e-4), by a quick study"},
+     "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
+     "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
+    {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
 
 const struct hooke_verb hooke_verb_run = {

@@ -1,7 +1,7 @@
 #include "run_results.h"
 
-#include "print.h"
 #include "report.h"
+#include "want.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -85,6 +85,7 @@ static void print_json(const struct hooke_run *run, int32_t with_final) {
   hooke_json_count(&json, "particles", hooke_system_particle_count(system));
   hooke_json_count(&json, "springs", hooke_system_spring_count(system));
   print_json_motion(&json, run);
+  hooke_want_print_json(run, &json);
   hooke_json_text(&json, "output", run->output);
   hooke_json_text(&json, "diagnosis", hooke_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   if (with_final) {

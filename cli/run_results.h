@@ -2,6 +2,7 @@
 #ifndef HOOKE_CLI_RUN_RESULTS_H
 #define HOOKE_CLI_RUN_RESULTS_H
 
+#include "print.h"
 #include "setup.h"
 #include "watch.h"
 
@@ -23,7 +24,8 @@ struct hooke_run {
   int32_t outcome;
   hooke_why
       *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
-  char message[2048]; /* about the outcome, or the write that failed */
+  hooke_estimate *estimate; /* of its error; NULL: none is asked for */
+  char message[2048];       /* about the outcome, or the write that failed */
   double energy_before, energy_after;
 };
 

@@ -13,6 +13,7 @@ enum hooke_exit {
   HOOKE_EXIT_DIVERGED = 4,
   HOOKE_EXIT_IO = 5,
   HOOKE_EXIT_NOT_BUILT = 6,
+  HOOKE_EXIT_NOT_MET = 7, /* the wanted error, or nobody can know */
   HOOKE_EXIT_INTERRUPTED = 130
 };
 

@@ -47,10 +47,11 @@ static int32_t run_again(struct why *why) {
   hooke_watch_start(&progress.watch, why->arguments);
   hooke_integrator_on_frame(integrator, see_frame, &progress);
   status = hooke_integrator_run(integrator, why->setup.state);
-  hooke_watch_end(&progress.watch);
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
-  if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED) status = hooke_why_create(integrator, &why->why);
+  if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED)
+    status = hooke_why_create(integrator, NAN, hooke_watch_progress, &progress.watch, &why->why);
+  hooke_watch_end(&progress.watch);
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -58,6 +59,15 @@ static int32_t run_again(struct why *why) {
 static int32_t blew_up(const char *status) {
   return strcmp(status, "diverged") == 0 || strcmp(status, "solver-failed") == 0 ||
          strcmp(status, "step-limit") == 0;
+}
+
+static int32_t explain_kept(struct why *why, const hooke_state *first, const hooke_state *last) {
+  struct hooke_watch watch;
+  hooke_watch_start(&watch, why->arguments);
+  const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, NAN,
+                                               hooke_watch_progress, &watch, &why->why);
+  hooke_watch_end(&watch);
+  return status;
 }
 
 /* From the first and the last frame of the output. */
@@ -69,8 +79,7 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) status = hooke_record_read(why->record, -1, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
-    if (blew_up(why->status))
-      status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, &why->why);
+    if (blew_up(why->status)) status = explain_kept(why, first, last);
   }
   hooke_state_destroy(first);
   hooke_state_destroy(last);

@@ -24,6 +24,7 @@
 #include "hooke/state.h"
 #include "hooke/integrator.h"
 #include "hooke/measure.h"
+#include "hooke/estimate.h"
 #include "hooke/study.h"
 #include "hooke/limit.h"
 #include "hooke/cost.h"

@@ -1,6 +1,6 @@
 ! Why a run ended early, where and when, and what to do.
 module hooke_causes
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_null_funptr, c_null_ptr, c_ptr
   use hooke_base, only: accept, to_c, to_integer, to_number, to_text, zero_based
   use hooke_c_why
   use hooke_handles, only: hooke_handle
@@ -30,25 +30,27 @@ module hooke_causes
 
 contains
 
-  ! From an integrator whose last run ended early.
-  subroutine create(self, integrator, status)
+  ! From an integrator whose last run ended early, within `seconds` (as long as the run took, or 2 s if that is more).
+  subroutine create(self, integrator, seconds, status)
     class(hooke_why), intent(inout) :: self
     class(hooke_integrator), intent(in) :: integrator
+    real(c_double), intent(in), optional :: seconds
     integer, intent(out), optional :: status
     type(c_ptr) :: why
     integer(c_int32_t) :: code
     if (integrator%is_missing(status)) return
-    code = c_why_create(integrator%address(), why)
+    code = c_why_create(integrator%address(), within(seconds), c_null_funptr, c_null_ptr, why)
     if (code == 0) call self%take(why, c_why_destroy, integrator)
     call accept(code, status)
   end subroutine
 
   ! From states that were kept of a run: the one it began with, and the last good one.
-  subroutine create_kept(self, system, run, first, last, status)
+  subroutine create_kept(self, system, run, first, last, seconds, status)
     class(hooke_why), intent(inout) :: self
     class(hooke_system), intent(in) :: system
     type(hooke_options), intent(in) :: run
     class(hooke_state), intent(in) :: first, last
+    real(c_double), intent(in), optional :: seconds
     integer, intent(out), optional :: status
     type(c_ptr) :: why
     integer(c_int32_t) :: code
@@ -56,12 +58,20 @@ contains
     if (run%is_missing(status)) return
     if (first%is_missing(status)) return
     if (last%is_missing(status)) return
-    code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), why)
+    code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), within(seconds), &
+      c_null_funptr, c_null_ptr, why)
     if (code == 0) call self%take(why, c_why_destroy, system)
     call accept(code, status)
   end subroutine
 
-  ! "cause", "sentence", "method".
+  ! The time that an explanation may take; 0, the usual one, where it is not given.
+  real(c_double) function within(seconds)
+    real(c_double), intent(in), optional :: seconds
+    within = 0
+    if (present(seconds)) within = seconds
+  end function
+
+  ! "cause", "sentence", "method", "left_out".
   function text(self, what)
     class(hooke_why), intent(in) :: self
     character(*), intent(in) :: what

@@ -80,9 +80,8 @@ HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, 
 /* "met" (0 or 1), "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"; NaN where it does not apply. */
 HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
 
-/* Picks a method and its step or tolerance for the error `want` [m] at the end of a run, from a quick study of the first
- * tenth of it, and sets them in `run`. A guess, not a proof: a study of the whole run is one. `progress` may be NULL.
- * HOOKE_BAD_VALUE if nothing meets the want. */
+/* Picks a method and its step or tolerance for the error `want` [m] of a run, as hooke_estimate_pick() does (estimate.h), and
+ * sets them in `run`. `progress` may be NULL. HOOKE_BAD_VALUE if nothing is known to meet the want. */
 HOOKE_API int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
                                    hooke_progress *progress, void *ctx);
 

@@ -30,19 +30,24 @@ HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hook
 typedef struct hooke_why hooke_why;
 
 /* Why the last run (or steps) of `integrator` ended early. It takes the last steps again and tries what it advises, so
- * callbacks are called again; the work is bounded, to some seconds.
- * HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a first-order problem; HOOKE_STOPPED if a callback asked
- * for it; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, hooke_why **why);
+ * callbacks are called again. Within `seconds` (not above 0, or NaN: as long as the run took, or 2 s if that is more) and half
+ * again the memory of the run; what there was no time or memory for is left out and said ("left_out"). `progress` (NULL: none)
+ * is called throughout, in trial runs and solves as well.
+ * HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a first-order problem; HOOKE_STOPPED if `progress` or a
+ * callback asked for it; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, double seconds,
+                                   hooke_progress *progress, void *ctx, hooke_why **why);
 
 /* The same from states that were kept of a run with the options `run`: the one it began with and the last good one, from
  * which it is taken on until it ends early. HOOKE_BAD_CALL if it does not. */
 HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
-                                        const hooke_state *first, const hooke_state *last, hooke_why **why);
+                                        const hooke_state *first, const hooke_state *last, double seconds,
+                                        hooke_progress *progress, void *ctx, hooke_why **why);
 HOOKE_API void hooke_why_destroy(hooke_why *why);
 
 /* "cause": "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed" or "overflow";
- * "sentence": what happened, where and when, in one or two sentences; "method". NULL for another word. */
+ * "sentence": what happened, where and when, in one or two sentences; "method"; "left_out": what was not looked into for want of time or
+ * memory, "" if nothing was. NULL for another word. */
 HOOKE_API const char *hooke_why_text(const hooke_why *why, const char *what);
 /* "time" [s] of the last step within all bounds, "noticed" [s] by the run, "step" [s], "limit" [s] (the largest stable step,
  * where the step was first seen above it), "particle" (the one concerned). NaN where it does not apply. */

@@ -10,11 +10,18 @@ struct hooke_reference {
   const char *method, *check;
   double rtol;
   double extent;    /* diagonal of the box that holds all frames [m] */
-  double agreement; /* twice the largest rms distance of the two over trusted frames [m] */
-  int64_t checked;  /* frames at which the two were compared: all, or as many as the budget allowed */
-  int64_t trusted;  /* of those, frames that agree to the wanted digits, from the first on */
-  int32_t hurried;  /* 1: with more time they would have been compared further, or at tighter tolerances */
-  double growth;    /* largest growth of a small displacement at the start, over the frames that were run */
+  double digits;    /* distance up to which frames are trusted: the wanted one, or as `coarse` says [m] */
+  double agreement; /* twice the largest rms distance of the two over trusted frames [m]; at most `digits` */
+  double energy_agreement; /* twice the largest difference of their energies there [J] */
+  int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
+  int64_t trusted;         /* of those, frames that agree to the digits, from the first on */
+  int32_t coarse; /* 1: no frame agrees to the wanted digits; those trusted do to 1e-6 of the extent */
+  int32_t
+      hurried; /* 1: time was short to compare them further, or at tighter tolerances; 0: they agree, or rounding
+                    * keeps them apart at the tightest */
+  double
+      growth; /* largest growth of a small displacement at the start, over the frames that were run; NaN: not asked
+                  * for */
   double wall_seconds; /* of everything */
 };
 
@@ -22,8 +29,10 @@ struct hooke_reference {
 struct hooke_reference_request {
   const hooke_options *run; /* duration, every */
   int64_t frame_count;
-  double
-      digits; /* distance that the two may be apart at a trusted frame [m]; at least, and if NaN, 1e-6 of the extent */
+  double digits; /* that a trusted frame is known to [m]; if NaN, 1e-6 of the extent */
+  int32_t
+      enough; /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth; 0: on to 1e-9 of the
+                   * extent, while there is time */
   double budget;                         /* [s], infinity for none */
   const struct hooke_listener *listener; /* told of progress with the share of the whole reference */
 };

@@ -4,12 +4,15 @@
 #include "core/figure.h"
 #include "core/handle.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+static const double LEAST_SECONDS = 2.0;
 
 static int ended_early(const hooke_integrator *run) {
   return run->outcome == HOOKE_DIVERGED || run->outcome == HOOKE_SOLVER_FAILED ||
@@ -23,12 +26,23 @@ static int32_t inquire(struct hooke_inquiry *inquiry) {
   if (status == HOOKE_OK) status = hooke_inquiry_replay(inquiry);
   if (status == HOOKE_OK) status = hooke_inquiry_judge(inquiry);
   if (status == HOOKE_OK) status = hooke_inquiry_advise(inquiry);
+  if (status == HOOKE_OK && inquiry->patience.stopped) status = HOOKE_STOPPED;
+  if (status == HOOKE_OK && inquiry->patience.spent)
+    hooke_print(inquiry->why->left_out, sizeof inquiry->why->left_out,
+                "not all was looked into: the time for it was up after %.3g s",
+                inquiry->patience.until - inquiry->patience.begun);
   hooke_free(inquiry->excess.q);
   hooke_state_destroy(inquiry->last);
   return status;
 }
 
-int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
+/* [s] */
+static double usual_time(const hooke_integrator *run) {
+  return fmax(LEAST_SECONDS, run->wall_seconds);
+}
+
+int32_t hooke_why_create(const hooke_integrator *run, double seconds, hooke_progress *progress, void *ctx,
+                         hooke_why **out) {
   if (run->system == NULL) {
     return hooke_fail(HOOKE_UNSUITED, NULL,
                       "a first-order problem has no springs to blame; its own message is all "
@@ -51,7 +65,12 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
   if (!run->method->adaptive) why->step = run->schedule.step;
   snprintf(why->method, sizeof why->method, "%s", run->method->name);
   struct hooke_inquiry inquiry = {
-      .run = run, .system = run->system, .why = why, .bad_particle = -1, .flipped = -1};
+      .run = run,
+      .system = run->system,
+      .why = why,
+      .bad_particle = -1,
+      .flipped = -1,
+      .patience = hooke_patience_of(seconds > 0.0 ? seconds : usual_time(run), progress, ctx)};
   const int32_t status = inquire(&inquiry);
   if (status == HOOKE_OK)
     *out = why;
@@ -61,7 +80,8 @@ int32_t hooke_why_create(const hooke_integrator *run, hooke_why **out) {
 }
 
 int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run, const hooke_state *first,
-                              const hooke_state *last, hooke_why **out) {
+                              const hooke_state *last, double seconds, hooke_progress *progress, void *ctx,
+                              hooke_why **out) {
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   int32_t status = hooke_integrator_create(system, run, &integrator);
@@ -70,7 +90,8 @@ int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *r
   if (status == HOOKE_OK) status = hooke_state_copy(last, state);
   if (status == HOOKE_OK) {
     status = hooke_integrator_run_on(integrator, first, state);
-    if (status == HOOKE_OK || ended_early(integrator)) status = hooke_why_create(integrator, out);
+    if (status == HOOKE_OK || ended_early(integrator))
+      status = hooke_why_create(integrator, seconds, progress, ctx, out);
   }
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
@@ -87,6 +108,7 @@ void hooke_why_destroy(hooke_why *why) {
 const char *hooke_why_text(const hooke_why *why, const char *what) {
   if (strcmp(what, "cause") == 0) return why->cause;
   if (strcmp(what, "sentence") == 0) return why->sentence;
+  if (strcmp(what, "left_out") == 0) return why->left_out;
   return strcmp(what, "method") == 0 ? why->method : NULL;
 }
 

@@ -6,6 +6,7 @@
 #include "hooke/why.h"
 #include "integrate/integrator.h"
 #include "measure/node_blocks.h"
+#include "measure/patience.h"
 
 enum { HOOKE_WHY_MOST_BLAME = 100, HOOKE_WHY_MOST_ADVICE = 4 };
 
@@ -22,7 +23,7 @@ struct hooke_why_advice {
 
 struct hooke_why {
   const char *cause;
-  char sentence[1024], method[32];
+  char sentence[1024], method[32], left_out[240];
   double time, noticed, step, limit, particle;
   int64_t blame_count, advice_count;
   struct hooke_why_blame blame[HOOKE_WHY_MOST_BLAME];
@@ -48,6 +49,7 @@ struct hooke_inquiry {
   const hooke_integrator *run;
   const hooke_system *system;
   struct hooke_why *why;
+  struct hooke_patience patience;
 
   hooke_state *last;  /* the last one within all bounds */
   int64_t last_step;  /* steps before it */

@@ -86,6 +86,7 @@ static int32_t changed_options(const struct hooke_plan *plan, const struct hooke
 
 struct trial {
   const hooke_integrator *integrator;
+  struct hooke_patience *patience;
   double size;
   int32_t spent;
 };
@@ -94,7 +95,8 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   struct trial *trial = ctx;
   const struct hooke_counts *c = &trial->integrator->count;
   (void)step, (void)state;
-  trial->spent = trial->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK;
+  trial->spent = trial->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
+                 hooke_patience_ends(trial->patience, "trying what to do");
   return trial->spent;
 }
 
@@ -112,7 +114,7 @@ static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, do
   if (status == HOOKE_OK) status = hooke_state_create_sized(plan->first->size, 1, &state);
   if (status == HOOKE_OK) status = hooke_state_copy(plan->first, state);
   if (status == HOOKE_OK) {
-    struct trial trial = {.integrator = integrator, .size = plan->size};
+    struct trial trial = {.integrator = integrator, .patience = &plan->inquiry->patience, .size = plan->size};
     const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
     hooke_integrator_on_step(integrator, stride, watch_work, &trial);
     status = hooke_integrator_run(integrator, state);
@@ -179,7 +181,8 @@ int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, i
   int64_t steps = 0;
   char proof[96];
   *taken = 0;
-  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
+  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change) &&
+      !hooke_patience_ends(&plan->inquiry->patience, "trying what to do")) {
     status = changed_options(plan, change, &options);
     if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, &steps);
     *taken = status == HOOKE_OK && proves(plan, reached, finished, proof, sizeof proof);

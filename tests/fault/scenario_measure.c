@@ -73,13 +73,13 @@ static void why(struct attempt *a, const void *with) {
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_state_create(system, &last));
   TRY_FOR(a, hooke_integrator_run(integrator, last), HOOKE_DIVERGED);
-  TRY(a, hooke_why_create(integrator, &why));
+  TRY(a, hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   attempt_text(a, hooke_why_text(why, "cause"));
   attempt_text(a, hooke_why_text(why, "sentence"));
   attempt_number(a, hooke_why_number(why, "limit"));
   hooke_why_destroy(why);
   why = NULL;
-  TRY(a, hooke_why_create_kept(system, run, state, last, &why));
+  TRY(a, hooke_why_create_kept(system, run, state, last, INFINITY, NULL, NULL, &why));
   attempt_text(a, hooke_why_text(why, "sentence"));
   for (int64_t k = 0; k < hooke_why_advice_count(why); k++)
     attempt_text(a, hooke_why_advice_text(why, k, "change"));

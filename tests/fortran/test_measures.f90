@@ -193,7 +193,7 @@ contains
     call integrator%create(system, run)
     call state%create(system)
     call first%create(system)
-    call why%create(integrator, status)
+    call why%create(integrator, status=status)
     call expect(status == hooke_bad_call, "nothing to explain yet")
     call integrator%run(state, status)
     call expect(status == hooke_diverged, "it blew up")

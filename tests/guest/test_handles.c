@@ -46,7 +46,7 @@ static void bring_to_life(void) {
   check_ok(hooke_cost_create(alive.system, NULL, NULL, &alive.cost));
 #if HOOKE_HAVE_LAPACK
   check_ok(hooke_limit_create(alive.system, NULL, NULL, &alive.limit));
-  check_ok(hooke_why_create(alive.integrator, &alive.why));
+  check_ok(hooke_why_create(alive.integrator, INFINITY, NULL, NULL, &alive.why));
 #endif
 #if HOOKE_HAVE_HDF5
   check_ok(hooke_trajectory_create(path, alive.system, alive.integrator, NULL, &alive.trajectory));

@@ -120,7 +120,7 @@ static void divergence(struct output *out) {
   add(out, hooke_last_error());
 #if HOOKE_HAVE_LAPACK
   hooke_why *why;
-  check_ok(hooke_why_create(integrator, &why));
+  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   add(out, hooke_why_text(why, "sentence"));
   for (int64_t k = 0; k < hooke_why_advice_count(why); k++) {
     add(out, hooke_why_advice_text(why, k, "change"));

@@ -204,7 +204,7 @@ static void tour_divergence(void) {
   REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
 #if HOOKE_HAVE_LAPACK
   hooke_why *why = NULL;
-  OK(hooke_why_create(integrator, &why));
+  OK(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   ASK(hooke_why_text(why, "sentence"));
   ASK(hooke_why_destroy(why));
 #endif

@@ -144,7 +144,7 @@ static uint64_t explanations(int thread) {
   if (status == 0) status = hooke_integrator_create(oscillator, options, &integrator);
   if (status == 0) status = hooke_state_create(oscillator, &state);
   if (status == 0 && hooke_integrator_run(integrator, state) != HOOKE_DIVERGED) status = -1;
-  if (status == 0) status = hooke_why_create(integrator, &why);
+  if (status == 0) status = hooke_why_create(integrator, INFINITY, NULL, NULL, &why);
   if (status == 0) {
     const double limit = hooke_why_number(why, "limit");
     hash = hash_doubles(1, &limit, HASH_START);

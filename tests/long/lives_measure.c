@@ -19,7 +19,7 @@ static uint64_t live_why(const char *detail) {
   hooke_state *state = start_state(hooke_scene_system(scene));
   hooke_integrator *integrator = diverged(scene, state);
   hooke_why *why = NULL;
-  check_ok(hooke_why_create(integrator, &why));
+  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   const double found[] = {(double)hooke_why_advice_count(why), hooke_why_number(why, "time")};
   const uint64_t hash = hash_doubles(2, found, life_hash(state, HASH_START));
   hooke_why_destroy(why);

@@ -239,7 +239,7 @@ static void a_run_that_jumps_drive_is_explained(void **unused) {
   hooke_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   hooke_why *why = NULL;
-  const int32_t status = hooke_why_create(integrator, &why);
+  const int32_t status = hooke_why_create(integrator, INFINITY, NULL, NULL, &why);
   if (status != HOOKE_NOT_BUILT) {
     check_status(status, HOOKE_OK);
     if (strstr(hooke_why_text(why, "sentence"), "or altitude springs gave it energy") == NULL)

@@ -171,7 +171,7 @@ static void a_run_above_the_limit_is_explained(void **unused) {
   hooke_state_position(state)[3 * 13 + 1] += 1e-5;
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   hooke_why *why = NULL;
-  check_ok(hooke_why_create(integrator, &why));
+  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
   const char *sentence = hooke_why_text(why, "sentence");
   if (strstr(sentence, "most of all in the altitude springs of particles ") == NULL ||

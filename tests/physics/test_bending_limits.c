@@ -185,7 +185,7 @@ static void a_run_above_the_limit_is_explained(void **unused) {
     assert_true(heard >= above);
     if (above) {
       hooke_why *why = NULL;
-      check_ok(hooke_why_create(integrator, &why));
+      check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
       assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
       const char *sentence = hooke_why_text(why, "sentence");
       if (strstr(sentence, "most of all in the bending of particles ") == NULL ||

@@ -53,7 +53,7 @@ static hooke_system *row(int32_t pin_first) {
 
 static hooke_why *explain(hooke_integrator *integrator) {
   hooke_why *why = NULL;
-  check_ok(hooke_why_create(integrator, &why));
+  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
   return why;
 }
 
@@ -216,7 +216,8 @@ static void test_numbers_of_an_oscillator(void **unused) {
   /* the same from states that were kept */
   hooke_why *kept = NULL;
   hooke_state *first = start_state(system);
-  check_ok(hooke_why_create_kept(system, hooke_integrator_options(every_step), first, state, &kept));
+  check_ok(hooke_why_create_kept(system, hooke_integrator_options(every_step), first, state, INFINITY, NULL,
+                                 NULL, &kept));
   check_text(hooke_why_text(kept, "cause"), "step-above-limit");
   check_close(hooke_why_number(kept, "time"), last_good, 0.0);
   check_close(hooke_why_number(kept, "noticed"), bad, 0.0);
@@ -328,7 +329,8 @@ static void test_kept_state_that_is_not_finite(void **unused) {
   hooke_state *first = start_state(system), *last = start_state(system);
   hooke_why *why = NULL;
   hooke_state_position(last)[4] = NAN;
-  check_status(hooke_why_create_kept(system, options, first, last, &why), HOOKE_BAD_VALUE);
+  check_status(hooke_why_create_kept(system, options, first, last, INFINITY, NULL, NULL, &why),
+               HOOKE_BAD_VALUE);
   check_message("position[1][1]: nan is not allowed");
   assert_null(why);
   hooke_state_destroy(last);
@@ -407,9 +409,9 @@ static void test_nothing_to_explain(void **unused) {
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.01, .duration = 1.0});
   hooke_state *state = start_state(system);
-  check_status(hooke_why_create(integrator, &why), HOOKE_BAD_CALL);
+  check_status(hooke_why_create(integrator, INFINITY, NULL, NULL, &why), HOOKE_BAD_CALL);
   check_ok(hooke_integrator_run(integrator, state));
-  check_status(hooke_why_create(integrator, &why), HOOKE_BAD_CALL);
+  check_status(hooke_why_create(integrator, INFINITY, NULL, NULL, &why), HOOKE_BAD_CALL);
   check_message("did not blow up");
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
@@ -420,7 +422,7 @@ static void test_nothing_to_explain(void **unused) {
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
   check_status(hooke_integrator_run(first_order, state), HOOKE_DIVERGED);
-  check_status(hooke_why_create(first_order, &why), HOOKE_UNSUITED);
+  check_status(hooke_why_create(first_order, INFINITY, NULL, NULL, &why), HOOKE_UNSUITED);
   check_status(hooke_integrator_on_warning(first_order, NULL, NULL), HOOKE_UNSUITED);
   hooke_state_destroy(state);
   hooke_integrator_destroy(first_order);
@@ -610,7 +612,7 @@ static void test_without_lapack(void **unused) {
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3, .duration = 300.0});
   hooke_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  check_status(hooke_why_create(integrator, &why), HOOKE_NOT_BUILT);
+  check_status(hooke_why_create(integrator, INFINITY, NULL, NULL, &why), HOOKE_NOT_BUILT);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);

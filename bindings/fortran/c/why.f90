@@ -10,14 +10,19 @@ module hooke_c_why
       type(c_ptr), value :: integrator, ctx
       type(c_funptr), value :: warning
     end function
-    integer(c_int32_t) function c_why_create(integrator, why) bind(c, name="hooke_why_create")
+    integer(c_int32_t) function c_why_create(integrator, seconds, progress, ctx, why) bind(c, name="hooke_why_create")
       import
-      type(c_ptr), value :: integrator
+      type(c_ptr), value :: integrator, ctx
+      real(c_double), value :: seconds
+      type(c_funptr), value :: progress
       type(c_ptr), intent(out) :: why
     end function
-    integer(c_int32_t) function c_why_create_kept(system, run, first, last, why) bind(c, name="hooke_why_create_kept")
+    integer(c_int32_t) function c_why_create_kept(system, run, first, last, seconds, progress, ctx, why) &
+      bind(c, name="hooke_why_create_kept")
       import
-      type(c_ptr), value :: system, run, first, last
+      type(c_ptr), value :: system, run, first, last, ctx
+      real(c_double), value :: seconds
+      type(c_funptr), value :: progress
       type(c_ptr), intent(out) :: why
     end function
     subroutine c_why_destroy(why) bind(c, name="hooke_why_destroy")

@@ -138,16 +138,22 @@ def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any
 
 
 @contextlib.contextmanager
+def watching(progress: Shown) -> Iterator[Any]:
+    """The callback of the library for progress, while the library works; lets Ctrl-C in."""
+    with shown(progress) as told:
+        tell = told or (lambda done, what: None)
+        with interruptible():
+            yield PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
+
+
+@contextlib.contextmanager
 def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
     """Passes progress of the object on while the library works, and lets Ctrl-C in; ``attach(handle, watcher,
     None)`` is the function of the library for that."""
-    with shown(progress) as told:
-        tell = told or (lambda done, what: None)
-        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
+    with watching(progress) as watcher:
         attach(handle, watcher, None)
         try:
-            with interruptible():
-                yield
+            yield
         finally:
             attach(handle, PROGRESS(), None)
 

@@ -273,8 +273,8 @@ PROTOTYPES = {
     "hooke_needs_part_number": (DOUBLE, NEEDS, INT64, TEXT),
     # why.h
     "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
-    "hooke_why_create": (STATUS, INTEGRATOR, POINTER(WHY)),
-    "hooke_why_create_kept": (STATUS, SYSTEM, OPTIONS, STATE, STATE, POINTER(WHY)),
+    "hooke_why_create": (STATUS, INTEGRATOR, c_double, PROGRESS, ADDRESS, POINTER(WHY)),
+    "hooke_why_create_kept": (STATUS, SYSTEM, OPTIONS, STATE, STATE, c_double, PROGRESS, ADDRESS, POINTER(WHY)),
     "hooke_why_destroy": (None, WHY),
     "hooke_why_text": (TEXT, WHY, TEXT),
     "hooke_why_number": (DOUBLE, WHY, TEXT),

@@ -20,6 +20,7 @@ from .state import State
 from .system import System
 
 if TYPE_CHECKING:
+    from .results import WorkProgress
     from .why import Why
 
 #: observer(step, state): sees the state after `step` steps and must not change it; returns None or 0 to go
@@ -162,16 +163,17 @@ class Integrator(Closing):
             self._running = False
         return code
 
-    def why(self) -> Why:
-        """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`."""
+    def why(self, budget: float | None = None, progress: WorkProgress | bool | None = None) -> Why:
+        """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`; with
+        `budget` and `progress` as for `hooke.why`."""
         from .why import Why
 
-        return Why(self)
+        return Why(self, budget, progress)
 
     @property
     def diagnosis(self) -> str:
         """What happened in the last run, where and when, in a sentence or two; "" if it did not end early. It takes
-        the last steps again and tries what to do: some seconds at most."""
+        the last steps again and tries what to do: as long as the run took, or 2 s if that is more."""
         if self.outcome not in _BLOWN_UP:
             return ""
         try:

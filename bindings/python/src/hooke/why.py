@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ._callback import watching
 from ._library import lib
 from ._memory import Handle, text
 from ._prototypes import WHY
 from ._status import SolverFailed
 from .integrator import Integrator
 from .options import Options
-from .results import Result, Runnable, resolve
+from .results import Result, Runnable, WorkProgress, resolve
 
 
 class Blame(NamedTuple):
@@ -41,16 +43,21 @@ class Why:
     "overflow"; `sentence` says what happened, where and when. `time` [s] is that of the last step within all bounds,
     `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step and the largest stable one, `particle`
     the one concerned (None if none is); NaN where a number does not apply. `blame` has the springs, the largest share
-    first, `advice` what to do, the best first.
+    first, `advice` what to do, the best first. `left_out` says what was not looked into for want of time or memory.
     """
 
-    def __init__(self, integrator: Integrator):
+    def __init__(
+        self, integrator: Integrator, budget: float | None = None, progress: WorkProgress | bool | None = None
+    ):
         pointer = WHY()
-        lib.hooke_why_create(integrator._handle, ctypes.byref(pointer))
+        seconds = math.nan if budget is None else budget
+        with watching(progress) as watcher:
+            lib.hooke_why_create(integrator._handle, seconds, watcher, None, ctypes.byref(pointer))
         handle = Handle(pointer, lib.hooke_why_destroy)
         self.cause: str = text(lib.hooke_why_text(handle, b"cause"))
         self.sentence: str = text(lib.hooke_why_text(handle, b"sentence"))
         self.method: str = text(lib.hooke_why_text(handle, b"method"))
+        self.left_out: str = text(lib.hooke_why_text(handle, b"left_out"))
         self.time, self.noticed, self.step, self.limit, particle = (
             lib.hooke_why_number(handle, what) for what in (b"time", b"noticed", b"step", b"limit", b"particle")
         )
@@ -62,7 +69,8 @@ class Why:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
 
     def __str__(self) -> str:
-        return "\n".join([self.sentence, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
+        sentences = [self.sentence, *([self.left_out] if self.left_out else [])]
+        return "\n".join([*sentences, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
 
 
 def _blame(handle: Handle, place: int) -> Blame:
@@ -80,19 +88,25 @@ def _advice(handle: Handle, place: int) -> Advice:
     return Advice(text(lib.hooke_why_advice_text(handle, place, b"change")), options)
 
 
-def why(what: Runnable | Result | SolverFailed, **options: Any) -> Why | None:
+def why(
+    what: Runnable | Result | SolverFailed,
+    budget: float | None = None,
+    progress: WorkProgress | bool | None = None,
+    **options: Any,
+) -> Why | None:
     """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
     `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
 
-    The last steps are taken again and what is advised is tried, so callbacks are called again; it takes some seconds
-    at most.
+    The last steps are taken again and what is advised is tried, so callbacks are called again; within `budget` [s], or
+    as long as the run took (2 s if that is less). ``progress(fraction, what)`` is told of progress (``progress=True``
+    shows a bar, with tqdm) and ends it by returning a number other than 0.
     """
     if isinstance(what, (Result, SolverFailed)):
-        return what.integrator.why() if what.integrator is not None else None
+        return what.integrator.why(budget, progress) if what.integrator is not None else None
     _, problem, given = resolve(what, None)
     integrator = Integrator(problem, given, **options)
     try:
         status = integrator.run(problem.state())
     except SolverFailed:
-        return integrator.why()
-    return integrator.why() if status in ("diverged", "step-limit") else None
+        return integrator.why(budget, progress)
+    return integrator.why(budget, progress) if status in ("diverged", "step-limit") else None

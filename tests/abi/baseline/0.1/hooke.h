@@ -364,9 +364,11 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 typedef struct hooke_why hooke_why;
-HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, hooke_why **why);
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, double seconds,
+                                   hooke_progress *progress, void *ctx, hooke_why **why);
 HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
-                                        const hooke_state *first, const hooke_state *last, hooke_why **why);
+                                        const hooke_state *first, const hooke_state *last, double seconds,
+                                        hooke_progress *progress, void *ctx, hooke_why **why);
 HOOKE_API void hooke_why_destroy(hooke_why *why);
 HOOKE_API const char *hooke_why_text(const hooke_why *why, const char *what);
 HOOKE_API double hooke_why_number(const hooke_why *why, const char *what);

@@ -1,0 +1,184 @@
+#include "want.h"
+
+#include "report.h"
+#include "unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double MOST_RISE = 0.01; /* of what the scene has: from there on energy grows by itself */
+
+/* ---- reading ---- */
+
+/* The length of --want [m]; the option table of a study knows what is allowed. */
+static int read_want(const struct hooke_arguments *arguments, const char *text, double *want) {
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  char *value = hooke_unit_read(text, "m", word);
+  if (!value) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--want %s: there is no unit '%s'; allowed: %s", text,
+                        word, hooke_unit_list("m", list));
+  }
+  hooke_options *options = NULL;
+  int32_t status = hooke_study_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "want", value);
+  if (status == HOOKE_OK) *want = hooke_options_number(options, "want");
+  hooke_options_destroy(options);
+  free(value);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE
+                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
+}
+
+static int refuse_typed(const struct hooke_arguments *arguments) {
+  static const char *const chosen[] = {"step", "rtol", "atol", "atol_velocity"};
+  char flag[HOOKE_FLAG_SIZE];
+  for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++) {
+    if (!hooke_arguments_text(arguments, chosen[k])) continue;
+    return hooke_report(arguments, HOOKE_EXIT_USAGE,
+                        "--want picks the step or the tolerance; leave out --%s, or --want",
+                        hooke_arguments_flag(chosen[k], flag));
+  }
+  return HOOKE_EXIT_DONE;
+}
+
+/* ---- picking ---- */
+
+static void tell_choice(const struct hooke_run *run, const char *verb) {
+  const hooke_options *options = run->setup.options;
+  const char *method = hooke_options_text(options, "method");
+  const int adaptive = hooke_method_is_adaptive(method);
+  char number[HOOKE_NUMBER_SIZE];
+  if (run->arguments->quiet) return;
+  hooke_report_words(run->arguments, "%s %s, %s %s%s", verb, method, adaptive ? "rtol" : "step",
+                     hooke_format_number(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
+                     adaptive ? "" : " s");
+}
+
+int hooke_want_pick(struct hooke_run *run) {
+  const struct hooke_arguments *arguments = run->arguments;
+  const char *text = hooke_arguments_text(arguments, "want");
+  double want = NAN;
+  int code = text ? hooke_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
+  if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
+  if (code == HOOKE_EXIT_DONE && text) code = read_want(arguments, text, &want);
+  if (code != HOOKE_EXIT_DONE) return code;
+  if (!text && (run->resumed || hooke_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
+  int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  hooke_estimate_on_progress(run->estimate, hooke_watch_progress, &run->watch);
+  if (!text) return HOOKE_EXIT_DONE;
+  hooke_watch_start(&run->watch, arguments);
+  status = hooke_estimate_pick(run->estimate, hooke_arguments_text(arguments, "method"), run->setup.options);
+  hooke_watch_end(&run->watch);
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  tell_choice(run, "picked");
+  return HOOKE_EXIT_DONE;
+}
+
+/* ---- after the run ---- */
+
+int32_t hooke_want_measure(struct hooke_run *run) {
+  if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
+  hooke_watch_start(&run->watch, run->arguments);
+  const int32_t status = hooke_estimate_measure(run->estimate, run->integrator, run->setup.state);
+  hooke_watch_end(&run->watch);
+  return status;
+}
+
+static double number_of(const struct hooke_run *run, const char *what) {
+  return hooke_estimate_number(run->estimate, what);
+}
+
+static int is_wanted(const struct hooke_run *run) {
+  return run->estimate && !isnan(number_of(run, "wanted"));
+}
+
+int32_t hooke_want_goes_on(struct hooke_run *run) {
+  if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
+  if (hooke_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
+    return 0;
+  if (!run->arguments->quiet)
+    hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted",
+                       number_of(run, "estimate"), number_of(run, "wanted"));
+  tell_choice(run, "once more with");
+  return 1;
+}
+
+/* "against the same method at half the step" and the like. */
+static const char *source_of(const struct hooke_run *run, const char *by) {
+  if (strcmp(by, "reference") == 0) return "against a reference that was checked by another";
+  if (is_wanted(run))
+    return strcmp(by, "tolerance") == 0 ? "against the same method at a hundredth of the tolerance"
+                                        : "against the same method at half the step";
+  if (strcmp(by, "slice") == 0) return "in a last piece that was run finer";
+  return strcmp(by, "tolerance") == 0 ? "from runs at looser tolerances" : "from runs at larger steps";
+}
+
+static void warn(const struct hooke_run *run) {
+  const double rise = number_of(run, "energy_rise");
+  if (rise > MOST_RISE && !run->arguments->quiet)
+    hooke_report_words(run->arguments,
+                       "warning: energy rose by itself, over the last half of the run by %.3g %% of what the "
+                       "scene has: this step is too large, or the method does not suit the scene",
+                       100.0 * rise);
+}
+
+static void print_verdict(const struct hooke_run *run) {
+  const double met = number_of(run, "met");
+  const char *note = hooke_estimate_text(run->estimate, "note");
+  if (!is_wanted(run)) return;
+  printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
+  printf("%.6g m", number_of(run, "wanted"));
+  if (isnan(met)) printf(", and nobody knows for all of the run");
+  if (met != 1.0 && note[0]) printf(" (%s)", note);
+  printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
+}
+
+void hooke_want_print(const struct hooke_run *run) {
+  if (!run->estimate || run->outcome != HOOKE_OK) return;
+  const char *by = hooke_estimate_text(run->estimate, "by");
+  const double from = number_of(run, "known_from"), until = number_of(run, "known_until");
+  printf("%-22s", "error");
+  if (!by)
+    printf("not known: %s", hooke_estimate_text(run->estimate, "note"));
+  else if (strcmp(by, "slice") == 0)
+    printf("%.2g m made from t = %.6g to %.6g s, %s", number_of(run, "estimate"), from, until,
+           source_of(run, by));
+  else if (is_wanted(run))
+    printf("%.3g m at most until t = %.6g s, %s", number_of(run, "estimate"), until, source_of(run, by));
+  else
+    printf("about %.2g m at the end, %s", number_of(run, "estimate"), source_of(run, by));
+  print_verdict(run);
+  printf("\n");
+  hooke_print_flush();
+  warn(run);
+}
+
+void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
+  if (!run->estimate) return;
+  const char *by = hooke_estimate_text(run->estimate, "by");
+  const double met = number_of(run, "met");
+  hooke_json_open(json, "error", '{');
+  hooke_json_number(json, "estimate", number_of(run, "estimate"));
+  hooke_json_number(json, "known_from", number_of(run, "known_from"));
+  hooke_json_number(json, "known_until", number_of(run, "known_until"));
+  hooke_json_text(json, "by", by);
+  hooke_json_number(json, "energy_rise", number_of(run, "energy_rise"));
+  hooke_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
+  hooke_json_close(json);
+  if (!is_wanted(run)) return;
+  hooke_json_open(json, "want", '{');
+  hooke_json_number(json, "wanted", number_of(run, "wanted"));
+  if (isnan(met))
+    hooke_json_number(json, "met", NAN);
+  else
+    hooke_json_flag(json, "met", met == 1.0);
+  hooke_json_number(json, "seconds", number_of(run, "seconds"));
+  hooke_json_close(json);
+}
+
+int hooke_want_exit_code(const struct hooke_run *run) {
+  if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return HOOKE_EXIT_DONE;
+  return hooke_watch_interrupted() ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_NOT_MET;
+}

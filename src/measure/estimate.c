@@ -1,0 +1,286 @@
+#include "measure/estimate.h"
+
+#include "core/clock.h"
+#include "core/figure.h"
+#include "core/handle.h"
+#include "core/print.h"
+#include "core/status.h"
+#include "integrate/integrator.h"
+#include "measure/step_unit.h"
+
+#include "hooke/study.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { MOST_KEPT = 8, MOST_SEEN = 128, MOST_REFINED = 4 };
+static const int64_t KEPT_BYTES = 1 << 26;
+static const double SHORT = 2.0;                          /* [s] a run under which is run again, coarser */
+static const double SLICE = 0.045, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
+static const double AIM = 0.6, LEAST_FACTOR = 1.0 / 16.0, MOST_FACTOR = 0.7; /* of what refines */
+static const double MOST_STEPS = 1e8;
+
+int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  if (!isnan(want) && !(want > 0.0 && isfinite(want)))
+    return hooke_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
+  hooke_estimate *e = hooke_handle_new("hooke_estimate", sizeof *e);
+  if (e == NULL) return HOOKE_NO_MEMORY;
+  e->system = system;
+  e->want = want;
+  e->error = e->known_from = e->known_until = e->rise = NAN;
+  *out = e;
+  return HOOKE_OK;
+}
+
+static void forget_run(hooke_estimate *e) {
+  hooke_options_destroy(e->options);
+  hooke_frames_release(&e->kept);
+  hooke_soundness_release(&e->soundness);
+  hooke_state_destroy(e->late);
+  e->options = NULL;
+  e->late = NULL;
+  e->error = e->known_from = e->known_until = e->rise = e->order = NAN;
+  e->by = NULL;
+  e->note[0] = '\0';
+}
+
+void hooke_estimate_destroy(hooke_estimate *e) {
+  if (e == NULL) return;
+  forget_run(e);
+  hooke_pick_release(&e->pick);
+  hooke_handle_free(e);
+}
+
+void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, void *ctx) {
+  e->progress = progress;
+  e->ctx = ctx;
+}
+
+/* ---- picking ---- */
+
+static int32_t set_value(hooke_options *run, const char *method, double value) {
+  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  int32_t status = hooke_options_set_text(run, "method", method);
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
+    return hooke_options_set_number(run, "step", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * share);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}
+
+int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options *run) {
+  int32_t status = hooke_run_options_require(run, "run");
+  if (status != HOOKE_OK) return status;
+  if (isnan(e->want)) return hooke_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+  hooke_pick_release(&e->pick);
+  const double begun = hooke_clock_seconds();
+  status = hooke_pick_run(&e->pick, e->system, run, e->want, method, e->progress, e->ctx);
+  e->spent += hooke_clock_seconds() - begun;
+  if (status == HOOKE_OK && e->pick.best.method == NULL)
+    status = hooke_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here",
+                        method ? method : "no method");
+  if (status == HOOKE_OK) status = set_value(run, e->pick.best.method, e->pick.best.value);
+  if (status != HOOKE_OK) hooke_pick_release(&e->pick);
+  e->picked = status == HOOKE_OK;
+  e->refined = 0;
+  return status;
+}
+
+/* ---- watching the run ---- */
+
+/* Frames that are kept with a want, to hold a finer run against: whole parts of the run, as far as memory is at hand. */
+static void choose_kept(hooke_estimate *e, double every, int64_t *count) {
+  const double frames = e->duration / every;
+  const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);
+  double apart = fmax(1.0, ceil(round(frames) / MOST_KEPT));
+  while (fmod(round(frames), apart) != 0.0)
+    apart++;
+  *count = 1 + (int64_t)(round(frames) / apart);
+  e->apart = apart * every;
+  if (!isnan(e->want) && hooke_step_is_whole(frames) && *count * bytes <= KEPT_BYTES) return;
+  *count = 2;
+  e->apart = e->duration;
+}
+
+int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
+  if (it->system != e->system)
+    return hooke_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
+  forget_run(e);
+  int32_t status = hooke_options_copy(it->options, &e->options);
+  if (status != HOOKE_OK) return status;
+  int64_t count;
+  const int64_t frames = hooke_integrator_frame_count(it);
+  e->begin = hooke_state_time(state);
+  e->duration = it->schedule.duration;
+  e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
+  e->frames_seen = 0;
+  e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
+  choose_kept(e, it->schedule.every, &count);
+  status = hooke_frames_create(e->system, count, &e->kept);
+  if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
+  if (status == HOOKE_OK)
+    status = hooke_soundness_begin(&e->soundness, e->system, it->method->name,
+                                   it->method->adaptive ? NAN : it->schedule.step, state, MOST_SEEN + 2);
+  return status;
+}
+
+static void keep(hooke_estimate *e, const hooke_state *state) {
+  const double t = hooke_state_time(state) - e->begin;
+  if (fabs(t - (double)e->kept.recorded * e->apart) <= 1e-9 * e->duration)
+    hooke_frames_record(&e->kept, state);
+  if (!(t + e->begin >= e->late_after) || t >= e->duration * (1.0 - 1e-9)) return;
+  hooke_state_copy(state, e->late);
+  e->late_after = NAN;
+}
+
+int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate) {
+  hooke_estimate *e = estimate;
+  (void)step;
+  if (e->options == NULL) return 0;
+  keep(e, state);
+  const double every = hooke_options_number(e->options, "every");
+  const double frame = (hooke_state_time(state) - e->begin) / every;
+  if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
+    hooke_soundness_see(&e->soundness, state);
+    e->frames_seen += e->frames_apart;
+  }
+  return 0;
+}
+
+/* ---- measuring ---- */
+
+static int is_whole_reference(const hooke_estimate *e) {
+  return e->pick.system != NULL && e->pick.share == 1.0;
+}
+
+/* The run is the pick's, which was held against the reference at its frames; its end is measured itself. */
+static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
+  const struct hooke_reference *r = &e->pick.reference;
+  const int to_end = r->trusted == r->frames.count;
+  double end = 0.0;
+  if (to_end) end = hooke_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), NULL);
+  e->error = e->picked ? fmax(end, e->pick.best.error) : to_end ? end : NAN;
+  e->known_from = e->begin;
+  e->known_until = e->begin + hooke_pick_trusted(&e->pick);
+  e->order = NAN;
+  e->by = isnan(e->error) ? NULL : "reference";
+  if (to_end) return;
+  hooke_print(e->note, sizeof e->note,
+              "after %.6g s two references part by more than a tenth of the wanted error%s", e->known_until,
+              r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
+}
+
+static int is_sound(const hooke_estimate *e) {
+  return isinf(e->soundness.least_bound) && !(e->rise > hooke_soundness_most_rise);
+}
+
+static int32_t measure_alone(hooke_estimate *e) {
+  int32_t status = HOOKE_OK;
+  if (!isnan(e->want)) return hooke_estimate_by_finer(e);
+  if (e->seconds < SHORT) status = hooke_estimate_by_coarser(e);
+  if (status == HOOKE_OK && isnan(e->error)) status = hooke_estimate_by_slice(e);
+  return status;
+}
+
+int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
+  if (e->options == NULL)
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
+  if (e->kept.recorded == e->kept.count - 1) hooke_frames_record(&e->kept, state);
+  e->seconds = hooke_integrator_wall_seconds(it);
+  e->rise = hooke_soundness_rise(&e->soundness);
+  if (it->outcome != HOOKE_OK || e->kept.recorded < e->kept.count) {
+    hooke_print(e->note, sizeof e->note, "the run did not come to its end");
+    return HOOKE_OK;
+  }
+  const double begun = hooke_clock_seconds();
+  int32_t status = HOOKE_OK;
+  if (is_whole_reference(e))
+    measure_by_reference(e, state);
+  else
+    status = measure_alone(e);
+  e->spent += hooke_clock_seconds() - begun;
+  if (status == HOOKE_OK && isnan(e->error) && !e->note[0])
+    hooke_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
+  if (status == HOOKE_OK && !isnan(e->want) && !is_sound(e))
+    hooke_print(e->note, sizeof e->note,
+                isinf(e->soundness.least_bound) ? "its energy grows by itself"
+                                                : "its step is above 0.9 of the stable one");
+  return status;
+}
+
+/* ---- refining ---- */
+
+static double met(const hooke_estimate *e) {
+  const double end = e->begin + e->duration;
+  if (isnan(e->want)) return NAN;
+  if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
+  return e->error <= e->want && e->known_until >= end * (1.0 - 1e-12) && e->known_from <= e->begin ? 1.0
+                                                                                                   : NAN;
+}
+
+/* The next step or tolerance. */
+static double finer(const hooke_estimate *e) {
+  const double value = hooke_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
+  double factor = pow(AIM * e->want / e->error, 1.0 / order);
+  factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
+  return fmin(value * factor, hooke_soundness_limit_share * e->soundness.least_bound);
+}
+
+int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
+  if (e->options == NULL || isnan(met(e)) || e->refined == MOST_REFINED)
+    return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
+  double value = finer(e), duration, every, unit;
+  const char *method = hooke_options_text(e->options, "method");
+  if (!hooke_method_is_adaptive(method)) {
+    int32_t status = hooke_step_times(e->options, &duration, &every);
+    if (status == HOOKE_OK) status = hooke_step_unit(duration, every, &unit);
+    if (status != HOOKE_OK) return status;
+    value = unit / ceil(unit / value * (1.0 - 1e-12));
+    if (duration / value > MOST_STEPS)
+      return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would mean over 1e8 steps", value);
+  }
+  e->refined++;
+  e->picked = 0;
+  return set_value(run, method, value);
+}
+
+/* ---- queries ---- */
+
+double hooke_estimate_number(const hooke_estimate *e, const char *what) {
+  const struct hooke_figure figures[] = {
+      {"estimate", e->error},
+      {"known_from", e->known_from},
+      {"known_until", e->known_until},
+      {"wanted", e->want},
+      {"met", met(e)},
+      {"energy_rise", e->rise},
+      {"seconds", e->spent},
+  };
+  return HOOKE_FIGURE(figures, what);
+}
+
+const char *hooke_estimate_text(const hooke_estimate *e, const char *what) {
+  if (strcmp(what, "by") == 0) return e->by;
+  return strcmp(what, "note") == 0 ? e->note : NULL;
+}
+
+/* ---- a pick alone ---- */
+
+int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
+                         hooke_progress *progress, void *ctx) {
+  hooke_estimate *e = NULL;
+  int32_t status = hooke_estimate_create(system, want, &e);
+  if (status != HOOKE_OK) return status;
+  hooke_estimate_on_progress(e, progress, ctx);
+  status = hooke_estimate_pick(e, NULL, run);
+  if (status == HOOKE_OK && !e->pick.met) {
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
+                   want, e->pick.best.method, e->pick.best.value, e->pick.best.error);
+  }
+  hooke_estimate_destroy(e);
+  return status;
+}

@@ -1,0 +1,21 @@
+#include "measure/patience.h"
+
+#include "core/clock.h"
+
+#include <math.h>
+#include <stddef.h>
+
+struct hooke_patience hooke_patience_of(double seconds, hooke_progress *progress, void *ctx) {
+  const double now = hooke_clock_seconds();
+  return (struct hooke_patience){.begun = now, .until = now + seconds, .progress = progress, .ctx = ctx};
+}
+
+int32_t hooke_patience_ends(struct hooke_patience *p, const char *what) {
+  if (p == NULL) return 0;
+  if (p->spent || p->stopped) return 1;
+  const double now = hooke_clock_seconds();
+  const double done = isinf(p->until) ? 0.0 : fmin(1.0, (now - p->begun) / (p->until - p->begun));
+  p->stopped = p->progress && p->progress(done, what, p->ctx) != 0;
+  p->spent = !(now < p->until);
+  return p->spent || p->stopped;
+}

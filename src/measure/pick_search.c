@@ -1,0 +1,214 @@
+/* The cheapest row of one method within the wanted error, by as few runs as its order allows. */
+#include "measure/pick.h"
+#include "measure/soundness.h"
+#include "measure/step_bound.h"
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "integrate/method.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { MOST_RUNS = 12, REPEATS = 3 };
+static const double FIRST_TOLERANCE = 1e-3, LOOSEST = 0.1, TIGHTEST = 1e-14;
+static const double AIM = 0.7, GOOD = 0.5; /* of the error that is allowed: aimed at; good enough */
+static const double CLOSE = 1.2;           /* a bracket this narrow is not searched further */
+static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* from one value to the next */
+static const double COST_POWER = 1.0 / 6.0;                       /* of a run, in its tolerance */
+static const double PATIENCE = 1.3; /* of the best row's time, for a run that might be cheaper */
+static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its time */
+static const double MOST_STEPS = 1e8;
+
+struct search {
+  struct hooke_pick *pick;
+  const char *method;
+  int32_t adaptive;
+  double order;        /* of the error, in the value */
+  double most;         /* error that is allowed [m] */
+  double largest;      /* value that may be taken */
+  double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
+  double error_meets, error_fails;
+  double until; /* where a run that costs too much ends, by the clock [s] */
+  int32_t late;
+};
+
+/* A run, as the search sees it. */
+struct result {
+  double value, error, seconds; /* the error NaN: it did not finish */
+  double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
+  int32_t gains;  /* energy by itself */
+};
+
+struct looker {
+  struct search *search;
+  struct hooke_soundness soundness;
+  double step;
+  int32_t status;
+};
+
+static int32_t on_progress(double share, void *ctx) {
+  struct search *s = ((struct looker *)ctx)->search;
+  const struct hooke_pick *pick = s->pick;
+  const double now = hooke_clock_seconds();
+  (void)share;
+  const double done = (now - pick->begun) / (pick->deadline - pick->begun);
+  const int32_t value = pick->progress ? pick->progress(fmin(done, 0.99), s->method, pick->ctx) : 0;
+  if (value != 0) return value;
+  s->late = now > s->until;
+  return s->late;
+}
+
+static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
+  struct looker *looker = ctx;
+  const struct search *s = looker->search;
+  const struct hooke_frames *frames = &s->pick->reference.frames;
+  (void)step;
+  if (frame == 0)
+    looker->status = hooke_soundness_begin(&looker->soundness, frames->system, s->method, looker->step, state,
+                                           frames->count);
+  if (looker->status != HOOKE_OK) return 1;
+  hooke_soundness_see(&looker->soundness, state);
+  return 0;
+}
+
+static int32_t run_row(struct search *s, double value, struct result *result) {
+  const struct hooke_reference *r = &s->pick->reference;
+  struct looker looker = {.search = s, .step = s->adaptive ? NAN : value};
+  const struct hooke_listener listener = {.on_progress = on_progress, .on_frame = on_frame, .ctx = &looker};
+  struct hooke_trial trial = {.status = NULL};
+  hooke_options *options = NULL;
+  s->late = 0;
+  int32_t status = hooke_pick_options(s->pick->run, s->method, value, &options);
+  if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
+  if (status == HOOKE_OK) status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &listener);
+  *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
+  for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
+    looker.soundness.count = looker.soundness.capacity; /* seen already */
+    const struct hooke_listener quiet = {.on_progress = on_progress, .ctx = &looker};
+    status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
+    result->seconds = fmin(result->seconds, trial.wall_seconds);
+  }
+  if (looker.soundness.time) {
+    result->allowed = hooke_soundness_limit_share * looker.soundness.least_bound;
+    result->gains = hooke_soundness_rise(&looker.soundness) > hooke_soundness_most_rise;
+  }
+  hooke_soundness_release(&looker.soundness);
+  hooke_trial_release(&trial);
+  hooke_options_destroy(options);
+  return looker.status != HOOKE_OK ? looker.status : status;
+}
+
+/* ---- from one run to the next ---- */
+
+static double fit(const struct search *s, double value) {
+  if (s->adaptive) return fmin(LOOSEST, fmax(TIGHTEST, value));
+  return s->pick->unit / fmax(1.0, ceil(s->pick->unit / value * (1.0 - 1e-12)));
+}
+
+/* 1 if the row is the best so far: the cheapest within the want, or while there is none the closest to it. */
+static int beats(const struct search *s, const struct result *result, int32_t meets) {
+  const struct hooke_pick *pick = s->pick;
+  if (pick->best.method == NULL || meets != pick->met) return meets || !pick->met;
+  return meets ? result->seconds < pick->best.seconds : result->error < pick->best.error;
+}
+
+static void learn(struct search *s, const struct result *result) {
+  const int32_t sound = !isnan(result->error) && isinf(result->allowed) && !result->gains;
+  const int32_t meets = sound && s->pick->reference.trusted > 1 && result->error <= s->most;
+  if (sound && beats(s, result, meets)) {
+    s->pick->best = (struct hooke_pick_row){s->method, result->value, result->error, result->seconds};
+    s->pick->met = meets;
+  }
+  if (meets && !(result->value <= s->meets)) {
+    s->meets = result->value;
+    s->error_meets = result->error;
+  } else if (!meets && !(result->value >= s->fails)) {
+    s->fails = result->value;
+    s->error_fails = sound ? result->error : NAN;
+  }
+  if (s->fails <= s->meets) s->fails = NAN; /* a coarser row that meets the want wins over a finer one */
+  if (result->allowed < s->largest) s->largest = result->allowed;
+  if (!sound && result->gains) s->largest = fmin(s->largest, 0.5 * result->value);
+}
+
+/* The value at which the error should be right, by the order, or by the slope between two runs. */
+static double aim(const struct search *s) {
+  const double from = isnan(s->meets) ? s->fails : s->meets;
+  const double error = isnan(s->meets) ? s->error_fails : s->error_meets;
+  double slope = s->order;
+  if (isnan(error)) return 0.5 * from;
+  if (!isnan(s->meets) && s->error_fails > s->error_meets && s->error_meets > 0.0)
+    slope = log(s->error_fails / s->error_meets) / log(s->fails / s->meets);
+  const double factor = pow(AIM * s->most / error, 1.0 / fmax(slope, 0.3));
+  return from * fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
+}
+
+/* The next value to run; NaN where the search is over. */
+static double next_value(const struct search *s) {
+  if (isnan(s->meets) && isnan(s->fails)) return fit(s, s->adaptive ? FIRST_TOLERANCE : s->largest);
+  if (!isnan(s->meets) && (s->error_meets >= GOOD * s->most || s->fails / s->meets <= CLOSE)) return NAN;
+  double value = aim(s);
+  if (!isnan(s->meets) && !isnan(s->fails)) /* within the bracket, and clear of its ends */
+    value = fmin(s->fails / CLOSE, fmax(s->meets * CLOSE, value));
+  value = fit(s, fmin(value, s->largest));
+  if (value <= s->meets * (1.0 + 1e-9) || value >= s->fails * (1.0 - 1e-9)) return NAN;
+  return value;
+}
+
+static double cost_of(const struct search *s, const struct result *last, double value) {
+  return last->seconds * pow(last->value / value, s->adaptive ? COST_POWER : 1.0);
+}
+
+static double first_largest(const struct search *s) {
+  double bound = NAN;
+  const double *q = s->pick->reference.frames.position;
+  if (s->adaptive) return LOOSEST;
+  if (hooke_step_bound(s->pick->system, s->method, q, &bound) != HOOKE_OK || isnan(bound))
+    return s->pick->unit;
+  return fmin(s->pick->unit, hooke_soundness_limit_share * bound);
+}
+
+static struct search begin(struct hooke_pick *pick, const char *method) {
+  struct search s = {.pick = pick,
+                     .method = method,
+                     .adaptive = hooke_method_is_adaptive(method),
+                     .most = pick->want * pick->share - pick->reference.agreement,
+                     .meets = NAN,
+                     .fails = NAN,
+                     .error_meets = NAN,
+                     .error_fails = NAN,
+                     .until = INFINITY};
+  s.order = s.adaptive ? 1.0 : (double)hooke_method_find(method)->order;
+  s.largest = first_largest(&s);
+  return s;
+}
+
+int32_t hooke_pick_try(struct hooke_pick *pick, const char *method, double value) {
+  struct search s = begin(pick, method);
+  struct result result;
+  const int32_t status = run_row(&s, value, &result);
+  if (status == HOOKE_OK) learn(&s, &result);
+  return status;
+}
+
+int32_t hooke_pick_search(struct hooke_pick *pick, const char *method) {
+  struct search s = begin(pick, method);
+  struct result result = {.seconds = 0.0};
+  int32_t status = HOOKE_OK;
+  for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK && s.largest > 0.0; run++) {
+    const double value = next_value(&s), now = hooke_clock_seconds();
+    if (isnan(value) || (!s.adaptive && pick->duration / value > MOST_STEPS)) break;
+    const double cost = run > 0 ? cost_of(&s, &result, value) : 0.0;
+    if (pick->met && cost > pick->best.seconds) break;
+    if (pick->best.method && now + cost > pick->deadline) break;
+    /* a first row is found in any case */
+    s.until = pick->best.method ? fmax(pick->deadline, now + PATIENCE * pick->best.seconds) : INFINITY;
+    if (pick->met) s.until = fmin(s.until, now + SHORT + PATIENCE * pick->best.seconds);
+    status = run_row(&s, value, &result);
+    if (status == HOOKE_STOPPED && s.late) return HOOKE_OK;
+    if (status == HOOKE_OK) learn(&s, &result);
+  }
+  return status;
+}
