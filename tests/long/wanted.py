@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from truth import ROOT, truth
-from wants import WANTS, WITHIN, complaints, estimate_complaints, study_complaints  # of tests/cli
+from wants import WANTS, WITHIN, at_end, complaints, estimate_complaints, study_complaints  # of tests/cli
 
 
 def call(hooke: str, *words: str) -> tuple[int, dict[str, Any], str]:
@@ -88,7 +88,7 @@ class Judge:
         print(f"{path.stem:16} the solution is {apart}", flush=True)
 
     def error(self, value: dict[str, Any]) -> float:
-        there = self.true is not None and value.get("status") == "finished" and value["time"] == self.end
+        there = self.true is not None and value.get("status") == "finished" and at_end(value["time"], self.end)
         return self.true.distance(self.end, value["final"]["position"]) if self.true and there else math.nan
 
     def known(self, asked: str, error: float) -> bool:
