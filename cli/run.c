@@ -1,5 +1,6 @@
 /* hooke run: integrates a scene and says what came out. */
 #include "advice.h"
+#include "fit.h"
 #include "report.h"
 #include "resume.h"
 #include "run_results.h"
@@ -10,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
+enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
 
 static double state_energy(const struct hooke_run *run) {
   return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
@@ -50,12 +51,16 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing. */
+/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing, and for an estimate of
+ * the error a hundredth of the run at most. */
 static int64_t stride(const struct hooke_run *run) {
   if (hooke_method_is_adaptive(hooke_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
+  const double step = hooke_options_number(hooke_integrator_options(run->integrator), "step");
+  const double share = run->estimate ? run->duration / step / LOOKS : MOST_STEPS_PER_LOOK;
+  if ((double)steps > share) steps = (int64_t)share;
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
 
@@ -270,6 +275,7 @@ static int do_run(const struct hooke_arguments *arguments) {
   if (run.resumed) run.output = run.resumed;
   code = hooke_setup_load(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE) code = hooke_want_pick(&run);
+  if (code == HOOKE_EXIT_DONE && !run.resumed) code = hooke_fit_run(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE) {
     code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
@@ -293,6 +299,10 @@ static const struct hooke_verb_row rows[] = {
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    {"strict", 0, NULL,
+     "refuses a run without a step, or whose every or duration is no whole multiple of it, rather than "
+     "choosing "
+     "or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
