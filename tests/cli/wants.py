@@ -61,20 +61,24 @@ def complaints(code, value, known, error, want):
         found.append(f"claims {want} m, but is off by {error:.3g} m")
     if code == 0 and not known:
         found.append("claims what nobody can know")
-    return found + estimate_complaints(value, error if known else math.nan)
+    return found + estimate_complaints(value, error if known else math.nan, largest=True)
 
 
-def estimate_complaints(value, error):
-    """An estimate of the error at the end is right within the factor, one of the largest error at a frame, as a reference has it,
-    not too small; one of an earlier time says so."""
+def is_of_the_end(value):
+    """Whether the estimate is of the error from the start to the end, and not of a slice or of an earlier time."""
     estimate, until, by = (value.get("error", {}).get(key) for key in ("estimate", "known_until", "by"))
-    if estimate is None or until < value["time"] * (1 - 1e-9):
+    return estimate is not None and by != "slice" and at_end(until, value["time"])
+
+
+def estimate_complaints(value, error, largest=False):
+    """An estimate of the error at the end is right within the factor; with `largest` it is of the largest error at a frame, which
+    is not smaller."""
+    if not is_of_the_end(value) or math.isnan(error):
         return []
-    if math.isnan(error) or max(estimate, error) <= FLOOR:
+    estimate = value["error"]["estimate"]
+    if max(estimate, error) <= FLOOR or (error <= FACTOR * estimate and (largest or estimate <= FACTOR * error)):
         return []
-    if error <= FACTOR * estimate and (by == "reference" or estimate <= FACTOR * error):
-        return []
-    return [f"is estimated as {estimate:.3g} m by {by}, but is {error:.3g} m"]
+    return [f"is estimated as {estimate:.3g} m by {value['error']['by']}, but is {error:.3g} m"]
 
 
 def study_complaints(code, value, again, error, want, known=True):
