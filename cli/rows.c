@@ -16,7 +16,7 @@ static const struct column {
                {"error", "error", "max [m]", 10, 0, 1},
                {"error_final", "error", "end [m]", 10, 0, 0},
                {"error_max", "farthest", "particle [m]", 12, 0, 0},
-               {"energy_drift", "energy", "drift [J]", 10, 0, 0},
+               {"energy_drift", "energy", "drift [J]", 10, 0, 1},
                {"steps", "steps", "", 9, 1, 0},
                {"force_evaluations", "force", "evaluations", 11, 1, 0},
                {"wall_seconds", "wall time", "[s]", 10, 0, 1}};

@@ -146,6 +146,8 @@ static int take_finished(struct hooke_run *run) {
 static int integrate(struct hooke_run *run) {
   hooke_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
+  run->coincident_before =
+      hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
   int32_t status = prepare(run);
   if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
   run->was_finished = run->resumed && !run->trajectory;
@@ -208,6 +210,25 @@ static void explain(const struct hooke_run *run) {
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
+static void tell_coincident(const struct hooke_run *run) {
+  const int64_t before = run->coincident_before,
+                after = hooke_integrator_count(run->integrator, "coincident_springs");
+  if (before > 0) {
+    hooke_report_words(
+        run->arguments,
+        "%" PRId64 " springs began with both ends at one place; such a spring has no direction and exerts "
+        "no force, until something else parts them",
+        before);
+  }
+  if (after > 0) {
+    hooke_report_words(run->arguments,
+                       "%" PRId64
+                       " springs ended with both ends at one place; such a spring has no direction and "
+                       "exerts no force",
+                       after);
+  }
+}
+
 /* As at the beginning, for another run. */
 static int begin_again(struct hooke_run *run) {
   hooke_integrator_destroy(run->integrator);
@@ -246,16 +267,9 @@ static void estimate(struct hooke_run *run) {
 static int run_and_tell(struct hooke_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  const int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
   /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
   if (!run->arguments->json) hooke_run_print(run);
-  if (coincident > 0 && !run->arguments->quiet) {
-    hooke_report_words(run->arguments,
-                       "%" PRId64
-                       " springs ended with both ends at one place; such a spring has no direction and "
-                       "exerts no force",
-                       coincident);
-  }
+  if (!run->arguments->quiet) tell_coincident(run);
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
   if (!run->arguments->json) hooke_want_print(run);

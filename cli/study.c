@@ -111,6 +111,8 @@ static double number_of(const void *study, int64_t row, const char *what) {
 
 static char mark_of(const void *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0) return hooke_study_number(study, row, "near_floor") == 1.0 ? '*' : ' ';
+  if (strcmp(what, "energy_drift") == 0)
+    return hooke_study_number(study, row, "near_energy_floor") == 1.0 ? '*' : ' ';
   return hooke_study_number(study, row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 
@@ -156,7 +158,9 @@ static int tell(struct hooke_study_results *results, const char *output) {
   }
   if (written != HOOKE_OK) return hooke_exit_code(written);
   if (found != HOOKE_OK) return hooke_report_missing_words(arguments);
-  return results->interrupted ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_DONE;
+  if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
+  const int32_t made = hooke_study_recommendation_text(results->study, "note") != NULL;
+  return made && recommended(results, "met") != 1.0 ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
 static int do_study(const struct hooke_arguments *arguments) {

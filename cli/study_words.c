@@ -28,32 +28,41 @@ static void print_fact(const char *label, const char *format, ...) {
 
 /* Why errors are not judged over the whole run. */
 static void print_why_not_all(const hooke_study *study, const char *time) {
-  const double until = hooke_study_figure(study, "trusted_until");
-  const int32_t spent = hooke_study_figure(study, "budget_spent") == 1.0;
-  if (until >= hooke_study_figure(study, "checked_until")) {
+  const int32_t hurried = strcmp(hooke_study_reference(study, "ended"), "time") == 0;
+  const char *format =
+      hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "checked_until")
+          ? "its share of the budget left no time to check the reference beyond %s s. Errors and energy "
+            "drift are those "
+            "up to %s s; a larger --budget or a shorter --duration checks all of it."
+      : hurried ? "at the tolerances that their share of the budget leaves time for, the two integrators "
+                  "part after %s s. Errors "
+                  "and energy drift are those up to %s s; a larger --budget may know more."
+      : hooke_study_figure(study, "growth_seen") > CHAOTIC
+          ? "this motion is chaotic: small differences grow so much that the two integrators part after %s s "
+            "even where rounding alone sets them apart, and where the particles are later cannot be computed "
+            "to the wanted digits. Errors and energy drift are those up to %s s."
+          : "the two integrators part after %s s, although differences do not grow much: rounding keeps them "
+            "from the wanted digits even at their tightest tolerances. Errors and energy drift are those up "
+            "to %s s.";
+  print_fact("WARNING", format, time, time);
+}
+
+static void print_growth(const hooke_study *study) {
+  const double bound = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
+  const double count = hooke_study_figure(study, "displacements");
+  if (!isnan(bound)) {
     print_fact(
-        "WARNING",
-        "the budget left no time to check the reference beyond %s s. Errors and energy drift are those "
-        "up to %s s; a larger --budget or a shorter --duration checks all of it.",
-        time, time);
-  } else if (hooke_study_figure(study, "growth") > CHAOTIC) {
-    print_fact(
-        "WARNING",
-        "this motion is chaotic: small differences grow so much that the two integrators part after %s s, "
-        "and where the particles are later cannot be computed to the wanted digits. Errors and energy drift "
-        "are those up to %s s.",
-        time, time);
-  } else {
-    print_fact("WARNING",
-               "the two integrators part after %s s, although differences do not grow much: their tolerances "
-               "do not reach the wanted digits%s. Errors and energy drift are those up to %s s.",
-               time, spent ? "; a larger --budget may" : "", time);
+        "growth",
+        "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; "
+        "random ones grow %.3g times",
+        bound, count, seen);
+  } else if (!isnan(seen)) {
+    print_fact("growth", "a random displacement of the start grows %.3g times; others may grow more", seen);
   }
 }
 
 static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
-  double growth = hooke_study_figure(study, "growth");
   double duration = hooke_study_figure(study, "duration");
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
   hooke_format_number(until, time);
@@ -61,11 +70,11 @@ static void print_trust(const hooke_study *study, double agreement) {
   int32_t whole = until >= duration * (1.0 - 1e-9);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
-             "%.3g m%s: no error below that means anything; those within ten times of it are marked *",
-             agreement, parted ? ", until they part" : "");
+             "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
+             "as is energy drift within ten times of %.3g J",
+             agreement, parted ? ", until they part" : "", hooke_study_figure(study, "energy_agreement"));
   print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
-  if (!isnan(growth))
-    print_fact("growth", "a small displacement of the start grows at most %.3g times", growth);
+  print_growth(study);
   if (!whole) print_why_not_all(study, time);
 }
 
@@ -111,6 +120,8 @@ static void print_orders(const struct hooke_study_results *results, int32_t widt
     any = 1;
     print_order(results->study, method, width);
   }
+  if (any)
+    printf("95 %% interval: of the slope of a straight line, as if errors scattered about it by chance\n");
 }
 
 /* ---- the recommendation ---- */

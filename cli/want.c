@@ -44,13 +44,13 @@ static int refuse_typed(const struct hooke_arguments *arguments) {
 
 /* ---- picking ---- */
 
-static void tell_choice(const struct hooke_run *run, const char *verb) {
+static void tell_choice(const struct hooke_run *run, const char *done, const char *want) {
   const hooke_options *options = run->setup.options;
   const char *method = hooke_options_text(options, "method");
   const int adaptive = hooke_method_is_adaptive(method);
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
-  hooke_report_words(run->arguments, "%s %s, %s %s%s", verb, method, adaptive ? "rtol" : "step",
+  hooke_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
                      hooke_format_number(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                      adaptive ? "" : " s");
 }
@@ -72,7 +72,7 @@ int hooke_want_pick(struct hooke_run *run) {
   status = hooke_estimate_pick(run->estimate, hooke_arguments_text(arguments, "method"), run->setup.options);
   hooke_watch_end(&run->watch);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  tell_choice(run, "picked");
+  tell_choice(run, "picked for an error of", text);
   return HOOKE_EXIT_DONE;
 }
 
@@ -101,7 +101,7 @@ int32_t hooke_want_goes_on(struct hooke_run *run) {
   if (!run->arguments->quiet)
     hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted",
                        number_of(run, "estimate"), number_of(run, "wanted"));
-  tell_choice(run, "once more with");
+  tell_choice(run, "once more for", hooke_arguments_text(run->arguments, "want"));
   return 1;
 }
 

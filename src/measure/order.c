@@ -4,6 +4,7 @@
 #include "core/print.h"
 
 #include "integrate/method.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,40 +38,76 @@ static int32_t reached_floor(const hooke_study *study, int32_t method) {
   return 0;
 }
 
-static void explain(const hooke_study *study, int32_t method, struct hooke_study_order *order,
-                    int32_t points) {
-  const int64_t size = (int64_t)sizeof order->note;
+/* ---- what an order below the theory's can come from, of what the scene has ---- */
+
+static int pulls_only(const hooke_system *system) {
+  for (int64_t g = 0; g < system->group_count; g++)
+    if (system->group[g].pull_only && system->group[g].count > system->group[g].dropped) return 1;
+  return 0;
+}
+
+static int has_table(const hooke_system *system) {
+  for (int64_t d = 0; d < system->drive_count; d++)
+    if (system->drive[d].kind == HOOKE_DRIVE_TABLE) return 1;
+  return 0;
+}
+
+static int has_drive_callback(const hooke_system *system) {
+  for (int64_t d = 0; d < system->drive_count; d++)
+    if (system->drive[d].kind == HOOKE_DRIVE_CALLBACK) return 1;
+  return 0;
+}
+
+/* Half the safe step or more: 1 if the coarsest of the rows of the fit is that near to the limit. */
+static int near_limit(const hooke_study *study, int32_t method, double coarsest) {
+  return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
+}
+
+/* "a", "a and b", "a, b and c" */
+static void add_cause(char *list, size_t size, int *count, int applies, const char *cause) {
+  const size_t length = strlen(list);
+  if (!applies) return;
+  snprintf(list + length, size - length, "%s%s", (*count)++ > 0 ? ", or " : "", cause);
+}
+
+static void list_causes(const hooke_study *study, int32_t method, double coarsest, char *list, size_t size) {
+  const hooke_system *system = study->system;
+  int count = 0;
+  list[0] = '\0';
+  add_cause(list, size, &count, pulls_only(system), "springs that only pull have a kink");
+  add_cause(list, size, &count, system->altitude_group_count > 0, "altitude springs jump between altitudes");
+  add_cause(list, size, &count, system->force != NULL, "the force callback may not be smooth enough");
+  add_cause(list, size, &count, has_table(system), "a drive by a table bends at its samples");
+  add_cause(list, size, &count, has_drive_callback(system), "the drive callback may not be smooth enough");
+  add_cause(list, size, &count, near_limit(study, method, coarsest), "steps are near the limit of stability");
+  add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
+}
+
+static void explain(const hooke_study *study, int32_t method, struct hooke_study_order *order, int32_t points,
+                    double coarsest) {
+  char causes[sizeof order->note - 32];
   if (points < FEWEST_POINTS) {
-    snprintf(order->note, (size_t)size, "%s",
+    snprintf(order->note, sizeof order->note, "%s",
              reached_floor(study, method)
                  ? "too few rows clear of the floor: the error is down to what the reference knows"
                  : "too few rows in the asymptotic range; finer steps would show the order");
     return;
   }
   if (order->order >= order->theory - BELOW && order->order <= order->theory + ABOVE) return;
-  if (study->reference.trusted < study->reference.frames.count) {
-    hooke_print(order->note, (size_t)size,
-                "%.2f instead of %g: the motion is chaotic, errors do not follow the step", order->order,
-                order->theory);
-  } else if (order->order > order->theory) {
-    hooke_print(order->note, (size_t)size,
-                "%.2f instead of %g: the steps are not yet small enough for the asymptotic law", order->order,
-                order->theory);
-  } else {
-    hooke_print(
-        order->note, (size_t)size,
-        "%.2f instead of %g: forces that are not smooth (springs that only pull or pass zero length, a "
-        "callback) "
-        "or depend on velocity cost order, and so do steps near the limit of stability",
-        order->order, order->theory);
-  }
+  if (order->order > order->theory)
+    snprintf(causes, sizeof causes, "steps do not resolve the motion yet");
+  else
+    list_causes(study, method, coarsest, causes, sizeof causes);
+  hooke_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory,
+              causes);
 }
 
 /* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975), and t with
  * u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
 static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.30265272974946, 3.18244630528371};
 
-/* y = offset + slope x; `half` is half the width of the interval that holds the slope at 95 %. */
+/* y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, as if the points scattered
+ * about a line independently and alike: it knows nothing of a curve. */
 static void fit_line(int32_t count, const double *x, const double *y, double *slope, double *half) {
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
   for (int32_t k = 0; k < count; k++) {
@@ -102,5 +139,5 @@ void hooke_study_fit_order(hooke_study *study, int32_t method) {
     order->low = order->order - half;
     order->high = order->order + half;
   }
-  explain(study, method, order, count);
+  explain(study, method, order, count, count > 0 ? exp(x[count - 1]) : NAN);
 }

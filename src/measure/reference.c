@@ -158,18 +158,21 @@ static int32_t run_level(struct hooke_reference_watch *watch, struct hooke_refer
   return HOOKE_OK;
 }
 
-/* 1 if a level of so many seconds more is due before the share of the budget for levels ends. */
-static int has_time(const struct hooke_reference_watch *watch, const struct hooke_reference *r,
+/* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the share of
+ * the budget for levels ends. */
+static int has_time(const struct hooke_reference_watch *watch, const struct hooke_reference *r, double times,
                     double seconds) {
   const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
-  return hooke_clock_seconds() + seconds <= watch->begun + share * watch->request->budget;
+  const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
+  return hooke_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
 }
 
 /* Tightens until the two agree, tolerances end, or time does. */
 static int32_t tighten(struct hooke_reference_watch *watch, struct hooke_reference *r,
                        struct hooke_trial *check) {
   double tolerance = first_tolerance(watch->request, r->extent);
-  int32_t status;
+  int32_t status = hooke_reference_choose_first(watch, r, 0.1 * tolerance);
+  if (status != HOOKE_OK) return status;
   for (;;) {
     const double begun = hooke_clock_seconds();
     status = run_level(watch, r, tolerance, check);
@@ -177,9 +180,10 @@ static int32_t tighten(struct hooke_reference_watch *watch, struct hooke_referen
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
     if (r->checked > 0 && (failed || is_enough(watch->request, r) || tolerance <= TIGHTEST)) break;
-    const double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
-    const double seconds = COST_SPARE * pow(tolerance / finer, COST_POWER) * (hooke_clock_seconds() - begun);
-    r->hurried = watch->cut || !has_time(watch, r, seconds);
+    const double seconds = hooke_clock_seconds() - begun;
+    double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
+    if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
+    r->hurried = watch->cut || !has_time(watch, r, tolerance / finer, seconds);
     if (r->hurried) break;
     tolerance = finer;
   }
@@ -198,7 +202,8 @@ int32_t hooke_reference_create(const hooke_system *system, const struct hooke_re
   struct hooke_reference_watch watch = {.request = request, .begun = hooke_clock_seconds()};
   struct hooke_trial trial = {.status = NULL};
   hooke_state *state = NULL;
-  *r = (struct hooke_reference){.growth = NAN, .agreement = NAN, .energy_agreement = NAN, .coarse = 1};
+  *r = (struct hooke_reference){
+      .growth = NAN, .growth_seen = NAN, .agreement = NAN, .energy_agreement = NAN, .coarse = 1};
   if (!hooke_method_is_built("cvode-adams")) {
     return hooke_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
   }

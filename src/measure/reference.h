@@ -8,8 +8,9 @@
 struct hooke_reference {
   struct hooke_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
-  double rtol;
-  double extent;    /* diagonal of the box that holds all frames [m] */
+  double rtol, atol;               /* its tolerances, */
+  double evaluations, run_seconds; /* force evaluations and wall time */
+  double extent;                   /* diagonal of the box that holds all frames [m] */
   double digits;    /* distance up to which frames are trusted: the wanted one, or as `coarse` says [m] */
   double agreement; /* twice the largest rms distance of the two over trusted frames [m]; at most `digits` */
   double energy_agreement; /* twice the largest difference of their energies there [J] */
@@ -19,10 +20,11 @@ struct hooke_reference {
   int32_t
       hurried; /* 1: time was short to compare them further, or at tighter tolerances; 0: they agree, or rounding
                     * keeps them apart at the tightest */
-  double
-      growth; /* largest growth of a small displacement at the start, over the frames that were run; NaN: not asked
-                  * for */
-  double wall_seconds; /* of everything */
+  double growth; /* a bound for small displacements of the start (reference_growth.c); NaN: none is known */
+  double growth_seen;       /* largest growth of one random displacement; NaN: not measured */
+  int32_t displacements;    /* that were run */
+  int32_t growth_saturated; /* 1: they grew beyond what is small, so that there is no bound */
+  double wall_seconds;      /* of everything */
 };
 
 /* What a reference is asked for. */

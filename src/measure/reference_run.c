@@ -7,10 +7,12 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double MOST_COST = 5.0;         /* of the explicit check against the first method */
-static const double MOST_EVALUATIONS = 10.0; /* of rk8pd for one of the first method, in equal time */
-static const double TIMEABLE = 2e-3;         /* [s] */
-static const double TRIAL_SHARE = 0.05;      /* of the duration, to predict that cost */
+static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
+static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
+static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd for one of the first method, in equal time */
+static const double TIMEABLE = 2e-3;          /* [s] */
+static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
+static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
 /* Options of a run by `method` at a tolerance; the absolute one follows the size of the scene. */
 static int32_t tight_options(const struct hooke_reference_request *request, const char *method, double rtol,
@@ -19,7 +21,7 @@ static int32_t tight_options(const struct hooke_reference_request *request, cons
   int32_t status = hooke_options_copy(request->run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", 0.01 * rtol * extent);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * extent);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
@@ -79,6 +81,9 @@ int32_t hooke_reference_make_frames(struct hooke_reference_watch *watch, struct 
   hooke_options_destroy(options);
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
+  r->atol = ABSOLUTE * r->rtol * r->extent;
+  r->evaluations = cost->evaluations;
+  r->run_seconds = cost->seconds;
   if (watch->unit == 0.0) watch->unit = hooke_clock_seconds() - watch->run_begun;
   const double size = hooke_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
   if (size > 0.0) r->extent = size;
@@ -102,39 +107,63 @@ int32_t hooke_reference_judge(struct hooke_reference_watch *watch, const struct 
   return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "no reference: %s %s at rtol %g", method, trial->status, rtol);
 }
 
-/* ---- the second integrator ---- */
+/* ---- which integrators ---- */
+
+/* A trial over a share of the duration, at most so many seconds and steps; infinite where it does not come to its end. */
+static int32_t try_beginning(struct hooke_reference_watch *watch, const struct hooke_reference *r,
+                             const char *method, double rtol, double longest, double most_steps,
+                             double duration, struct hooke_reference_cost *cost) {
+  struct hooke_frames frames;
+  hooke_options *options = NULL;
+  int32_t status = hooke_frames_create(r->frames.system, 2, &frames);
+  if (status != HOOKE_OK) return status;
+  status = tight_options(watch->request, method, rtol, r->extent, &options);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
+  if (status == HOOKE_OK && !isinf(most_steps))
+    status = hooke_options_set_number(options, "max_steps", most_steps);
+  const struct hooke_listener listener = hooke_reference_listen(watch, hooke_clock_seconds() + longest);
+  if (status == HOOKE_OK)
+    status = hooke_frames_run(&frames, options, &listener, &cost->seconds, &cost->evaluations);
+  hooke_options_destroy(options);
+  hooke_frames_release(&frames);
+  const int gave_up = status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED;
+  if (!gave_up && !(status == HOOKE_STOPPED && watch->expired)) return status;
+  *cost = (struct hooke_reference_cost){INFINITY, INFINITY};
+  return HOOKE_OK;
+}
+
+int32_t hooke_reference_choose_first(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                                     double rtol) {
+  if (strcmp(r->method, "cvode-bdf") != 0) return HOOKE_OK;
+  const double duration = TRIAL_SHARE * hooke_options_number(watch->request->run, "duration");
+  const double longest = FIRST_TRIAL_SHARE * watch->request->budget;
+  struct hooke_reference_cost bdf, adams;
+  int32_t status = try_beginning(watch, r, "cvode-bdf", rtol, longest, INFINITY, duration, &bdf);
+  if (status == HOOKE_OK) {
+    const double most = isinf(bdf.seconds) ? longest : fmax(TIMEABLE, bdf.seconds);
+    status = try_beginning(watch, r, "cvode-adams", rtol, most, INFINITY, duration, &adams);
+  }
+  if (status == HOOKE_OK && adams.seconds < bdf.seconds && bdf.seconds > TIMEABLE) r->method = "cvode-adams";
+  return status;
+}
 
 /* What rk8pd needs for a short trial, over what the first method needs for the same share of its run: in time, since one
  * spends it on forces and the other on vectors and solves; trials too short to time count by evaluations. */
 static int32_t explicit_cost(struct hooke_reference_watch *watch, const struct hooke_reference *r,
                              double rtol, struct hooke_reference_cost first, double *ratio) {
-  struct hooke_frames frames;
-  hooke_options *options = NULL;
-  struct hooke_reference_cost trial = {INFINITY, INFINITY};
+  struct hooke_reference_cost trial;
   *ratio = INFINITY;
   if (!hooke_method_is_built("rk8pd")) return HOOKE_OK;
-  int32_t status = hooke_frames_create(r->frames.system, 2, &frames);
-  if (status != HOOKE_OK) return status;
   const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
-  const double duration = TRIAL_SHARE * reached;
-  status = tight_options(watch->request, "rk8pd", rtol, r->extent, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
   /* a scene too stiff for it must not hold the study up: forces cost it no more than they cost the other */
   const double most = MOST_COST * TRIAL_SHARE * first.evaluations * MOST_EVALUATIONS;
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "max_steps", fmax(10.0, ceil(most)));
   const double longest = fmax(TIMEABLE, 2.0 * MOST_COST * TRIAL_SHARE * first.seconds);
-  const struct hooke_listener listener = hooke_reference_listen(watch, hooke_clock_seconds() + longest);
-  if (status == HOOKE_OK)
-    status = hooke_frames_run(&frames, options, &listener, &trial.seconds, &trial.evaluations);
-  hooke_options_destroy(options);
-  hooke_frames_release(&frames);
-  if (status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED)
-    return HOOKE_OK;
-  if (status == HOOKE_STOPPED && watch->expired) return HOOKE_OK;
+  const int32_t status =
+      try_beginning(watch, r, "rk8pd", rtol, longest, fmax(10.0, ceil(most)), TRIAL_SHARE * reached, &trial);
   const double by_time = trial.seconds / (TRIAL_SHARE * first.seconds);
   const double by_evaluations = trial.evaluations / (TRIAL_SHARE * first.evaluations);
-  *ratio = trial.seconds > TIMEABLE ? by_time : by_evaluations;
+  if (status == HOOKE_OK) *ratio = trial.seconds > TIMEABLE ? by_time : by_evaluations;
   return status;
 }
 

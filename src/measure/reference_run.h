@@ -37,6 +37,11 @@ int32_t hooke_reference_judge(struct hooke_reference_watch *watch, const struct 
                               const char *method, double rtol, const struct hooke_listener *listener,
                               struct hooke_trial *trial);
 
+/* Of the first integrators, Adams instead of BDF where a trial of the beginning says that it is quicker: damping that is
+ * fast need not be stiff for it. */
+int32_t hooke_reference_choose_first(struct hooke_reference_watch *watch, struct hooke_reference *reference,
+                                     double rtol);
+
 /* Chooses the second integrator, after the first has run at about `rtol` and taken so much. */
 int32_t hooke_reference_choose_check(struct hooke_reference_watch *watch, struct hooke_reference *reference,
                                      double rtol, struct hooke_reference_cost first);

@@ -15,8 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The reference may take this share of a budget, and in any case so many seconds. */
-static const double REFERENCE_SHARE = 0.4, REFERENCE_SECONDS = 0.5;
+/* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so many seconds. */
+static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
+static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
 
 static const struct hooke_option_row study_rows[] = {
     {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
@@ -143,11 +144,12 @@ static int compare_rows(const void *a, const void *b) {
 static int32_t make_reference(hooke_study *study) {
   const struct hooke_listener listener = {.on_progress = hooke_study_tell_reference, .ctx = study};
   const double want = hooke_options_number(study->options, "want");
+  const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
   const struct hooke_reference_request request = {
       .run = study->run,
       .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
       .digits = isnan(want) ? NAN : want / 10.0,
-      .budget = fmax(REFERENCE_SECONDS, REFERENCE_SHARE * study->budget),
+      .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener};
   study->under_way = "reference";
   const int32_t status = hooke_reference_create(study->system, &request, &study->reference);
@@ -166,6 +168,7 @@ static void forget(hooke_study *study) {
   memset(&study->recommendation, 0, sizeof study->recommendation);
   study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
   study->late = study->budget_spent = 0;
+  memset(study->given_up, 0, sizeof study->given_up);
 }
 
 int32_t hooke_study_run(hooke_study *study) {

@@ -19,7 +19,7 @@ struct hooke_study_row {
 
 struct hooke_study_order {
   double order, low, high, theory;
-  char note[256];
+  char note[512];
 };
 
 struct hooke_study_recommendation {
@@ -49,15 +49,17 @@ struct hooke_study {
   hooke_progress *progress;
   void *progress_ctx;
   const char *under_way;
-  double told;          /* the largest share told */
-  double evaluation;    /* of forces, about [s] */
-  double fixed_rows;    /* of the ladders, about [s] */
-  double adaptive_rows; /* how many */
-  double work_ahead;    /* wall seconds of the rows to come */
-  double begun;         /* clock at the start [s] */
-  double budget;        /* seconds from there, infinity for none */
-  double deadline;      /* clock at which rows end [s] */
-  int32_t late;         /* a row met the deadline */
+  double told;                           /* the largest share told */
+  double evaluation;                     /* of forces, about [s] */
+  double fixed_rows;                     /* of the ladders, about [s] */
+  double adaptive_rows;                  /* how many */
+  double work_ahead;                     /* wall seconds of the rows to come */
+  double begun;                          /* clock at the start [s] */
+  double budget;                         /* seconds from there, infinity for none */
+  double deadline;                       /* clock at which rows end [s] */
+  double row_deadline;                   /* and the one that is under way */
+  int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its first row took too long for the budget */
+  int32_t late;                          /* a row met its deadline */
   int32_t budget_spent;
 };
 
@@ -76,7 +78,7 @@ int32_t hooke_study_check_ladder(hooke_study *study);
 /* ---- progress (study_progress.c) ---- */
 
 /* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the study. The
- * last one stops a row at the deadline, too, and marks the study as late. */
+ * last one stops a row at its deadline, too, and marks the study as late. */
 int32_t hooke_study_tell_reference(double share, void *ctx);
 int32_t hooke_study_tell(double share, void *ctx);
 int32_t hooke_study_tell_row(double share, void *ctx);
@@ -105,7 +107,7 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want);
 void hooke_study_fit_order(hooke_study *study, int32_t method);
 
 /* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */
-enum { HOOKE_STUDY_ROW_NUMBERS = 15 };
+enum { HOOKE_STUDY_ROW_NUMBERS = 16 };
 extern const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
 
 #endif

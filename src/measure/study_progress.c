@@ -77,7 +77,7 @@ int32_t hooke_study_tell(double share, void *ctx) {
 int32_t hooke_study_tell_row(double share, void *ctx) {
   hooke_study *study = ctx;
   const int32_t value = hooke_study_tell(share, ctx);
-  if (value != 0 || hooke_clock_seconds() < study->deadline) return value;
+  if (value != 0 || hooke_clock_seconds() < study->row_deadline) return value;
   study->late = 1;
   return 1;
 }

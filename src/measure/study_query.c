@@ -7,23 +7,38 @@
 #include <stddef.h>
 #include <string.h>
 
-const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS] = {"step",         "rtol",
-                                                                     "atol",         "error",
-                                                                     "error_max",    "error_final",
-                                                                     "energy_drift", "force_evaluations",
-                                                                     "steps",        "linear_iterations",
-                                                                     "wall_seconds", "wall_median",
-                                                                     "repeats",      "near_floor",
+const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS] = {"step",
+                                                                     "rtol",
+                                                                     "atol",
+                                                                     "error",
+                                                                     "error_max",
+                                                                     "error_final",
+                                                                     "energy_drift",
+                                                                     "force_evaluations",
+                                                                     "steps",
+                                                                     "linear_iterations",
+                                                                     "wall_seconds",
+                                                                     "wall_median",
+                                                                     "repeats",
+                                                                     "near_floor",
+                                                                     "near_energy_floor",
                                                                      "timed_alone"};
 
 static const struct hooke_study_row *row_at(const hooke_study *study, int64_t row) {
   return row >= 0 && row < study->row_count ? &study->row[row] : NULL;
 }
 
+static const char *how_it_ended(const struct hooke_reference *r) {
+  if (r->trusted == r->frames.count && !r->coarse) return "agreed";
+  return r->hurried ? "time" : "rounding";
+}
+
 const char *hooke_study_reference(const hooke_study *study, const char *what) {
   if (study->reference.method == NULL) return "";
   if (strcmp(what, "method") == 0) return study->reference.method;
-  return strcmp(what, "check") == 0 ? study->reference.check : NULL;
+  if (strcmp(what, "check") == 0) return study->reference.check;
+  if (strcmp(what, "ended") == 0) return how_it_ended(&study->reference);
+  return NULL;
 }
 
 /* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */
@@ -40,7 +55,10 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"agreement", made ? r->agreement : NAN},
       {"trusted_until", made ? time_until(study, r->trusted) : NAN},
       {"checked_until", made ? time_until(study, r->checked) : NAN},
+      {"energy_agreement", made ? r->energy_agreement : NAN},
       {"growth", made ? r->growth : NAN},
+      {"growth_seen", made ? r->growth_seen : NAN},
+      {"displacements", made ? (double)r->displacements : NAN},
       {"duration", study->duration},
       {"frames", made ? (double)r->trusted : NAN},
       {"budget_spent", (double)study->budget_spent},
@@ -59,13 +77,19 @@ const char *hooke_study_text(const hooke_study *study, int64_t row, const char *
   return strcmp(what, "status") == 0 ? r->trial.status : NULL;
 }
 
+static double is_near(double value, double floor) {
+  return value <= 10.0 * floor ? 1.0 : 0.0;
+}
+
 double hooke_study_number(const hooke_study *study, int64_t row, const char *what) {
   const struct hooke_study_row *r = row_at(study, row);
   if (r == NULL) return NAN;
   if (strcmp(what, "wall_median") == 0) return r->wall_median;
   if (strcmp(what, "repeats") == 0) return (double)r->repeats;
   if (strcmp(what, "timed_alone") == 0) return (double)r->timed_alone;
-  if (strcmp(what, "near_floor") == 0) return r->trial.error <= 10.0 * study->reference.agreement ? 1.0 : 0.0;
+  if (strcmp(what, "near_floor") == 0) return is_near(r->trial.error, study->reference.agreement);
+  if (strcmp(what, "near_energy_floor") == 0)
+    return is_near(r->trial.energy_drift, study->reference.energy_agreement);
   return hooke_trial_number(&r->trial, what);
 }
 

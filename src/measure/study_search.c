@@ -13,8 +13,11 @@ static const double GOAL = 0.92,
                     BEYOND = 0.8;    /* what is aimed at, in that share, between rows and beyond the finest */
 static const double FARTHEST = 64.0; /* beyond the finest row, times in step */
 static const double LOOSEST = 0.1;   /* the largest rtol that a run takes */
-static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0; /* while the coarsest row meets the want */
-static const double FINER = 4.0;                                  /* while runs diverge */
+static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0;  /* while the coarsest row meets the want */
+static const double HOPELESS = 4.0;                                /* times the cost of the best */
+static const double FINER = 4.0;                                   /* while runs diverge */
+static const double FARTHEST_STEP = 8.0, FARTHEST_TOLERANCE = 1e3; /* at once */
+static const double TIGHTEST = 1e-14;                              /* the smallest rtol that a run takes */
 
 /* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
 static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
@@ -43,15 +46,21 @@ static double interpolate(const struct hooke_study_candidate *c) {
   return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
 }
 
+/* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference takes as long. */
+static double predict_beyond(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double order = study->order[c->method].order;
+  if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
+  if (is_adaptive(study, c)) return study->reference.run_seconds;
+  return isnan(order) || order < 0.5
+             ? INFINITY
+             : hooke_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);
+}
+
 static void predict(const hooke_study *study, struct hooke_study_candidate *c) {
-  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0, seconds = hooke_study_candidate_cost(c);
-  c->predicted = INFINITY;
-  if (!isnan(c->meets)) {
-    const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
-    c->predicted = seconds * pow(c->best.value / value, power);
-  } else if (c->error_at_fails > 0.0 && c->most > 0.0) {
-    c->predicted = seconds * fmin(FARTHEST, c->error_at_fails / c->most);
-  }
+  const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
+  const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
+  c->predicted = isnan(c->meets) ? predict_beyond(study, c)
+                                 : hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
 /* A row joins what is known. 1 if it is the best so far. */
@@ -107,6 +116,7 @@ void hooke_study_candidate_release(struct hooke_study_candidate *c) {
 
 static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, double value) {
   struct hooke_study_row row;
+  study->row_deadline = study->deadline;
   const int32_t status = hooke_study_measure(study, c->method, value, &row);
   if (status == HOOKE_OK && row.trial.status && learn(c, &row)) {
     hooke_study_candidate_release(c);
@@ -118,16 +128,48 @@ static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, do
   return status;
 }
 
-/* Beyond the finest row, by the slope of the order that the method has, or until a run does not diverge; NaN when that
- * leads too far. */
+/* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that takes as many
+ * evaluations of forces. */
+static double as_fine_as_reference(const hooke_study *study, int32_t method) {
+  const struct hooke_reference *r = &study->reference;
+  if (!hooke_study_is_adaptive(study, method))
+    return hooke_study_fitting_step(study, study->duration / fmax(1.0, r->evaluations));
+  const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
+  return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
+}
+
+/* Where a search ends: farther than the ladder, and as fine as the reference. */
+static double least_value(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
+  return is_adaptive(study, c) ? least : fmin(least, farthest);
+}
+
+/* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest row on. */
+static double by_slope(const struct hooke_study_candidate *c, double slope) {
+  return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
+}
+
+/* By the order that the method has been seen to have. */
+static double by_order(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double order = study->order[c->method].order;
+  return by_slope(c, isnan(order) || order < 0.5 ? 1.0 : order);
+}
+
+/* By the best that it can have. */
+static double by_theory(const hooke_study *study, const struct hooke_study_candidate *c) {
+  const double theory = study->order[c->method].theory;
+  return by_slope(c, isnan(theory) ? 1.0 : theory);
+}
+
+/* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not diverge. NaN
+ * when that has led far enough. */
 static double finer(const hooke_study *study, const struct hooke_study_candidate *c) {
   if (c->most <= 0.0) return NAN;
-  const double order = study->order[c->method].order;
-  const double slope = isnan(order) || order < 0.5 ? 1.0 : order;
-  const double value = isnan(c->error_at_fails)
-                           ? c->fails / FINER
-                           : c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
-  return value >= c->finest / FARTHEST && value < c->fails ? value : NAN;
+  const double least = least_value(study, c);
+  if (c->fails <= least * (1.0 + 1e-9)) return NAN;
+  const double farthest = is_adaptive(study, c) ? FARTHEST_TOLERANCE : FARTHEST_STEP;
+  const double value = isnan(c->error_at_fails) ? c->fails / FINER : by_order(study, c);
+  return fmax(least, fmax(c->fails / farthest, value));
 }
 
 static double coarser(const hooke_study *study, const struct hooke_study_candidate *c) {
@@ -178,19 +220,32 @@ static double next_cost(const hooke_study *study, const struct hooke_study_candi
   return hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
+/* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical order; nor, where no
+ * run has come to its end, if any other method has done better. */
+static int is_hopeless(const hooke_study *study, const struct hooke_study_candidate *c, double cost) {
+  if (!isnan(c->meets) || isinf(cost)) return 0;
+  return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;
+}
+
 int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *c, double cost) {
   int32_t status = HOOKE_OK;
   for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
     const double value = next_value(study, c, run);
-    /* where no run has come to its end, only if no other method has done better */
-    const int hopeless = isnan(c->meets) && isnan(c->error_at_fails) && !isinf(cost);
-    if (isnan(value) || hopeless || least_cost(study, c) >= cost) break;
-    if (hooke_clock_seconds() + next_cost(study, c, value) > study->deadline) {
-      study->budget_spent = 1;
-      break;
-    }
+    if (isnan(value) || is_hopeless(study, c, cost) || least_cost(study, c) >= cost) break;
+    const int late = hooke_clock_seconds() + next_cost(study, c, value) > study->deadline;
+    study->budget_spent |= late;
+    /* where nothing meets the want yet, what time is left is better spent on it */
+    if (late && !isinf(cost)) break;
     status = try_value(study, c, value);
     if (study->late) break;
   }
   return status;
+}
+
+int32_t hooke_study_candidate_try_finest(hooke_study *study, struct hooke_study_candidate *c) {
+  const double value = as_fine_as_reference(study, c->method);
+  if (c->most <= 0.0 || !isnan(c->meets) || c->fails <= value) return HOOKE_OK;
+  if (hooke_clock_seconds() < study->deadline) return try_value(study, c, value);
+  study->budget_spent = 1;
+  return HOOKE_OK;
 }

@@ -30,4 +30,7 @@ void hooke_study_candidate_release(struct hooke_study_candidate *candidate);
 int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *candidate,
                                      double cost);
 
+/* Runs what is as fine as the reference, if no run of it as fine has been. */
+int32_t hooke_study_candidate_try_finest(hooke_study *study, struct hooke_study_candidate *candidate);
+
 #endif

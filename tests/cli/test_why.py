@@ -13,7 +13,7 @@ from conftest import SIX_PARTICLES, STIFF_PAIR
 pytestmark = pytest.mark.everything
 
 SCENES = Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding"
-KEYS = ["cause", "time", "method", "step", "limit", "blame", "advice"]
+KEYS = ["cause", "time", "method", "step", "limit", "blame", "advice", "left_out"]
 
 # Scene: cause, and the group or the springs that are to be named first (None: none is).
 KINDS = {
@@ -39,6 +39,9 @@ KINDS = {
     "torn-apart": ("overflow", None),
 }
 
+# The force to blame before springs.
+FORCES = {"strong-damping": ["damping"], "strong-drag": ["drag"]}
+
 
 def test_every_scene_is_in_the_table():
     assert sorted(path.stem for path in SCENES.glob("*.json")) == sorted(KINDS)
@@ -61,20 +64,25 @@ def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tm
     why = answer.json
     assert list(why) == KEYS
     assert why["cause"] == cause, run.json["diagnosis"]
-    assert all(list(one) == ["spring", "group", "share"] for one in why["blame"])
+    springs = [one for one in why["blame"] if one["spring"]]
+    forces = [one for one in why["blame"] if not one["spring"]]
+    assert all(list(one) == ["spring", "group", "share"] for one in springs)
+    assert all(list(one) == ["spring", "group", "share", "force"] for one in forces) and forces in ([], why["blame"][:1])
+    assert [one["force"] for one in forces] == FORCES.get(kind, [])
     assert all(list(one) == ["change", "command"] for one in why["advice"])
     if isinstance(first, str):
-        assert why["blame"][0]["group"] == first
+        assert springs[0]["group"] == first
     elif first:
-        assert why["blame"][0]["spring"] in first
+        assert springs[0]["spring"] in first
     if cause == "step-above-limit":
         assert 0 < why["limit"] < why["step"]
         assert f'{why["limit"]:.3g}'[:4] in run.json["diagnosis"]
     if cause == "never-stable":
         assert why["limit"] == 0
-    shares = [one["share"] for one in why["blame"]]
+    shares = [one["share"] for one in springs]
     if cause in ("step-above-limit", "never-stable"):
         assert shares == sorted(shares, reverse=True) and 0 < sum(shares) < 1 + 1e-9
+        assert all(0.5 <= one["share"] < 1 + 1e-9 for one in forces)
     words = words_of(why["advice"][0]["command"])
     assert words[:2] == ["run", "scene.json"]
     again = hooke(*words, "--json")

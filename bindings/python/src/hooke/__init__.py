@@ -31,6 +31,7 @@ from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
+from .estimate import RunError
 from .results import Frames, Result, resume, run
 from .scene import Scene
 from .state import State
@@ -66,6 +67,7 @@ __all__ = [
     "Options",
     "Result",
     "Row",
+    "RunError",
     "Scene",
     "SolverFailed",
     "Springs",
