@@ -147,6 +147,13 @@ double hooke_study_recommendation_number(const hooke_study *study, const char *w
       {"error", r->error},
       {"wall_seconds", r->wall_seconds},
       {"force_evaluations", r->force_evaluations},
+      {"error_low", isnan(r->error) ? NAN : fmax(0.0, r->error - study->reference.agreement)},
+      {"error_high", r->error + study->reference.agreement},
+      {"limit_share", r->margin.limit_share},
+      {"holds_stiffness", r->margin.holds[HOOKE_STUDY_STIFFNESS]},
+      {"error_stiffness", r->margin.error[HOOKE_STUDY_STIFFNESS]},
+      {"holds_start", r->margin.holds[HOOKE_STUDY_START]},
+      {"error_start", r->margin.error[HOOKE_STUDY_START]},
   };
   return HOOKE_FIGURE(numbers, what);
 }
