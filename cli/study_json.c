@@ -6,7 +6,8 @@
 
 static void print_reference(struct hooke_json *json, const hooke_study *study) {
   static const char *const parts[] = {"method", "check"};
-  static const char *const numbers[] = {"growth", "growth_seen", "displacements", "energy_agreement"};
+  static const char *const numbers[] = {"growth", "growth_probability", "growth_seen", "displacements",
+                                        "energy_agreement"};
   hooke_json_open(json, "reference", '{');
   hooke_json_open(json, "methods", '[');
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {

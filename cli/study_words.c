@@ -48,16 +48,18 @@ static void print_why_not_all(const hooke_study *study, const char *time) {
 }
 
 static void print_growth(const hooke_study *study) {
-  const double bound = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
-  const double count = hooke_study_figure(study, "displacements");
-  if (!isnan(bound)) {
+  const double most = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
+  if (isnan(seen)) return;
+  if (isnan(most)) {
+    print_fact("growth", "a displacement of the start grows %.3g times; others may grow more", seen);
+  } else if (hooke_study_figure(study, "growth_probability") == 1.0) {
+    print_fact("growth", "a small displacement of the start grows at most %.3g times", most);
+  } else {
     print_fact(
         "growth",
         "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; "
         "random ones grow %.3g times",
-        bound, count, seen);
-  } else if (!isnan(seen)) {
-    print_fact("growth", "a random displacement of the start grows %.3g times; others may grow more", seen);
+        most, hooke_study_figure(study, "displacements"), seen);
   }
 }
 

@@ -57,6 +57,7 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"checked_until", made ? time_until(study, r->checked) : NAN},
       {"energy_agreement", made ? r->energy_agreement : NAN},
       {"growth", made ? r->growth : NAN},
+      {"growth_probability", made ? r->growth_probability : NAN},
       {"growth_seen", made ? r->growth_seen : NAN},
       {"displacements", made ? (double)r->displacements : NAN},
       {"duration", study->duration},

@@ -268,9 +268,10 @@ static void growth_is_bounded(void **unused) {
     largest_norm = fmax(largest_norm, norm_of(3 * POINTS, column));
   }
   check_between(largest_norm, 1.5, 1e4);
-  check_between(hooke_study_figure(study, "growth") / largest_norm, 1.0, 8.0 * sqrt(2.0 * BASIS));
+  const double sure = hooke_study_figure(study, "growth_probability");
+  check_between(hooke_study_figure(study, "growth") / largest_norm, 0.99,
+                sure == 1.0 ? 1.01 : 8.0 * sqrt(2.0 * BASIS));
   check_between(hooke_study_figure(study, "growth_seen") / largest_norm, 0.05, 1.001);
-  check_between(hooke_study_figure(study, "displacements"), 2.0, 10.0);
   free(frames);
   hooke_study_destroy(study);
   hooke_system_destroy(system);

@@ -13,7 +13,7 @@ METHODS = ["symplectic-euler", "rk4", "cvode-adams"]
 RUN = {"duration": 1.0, "every": 0.05}
 COLUMNS = (
     "method status step rtol atol error error_max error_final energy_drift force_evaluations steps "
-    "linear_iterations wall_seconds wall_median repeats near_floor timed_alone"
+    "linear_iterations wall_seconds wall_median repeats near_floor near_energy_floor timed_alone"
 ).split()
 
 
