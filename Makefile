@@ -2,8 +2,8 @@
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make test   sets up, builds, and runs every test
-#   make test-long  runs what takes hours, in five parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in six parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, want; make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -39,7 +39,7 @@ test: $(PRESETS:%=build-%) build/fuzz/packages
 	exit $$failed
 
 # Each part keeps what is done in build/long and writes its figures into docs/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))

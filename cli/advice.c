@@ -7,6 +7,25 @@
 
 enum { MOST_SETTINGS = 16 };
 
+static int32_t changes_any(const hooke_options *changes) {
+  int32_t any = 0;
+  for (int64_t row = 0; row < hooke_options_row_count(changes); row++)
+    any |= hooke_options_is_set(changes, hooke_options_row(changes, row, "name"));
+  return any;
+}
+
+/* A command without --want has to say what that had chosen. */
+static int32_t add_chosen(const hooke_why *why, hooke_options *changes) {
+  const char *method = hooke_why_text(why, "method");
+  const double step = hooke_why_number(why, "step");
+  int32_t status = HOOKE_OK;
+  if (!hooke_options_is_set(changes, "method")) status = hooke_options_set_text(changes, "method", method);
+  if (status == HOOKE_OK && !hooke_options_is_set(changes, "step") && step > 0.0 &&
+      hooke_method_is_adaptive(hooke_options_text(changes, "method")) == 0)
+    status = hooke_options_set_number(changes, "step", step);
+  return status;
+}
+
 /* The options that are set, as settings whose numbers are in `text`; how many. */
 static int32_t collect(const hooke_options *changes, struct hooke_setting *settings,
                        char text[][HOOKE_NUMBER_SIZE]) {
@@ -32,6 +51,8 @@ int32_t hooke_advice_command(const struct hooke_arguments *arguments, const hook
   *command = NULL;
   int32_t status = hooke_run_options_create(&changes);
   if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
+  const int32_t was_picked = hooke_arguments_text(arguments, "want") != NULL;
+  if (status == HOOKE_OK && was_picked && changes_any(changes)) status = add_chosen(why, changes);
   if (status == HOOKE_OK && collect(changes, settings, text) > 0) {
     FILE *stream = open_memstream(command, &size);
     if (stream) hooke_report_command(stream, arguments, "run", settings);

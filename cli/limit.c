@@ -1,6 +1,7 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what it hangs on. */
 #include "methods.h"
 #include "output_file.h"
+#include "blame.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
@@ -136,14 +137,10 @@ static void print_json(const struct limit *l) {
   hooke_json_close(&json);
   hooke_json_open(&json, "blame", '[');
   for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++) {
-    hooke_json_open(&json, NULL, '{');
-    hooke_json_open(&json, "spring", '[');
-    hooke_json_count(&json, NULL, (int64_t)hooke_limit_blame_number(limit, k, "first"));
-    hooke_json_count(&json, NULL, (int64_t)hooke_limit_blame_number(limit, k, "second"));
-    hooke_json_close(&json);
-    hooke_json_text(&json, "group", hooke_limit_blame_text(limit, k, "group"));
-    hooke_json_number(&json, "share", hooke_limit_blame_number(limit, k, "share"));
-    hooke_json_close(&json);
+    hooke_blame_json(&json, hooke_limit_blame_text(limit, k, "force"),
+                     hooke_limit_blame_number(limit, k, "first"),
+                     hooke_limit_blame_number(limit, k, "second"), hooke_limit_blame_text(limit, k, "group"),
+                     hooke_limit_blame_number(limit, k, "share"));
   }
   hooke_json_close(&json);
   print_remedy_json(&json, limit);
@@ -210,7 +207,13 @@ static void print_blame(const hooke_limit *limit) {
   const int64_t count = hooke_limit_blame_count(limit);
   const char *sentence = hooke_limit_remedy_text(limit, "sentence");
   for (int64_t k = 0; k < count && k < MOST_SPRINGS; k++) {
-    const char *group = hooke_limit_blame_text(limit, k, "group");
+    const char *group = hooke_limit_blame_text(limit, k, "group"),
+               *force = hooke_limit_blame_text(limit, k, "force");
+    if (force[0]) {
+      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * hooke_limit_blame_number(limit, k, "share"),
+             force);
+      continue;
+    }
     printf("%s%-*s%5.1f %%  spring %.0f, between particles %.0f and %.0f", k ? "" : "\n", INDENT,
            k ? "" : "blame", 100.0 * hooke_limit_blame_number(limit, k, "share"),
            hooke_limit_blame_number(limit, k, "spring"), hooke_limit_blame_number(limit, k, "first"),

@@ -96,6 +96,8 @@ void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, c
     const struct hooke_argument *argument = &arguments->all[i];
     if (!argument->text || is_set_by(settings, argument->name)) continue;
     if (!same && argument->table != arguments->run) continue;
+    /* what --want would choose is given */
+    if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
     const char *instead = arguments->verb->for_scene;
     if (instead && strcmp(argument->name, instead) == 0) continue; /* it is there as the scene */
     print_flag(file, argument->name);

@@ -1,5 +1,6 @@
 /* hooke run: integrates a scene and says what came out. */
 #include "advice.h"
+#include "fit.h"
 #include "report.h"
 #include "resume.h"
 #include "run_results.h"
@@ -10,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000 };
+enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
 
 static double state_energy(const struct hooke_run *run) {
   return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
@@ -50,12 +51,16 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing. */
+/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing, and for an estimate of
+ * the error a hundredth of the run at most. */
 static int64_t stride(const struct hooke_run *run) {
   if (hooke_method_is_adaptive(hooke_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
+  const double step = hooke_options_number(hooke_integrator_options(run->integrator), "step");
+  const double share = run->estimate ? run->duration / step / LOOKS : MOST_STEPS_PER_LOOK;
+  if ((double)steps > share) steps = (int64_t)share;
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
 
@@ -141,6 +146,8 @@ static int take_finished(struct hooke_run *run) {
 static int integrate(struct hooke_run *run) {
   hooke_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
+  run->coincident_before =
+      hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
   int32_t status = prepare(run);
   if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
   run->was_finished = run->resumed && !run->trajectory;
@@ -203,6 +210,25 @@ static void explain(const struct hooke_run *run) {
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
+static void tell_coincident(const struct hooke_run *run) {
+  const int64_t before = run->coincident_before,
+                after = hooke_integrator_count(run->integrator, "coincident_springs");
+  if (before > 0) {
+    hooke_report_words(
+        run->arguments,
+        "%" PRId64 " springs began with both ends at one place; such a spring has no direction and exerts "
+        "no force, until something else parts them",
+        before);
+  }
+  if (after > 0) {
+    hooke_report_words(run->arguments,
+                       "%" PRId64
+                       " springs ended with both ends at one place; such a spring has no direction and "
+                       "exerts no force",
+                       after);
+  }
+}
+
 /* As at the beginning, for another run. */
 static int begin_again(struct hooke_run *run) {
   hooke_integrator_destroy(run->integrator);
@@ -241,19 +267,13 @@ static void estimate(struct hooke_run *run) {
 static int run_and_tell(struct hooke_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  const int64_t coincident = hooke_integrator_count(run->integrator, "coincident_springs");
   /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
   if (!run->arguments->json) hooke_run_print(run);
-  if (coincident > 0 && !run->arguments->quiet) {
-    hooke_report_words(run->arguments,
-                       "%" PRId64
-                       " springs ended with both ends at one place; such a spring has no direction and "
-                       "exerts no force",
-                       coincident);
-  }
+  if (!run->arguments->quiet) tell_coincident(run);
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
   if (!run->arguments->json) hooke_want_print(run);
+  hooke_run_print_final(run);
   if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->arguments->json) hooke_run_print(run);
   explain(run);
@@ -270,6 +290,7 @@ static int do_run(const struct hooke_arguments *arguments) {
   if (run.resumed) run.output = run.resumed;
   code = hooke_setup_load(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE) code = hooke_want_pick(&run);
+  if (code == HOOKE_EXIT_DONE && !run.resumed) code = hooke_fit_run(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE) {
     code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
@@ -293,6 +314,10 @@ static const struct hooke_verb_row rows[] = {
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    {"strict", 0, NULL,
+     "refuses a run without a step, or whose every or duration is no whole multiple of it, rather than "
+     "choosing "
+     "or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };

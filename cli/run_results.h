@@ -27,11 +27,13 @@ struct hooke_run {
   hooke_estimate *estimate; /* of its error; NULL: none is asked for */
   char message[2048];       /* about the outcome, or the write that failed */
   double energy_before, energy_after;
+  int64_t coincident_before; /* springs with both ends at one place at the start */
 };
 
 const char *hooke_run_method(const struct hooke_run *run);
 
-/* With --json, as JSON; with --final, every particle, too. */
+/* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
 void hooke_run_print(const struct hooke_run *run);
+void hooke_run_print_final(const struct hooke_run *run);
 
 #endif

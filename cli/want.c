@@ -44,13 +44,13 @@ static int refuse_typed(const struct hooke_arguments *arguments) {
 
 /* ---- picking ---- */
 
-static void tell_choice(const struct hooke_run *run, const char *verb) {
+static void tell_choice(const struct hooke_run *run, const char *done, const char *want) {
   const hooke_options *options = run->setup.options;
   const char *method = hooke_options_text(options, "method");
   const int adaptive = hooke_method_is_adaptive(method);
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
-  hooke_report_words(run->arguments, "%s %s, %s %s%s", verb, method, adaptive ? "rtol" : "step",
+  hooke_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
                      hooke_format_number(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                      adaptive ? "" : " s");
 }
@@ -72,7 +72,7 @@ int hooke_want_pick(struct hooke_run *run) {
   status = hooke_estimate_pick(run->estimate, hooke_arguments_text(arguments, "method"), run->setup.options);
   hooke_watch_end(&run->watch);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  tell_choice(run, "picked");
+  tell_choice(run, "picked for an error of", text);
   return HOOKE_EXIT_DONE;
 }
 
@@ -101,7 +101,7 @@ int32_t hooke_want_goes_on(struct hooke_run *run) {
   if (!run->arguments->quiet)
     hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted",
                        number_of(run, "estimate"), number_of(run, "wanted"));
-  tell_choice(run, "once more with");
+  tell_choice(run, "once more for", hooke_arguments_text(run->arguments, "want"));
   return 1;
 }
 
@@ -155,10 +155,8 @@ void hooke_want_print(const struct hooke_run *run) {
   warn(run);
 }
 
-void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
-  if (!run->estimate) return;
+static void print_json_error(const struct hooke_run *run, struct hooke_json *json) {
   const char *by = hooke_estimate_text(run->estimate, "by");
-  const double met = number_of(run, "met");
   hooke_json_open(json, "error", '{');
   hooke_json_number(json, "estimate", number_of(run, "estimate"));
   hooke_json_number(json, "known_from", number_of(run, "known_from"));
@@ -167,6 +165,12 @@ void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json)
   hooke_json_number(json, "energy_rise", number_of(run, "energy_rise"));
   hooke_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
   hooke_json_close(json);
+}
+
+void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
+  if (!run->estimate) return;
+  const double met = number_of(run, "met");
+  if (run->outcome == HOOKE_OK) print_json_error(run, json);
   if (!is_wanted(run)) return;
   hooke_json_open(json, "want", '{');
   hooke_json_number(json, "wanted", number_of(run, "wanted"));

@@ -1,8 +1,10 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "advice.h"
+#include "blame.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
+#include "unit.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -20,9 +22,11 @@ struct why {
   const char *status;   /* of the run, then */
   double time;          /* reached, then */
   int code;             /* of what was reported already */
+  double budget;        /* [s] */
 };
 
 static const double SMALLEST_SHARE = 1e-3; /* that words are made of */
+static const double USUAL_BUDGET = 30.0;   /* [s] */
 
 /* ---- finding out ---- */
 
@@ -50,7 +54,7 @@ static int32_t run_again(struct why *why) {
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
   if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED)
-    status = hooke_why_create(integrator, NAN, hooke_watch_progress, &progress.watch, &why->why);
+    status = hooke_why_create(integrator, why->budget, hooke_watch_progress, &progress.watch, &why->why);
   hooke_watch_end(&progress.watch);
   hooke_integrator_destroy(integrator);
   return status;
@@ -64,8 +68,8 @@ static int32_t blew_up(const char *status) {
 static int32_t explain_kept(struct why *why, const hooke_state *first, const hooke_state *last) {
   struct hooke_watch watch;
   hooke_watch_start(&watch, why->arguments);
-  const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, NAN,
-                                               hooke_watch_progress, &watch, &why->why);
+  const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last,
+                                               why->budget, hooke_watch_progress, &watch, &why->why);
   hooke_watch_end(&watch);
   return status;
 }
@@ -107,14 +111,9 @@ static int32_t print_json(const struct why *why) {
   hooke_json_number(&json, "limit", found ? hooke_why_number(found, "limit") : (double)NAN);
   hooke_json_open(&json, "blame", '[');
   for (int64_t k = 0; found && k < hooke_why_blame_count(found); k++) {
-    hooke_json_open(&json, NULL, '{');
-    hooke_json_open(&json, "spring", '[');
-    hooke_json_count(&json, NULL, (int64_t)hooke_why_blame_number(found, k, "first"));
-    hooke_json_count(&json, NULL, (int64_t)hooke_why_blame_number(found, k, "second"));
-    hooke_json_close(&json);
-    hooke_json_text(&json, "group", hooke_why_blame_text(found, k, "group"));
-    hooke_json_number(&json, "share", hooke_why_blame_number(found, k, "share"));
-    hooke_json_close(&json);
+    hooke_blame_json(&json, hooke_why_blame_text(found, k, "force"),
+                     hooke_why_blame_number(found, k, "first"), hooke_why_blame_number(found, k, "second"),
+                     hooke_why_blame_text(found, k, "group"), hooke_why_blame_number(found, k, "share"));
   }
   hooke_json_close(&json);
   hooke_json_open(&json, "advice", '[');
@@ -127,6 +126,9 @@ static int32_t print_json(const struct why *why) {
     hooke_json_close(&json);
     free(command);
   }
+  hooke_json_close(&json);
+  const char *left_out = found ? hooke_why_text(found, "left_out") : "";
+  hooke_json_text(&json, "left_out", left_out[0] ? left_out : NULL);
   hooke_json_end(&json);
   return status;
 }
@@ -142,11 +144,17 @@ static void print_number(const char *label, double value, const char *unit) {
 
 static void print_springs(const hooke_why *found) {
   const int64_t count = hooke_why_blame_count(found);
+  int64_t forces = 0;
   for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
     const char *group = hooke_why_blame_text(found, k, "group");
     const double share = hooke_why_blame_number(found, k, "share");
     if (k > 0 && share < SMALLEST_SHARE) return;
-    printf("%-12s%.0f, between particles %.0f and %.0f", k == 0 ? "springs" : "",
+    if (hooke_why_blame_text(found, k, "force")[0]) {
+      printf("%-12s%s, share %.3g\n", "force", hooke_why_blame_text(found, k, "force"), share);
+      forces++;
+      continue;
+    }
+    printf("%-12s%.0f, between particles %.0f and %.0f", k == forces ? "springs" : "",
            hooke_why_blame_number(found, k, "spring"), hooke_why_blame_number(found, k, "first"),
            hooke_why_blame_number(found, k, "second"));
     if (group[0]) {
@@ -179,6 +187,11 @@ static int32_t print_words(const struct why *why) {
   if (!isnan(hooke_why_number(found, "particle")))
     printf("%-12s%.0f\n", "particle", hooke_why_number(found, "particle"));
   print_springs(found);
+  if (hooke_why_text(found, "left_out")[0]) {
+    printf("%-12s", "left out");
+    hooke_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "left_out"));
+    printf("\n");
+  }
   printf("\n");
   return hooke_advice_print(stdout, why->arguments, found, INT64_MAX);
 }
@@ -210,15 +223,41 @@ static int find_out(struct why *why) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_missing_words(arguments);
 }
 
+/* The time of --budget; the option table of a study knows what is allowed. */
+static int read_budget(const struct hooke_arguments *arguments, double *budget) {
+  const char *text = hooke_arguments_text(arguments, "budget");
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  if (!text) return HOOKE_EXIT_DONE;
+  char *value = hooke_unit_read(text, "s", word);
+  if (!value) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget %s: there is no unit '%s'; allowed: %s", text,
+                        word, hooke_unit_list("s", list));
+  }
+  hooke_options *options = NULL;
+  int32_t status = hooke_study_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "budget", value);
+  if (status == HOOKE_OK) *budget = hooke_options_number(options, "budget");
+  hooke_options_destroy(options);
+  free(value);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE
+                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget: %s", hooke_last_error());
+}
+
 static int do_why(const struct hooke_arguments *arguments) {
-  struct why why = {.arguments = arguments, .time = NAN};
-  int code = hooke_setup_load(arguments, &why.setup);
+  struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
+  int code = read_budget(arguments, &why.budget);
+  if (code == HOOKE_EXIT_DONE) code = hooke_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_why_destroy(why.why);
   hooke_record_close(why.record);
   hooke_setup_destroy(&why.setup);
   return code;
 }
+
+static const struct hooke_verb_row rows[] = {
+    {"budget", 0, "SECONDS",
+     "time that the explanation may take after the run, such as 5s or 2min; 30 s if not given"},
+};
 
 const struct hooke_verb hooke_verb_why = {
     .name = "why",
@@ -228,6 +267,7 @@ const struct hooke_verb hooke_verb_why = {
             "the springs to blame, and what to do, as commands that have been tried. The exit code is 0 also "
             "if the run did "
             "not blow up.",
+    HOOKE_VERB_ROWS(rows),
     .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,
 };

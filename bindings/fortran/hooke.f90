@@ -20,6 +20,7 @@ module hooke
   use hooke_causes, only: hooke_why
   use hooke_comparisons, only: hooke_comparison
   use hooke_costs, only: hooke_cost
+  use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
   use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &
     hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &

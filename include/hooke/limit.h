@@ -66,12 +66,14 @@ HOOKE_API double hooke_limit_number(const hooke_limit *limit, int64_t row, const
 
 /* ---- blame: what the limiting mode of the row hangs on, the largest share first ---- */
 
-/* Springs named, at most 100; their shares are those of h^2 K + 2 h C (bending, altitude springs and drag included) in the limiting mode of
+/* Springs named, at most 100, and before them the force that has half of the whole or more, if it is not the stiffness of
+ * springs; their shares are those of h^2 K + 2 h C (bending, altitude springs and drag included) in the limiting mode of
  * the method of the run (of the first row with a limit if that has none). */
 HOOKE_API int64_t hooke_limit_blame_count(const hooke_limit *limit);
-/* "spring" (its number), "first" and "second" (its ends), "share" (0..1). NaN for another word. */
+/* "spring" (its number), "first" and "second" (its ends), "share" (0..1; of damping, the part of the shares of springs that is
+ * damping). NaN for another word, and for what a force does not have. */
 HOOKE_API double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what);
-/* "group": the name of the group or part the spring is of. */
+/* "group": the name of the group or part the spring is of; "force": "drag", "damping", "bending" or "altitude", "" of a spring. */
 HOOKE_API const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what);
 /* Particles that move in that mode: "particle", "share" of the kinetic energy, "mass" [kg]. */
 HOOKE_API int64_t hooke_limit_mover_count(const hooke_limit *limit);

@@ -14,11 +14,12 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { MOST_KEPT = 8, MOST_SEEN = 128, MOST_REFINED = 4 };
+enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const int64_t KEPT_BYTES = 1 << 26;
 static const double SHORT = 2.0;                          /* [s] a run under which is run again, coarser */
 static const double SLICE = 0.045, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
-static const double AIM = 0.6, LEAST_FACTOR = 1.0 / 16.0, MOST_FACTOR = 0.7; /* of what refines */
+static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
+                    MOST_FACTOR = 0.7; /* of what refines */
 static const double MOST_STEPS = 1e8;
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
@@ -86,6 +87,7 @@ int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options
   if (status != HOOKE_OK) hooke_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
   e->refined = 0;
+  e->before = INFINITY;
   return status;
 }
 
@@ -179,7 +181,12 @@ static int is_sound(const hooke_estimate *e) {
 
 static int32_t measure_alone(hooke_estimate *e) {
   int32_t status = HOOKE_OK;
-  if (!isnan(e->want)) return hooke_estimate_by_finer(e);
+  if (!isnan(e->want)) {
+    status = hooke_estimate_by_finer(e);
+    /* the pick's error is over more frames, if of the beginning alone */
+    if (e->picked && e->pick.met && !isnan(e->error)) e->error = fmax(e->error, e->pick.best.error);
+    return status;
+  }
   if (e->seconds < SHORT) status = hooke_estimate_by_coarser(e);
   if (status == HOOKE_OK && isnan(e->error)) status = hooke_estimate_by_slice(e);
   return status;
@@ -230,7 +237,8 @@ static double finer(const hooke_estimate *e) {
 }
 
 int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
-  if (e->options == NULL || isnan(met(e)) || e->refined == MOST_REFINED)
+  if (e->options == NULL || isnan(met(e)) || e->refined == MOST_REFINED ||
+      !(e->error <= LEAST_GAIN * e->before))
     return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
   double value = finer(e), duration, every, unit;
   const char *method = hooke_options_text(e->options, "method");
@@ -243,6 +251,7 @@ int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
       return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would mean over 1e8 steps", value);
   }
   e->refined++;
+  e->before = e->error;
   e->picked = 0;
   return set_value(run, method, value);
 }

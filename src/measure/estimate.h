@@ -13,6 +13,7 @@ struct hooke_estimate {
   void *ctx;
   struct hooke_pick pick; /* with a system once it was run */
   int32_t picked;         /* 1: the run to come is the one that was picked, and not a finer one */
+  double before;          /* the error before something finer was set [m]; infinity at first */
   int32_t refined;        /* times */
 
   /* the run */

@@ -10,8 +10,9 @@
 enum { LEAST_STEPS = 16 };
 static const double COARSER_TOLERANCE = 10.0, FINER_TOLERANCE = 0.01, LOOSEST = 0.1, TIGHTEST = 1e-14;
 /* Orders that are believed: of a step, at least and above the method's at most; of a tolerance. */
-static const double LEAST_ORDER = 0.6, ABOVE_ORDER = 1.2, LEAST_POWER = 0.25, MOST_POWER = 1.6;
-static const double ROUNDING = 1e-13; /* of the largest coordinate: below it differences say nothing */
+static const double LEAST_ORDER = 0.6, ABOVE_ORDER = 1.2, LEAST_POWER = 0.5, MOST_POWER = 1.3;
+static const double CAUTIOUS_POWER = 0.7; /* errors do not follow tolerances evenly */
+static const double ROUNDING = 1e-13;     /* of the largest coordinate: below it differences say nothing */
 
 double hooke_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
@@ -93,7 +94,7 @@ static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double nea
   const double least = adaptive ? LEAST_POWER : LEAST_ORDER;
   const double most = adaptive ? MOST_POWER : order + ABOVE_ORDER;
   if (!(seen >= least && seen <= most)) return NAN;
-  e->order = adaptive ? seen : fmin(seen, order);
+  e->order = fmin(seen, adaptive ? CAUTIOUS_POWER : order);
   return near / (pow(factor, e->order) - 1.0);
 }
 

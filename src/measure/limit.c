@@ -191,6 +191,8 @@ static int32_t find_blame(hooke_limit *limit, const double *q) {
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
       hooke_blame_find(limit->system, q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
+  limit->blame.patience = limit->patience;
+  limit->blame.room = limit->room;
   if (status == HOOKE_OK && row->predicted > 0.0)
     status = hooke_remedy_find(limit->system, q, row->method, row->predicted, &limit->blame, &limit->remedy);
   return status;

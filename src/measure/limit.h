@@ -39,6 +39,8 @@ struct hooke_limit {
   struct hooke_blame blame;
   struct hooke_remedy remedy;
 
+  struct hooke_patience *patience; /* NULL, or that of an inquiry, with bytes that a basis may take */
+  double room;
   hooke_progress *progress;
   void *progress_ctx;
   double share, width; /* of all work, where the part under way begins and how much of it it is */

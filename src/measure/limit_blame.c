@@ -65,6 +65,7 @@ static void find_springs(const hooke_system *system, const double *q, const doub
           run->first + k, spring.head, spring.tail, group, h2 * stiffness + 2.0 * h * damping,
           h2 * stiffness};
       whole->all += blamed.share;
+      blame->force_share[HOOKE_BLAME_DAMPING] += 2.0 * h * damping;
       whole->stiffness += blamed.stiffness_share;
       blame->group_share[group] += blamed.share;
       keep(blame->spring, &blame->spring_count, sizeof blamed, offsetof(struct hooke_blamed_spring, share),
@@ -89,6 +90,7 @@ static void find_bending(const hooke_system *system, const double *mode, double 
       blame->group_share[system->group_count + g] += h2 * triple.coefficient * square_of(d);
     }
     whole->all += blame->group_share[system->group_count + g];
+    blame->force_share[HOOKE_BLAME_BENDING] += blame->group_share[system->group_count + g];
     whole->stiffness += blame->group_share[system->group_count + g];
   }
 }
@@ -109,6 +111,8 @@ static void find_altitude(const hooke_system *system, const double *q, const dou
       }
       *share += (h2 * view.kappa + 2.0 * h * view.gamma) * along * along;
       whole->stiffness += h2 * view.kappa * along * along;
+      blame->force_share[HOOKE_BLAME_ALTITUDE] += h2 * view.kappa * along * along;
+      blame->force_share[HOOKE_BLAME_DAMPING] += 2.0 * h * view.gamma * along * along;
     }
     whole->all += *share;
   }
@@ -121,6 +125,7 @@ static void find_particles(const hooke_system *system, const double *mode, doubl
     const double square = square_of(mode + 3 * p);
     const struct hooke_blamed_particle blamed = {p, system->mass[p] * square, system->mass[p]};
     whole->all += 2.0 * h * system->drag * square;
+    blame->force_share[HOOKE_BLAME_DRAG] += 2.0 * h * system->drag * square;
     whole->kinetic += blamed.share;
     keep(blame->particle, &blame->particle_count, sizeof blamed,
          offsetof(struct hooke_blamed_particle, share), &blamed);
@@ -147,6 +152,8 @@ int32_t hooke_blame_find(const hooke_system *system, const double *q, const doub
     blame->particle[k].share /= whole.kinetic;
   for (int64_t k = 0; k < blame->group_count && whole.all > 0.0; k++)
     blame->group_share[k] /= whole.all;
+  for (int k = 0; k < HOOKE_BLAME_FORCES && whole.all > 0.0; k++)
+    blame->force_share[k] /= whole.all;
   blame->stiffness_share = whole.all > 0.0 ? whole.stiffness / whole.all : 0.0;
   return HOOKE_OK;
 }
@@ -157,6 +164,18 @@ const char *hooke_blame_group_name(const hooke_system *system, int64_t group) {
                      : altitude < 0 ? hooke_system_bending_group_name(system, bending)
                                     : hooke_system_altitude_group_name(system, altitude);
   return name ? name : "";
+}
+
+int32_t hooke_blame_force(const struct hooke_blame *blame) {
+  for (int32_t k = 0; k < HOOKE_BLAME_FORCES; k++) {
+    if (blame->force_share[k] >= 0.5) return k;
+  }
+  return -1;
+}
+
+const char *hooke_blame_force_name(int32_t force) {
+  static const char *const names[HOOKE_BLAME_FORCES] = {"drag", "damping", "bending", "altitude"};
+  return force < 0 ? "" : names[force];
 }
 
 void hooke_blame_release(struct hooke_blame *blame) {

@@ -3,6 +3,7 @@
 #define HOOKE_MEASURE_LIMIT_BLAME_H
 
 #include "hooke/system.h"
+#include "measure/patience.h"
 
 enum { HOOKE_BLAME_MOST = 100 };
 
@@ -18,15 +19,23 @@ struct hooke_blamed_particle {
   double mass;  /* [kg] */
 };
 
+/* Forces other than the pull of springs. */
+enum { HOOKE_BLAME_DRAG, HOOKE_BLAME_DAMPING, HOOKE_BLAME_BENDING, HOOKE_BLAME_ALTITUDE, HOOKE_BLAME_FORCES };
+
 struct hooke_blame {
   /* the largest shares first */
   int64_t spring_count, particle_count;
   struct hooke_blamed_spring spring[HOOKE_BLAME_MOST];
   struct hooke_blamed_particle particle[HOOKE_BLAME_MOST];
   double stiffness_share; /* of h^2 K in the whole */
+  double force_share
+      [HOOKE_BLAME_FORCES]; /* damping is that of springs and of altitude springs; altitude, their stiffness */
   int64_t group_count;
   double
       *group_share; /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
+  /* of whoever asks for a remedy: as in linearised.h */
+  struct hooke_patience *patience;
+  double room;
 };
 
 /* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a mode (3n displacements, NULL: none is known),
@@ -34,6 +43,10 @@ struct hooke_blame {
 int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                          struct hooke_blame *blame);
 void hooke_blame_release(struct hooke_blame *blame);
+
+/* The force that has half of the whole or more, HOOKE_BLAME_*; -1 if springs by their stiffness have, or none has. Its name. */
+int32_t hooke_blame_force(const struct hooke_blame *blame);
+const char *hooke_blame_force_name(int32_t force);
 
 /* The name of a group by its place in `group_share`; "" without one. */
 const char *hooke_blame_group_name(const hooke_system *system, int64_t group);
@@ -45,7 +58,8 @@ struct hooke_remedy {
   double factor;         /* by which to change them */
   double gain;           /* factor of the step that this buys: re-computed, */
   double gain_predicted; /* and by first-order perturbation */
-  char sentence[400];
+  int32_t force;         /* 1: the sentence is about drag or damping, which limit the step */
+  char sentence[640];
 };
 
 /* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the step without

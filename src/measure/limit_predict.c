@@ -6,10 +6,18 @@
 int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
                             const double *spring_scale, const double *mass_scale, double accuracy,
                             double *limit) {
+  return hooke_limit_predict_within(system, q, method, spring_scale, mass_scale, accuracy, 0.0, NULL, limit);
+}
+
+int32_t hooke_limit_predict_within(const hooke_system *system, const double *q, const char *method,
+                                   const double *spring_scale, const double *mass_scale, double accuracy,
+                                   double room, struct hooke_patience *patience, double *limit) {
   struct hooke_linearised linearised;
   struct hooke_spectrum spectrum;
   int32_t status = hooke_linearised_create(system, q, spring_scale, mass_scale, &linearised);
   if (status != HOOKE_OK) return status;
+  linearised.patience = patience;
+  linearised.room = room;
   status = hooke_spectrum_create(&linearised, accuracy, !hooke_limit_rule_needs_all(method), NULL, &spectrum);
   if (status == HOOKE_OK) {
     struct hooke_prediction prediction = {.mode = hooke_new(linearised.size, sizeof(double))};

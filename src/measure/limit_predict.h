@@ -5,7 +5,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_PREDICT_H
 #define HOOKE_MEASURE_LIMIT_PREDICT_H
 
-#include "hooke/measure.h"
+#include "measure/patience.h"
 
 /* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 where no step is stable, infinity where
  * nothing limits it, an upper estimate where only part of the spectrum can be had (rk4 and forward-euler on large scenes).
@@ -14,5 +14,10 @@
 int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
                             const double *spring_scale, const double *mass_scale, double accuracy,
                             double *limit);
+
+/* The same as long as there is patience, with `room` bytes for a basis (0: as many as are usual); else HOOKE_STOPPED. */
+int32_t hooke_limit_predict_within(const hooke_system *system, const double *q, const char *method,
+                                   const double *spring_scale, const double *mass_scale, double accuracy,
+                                   double room, struct hooke_patience *patience, double *limit);
 
 #endif

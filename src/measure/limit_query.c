@@ -55,13 +55,22 @@ double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *wha
 
 /* ---- blame ---- */
 
+/* 1 if a force has the first place. */
+static int64_t blames_force(const hooke_limit *limit) {
+  return hooke_blame_force(&limit->blame) >= 0;
+}
+
 int64_t hooke_limit_blame_count(const hooke_limit *limit) {
-  return limit->blame.spring_count;
+  return limit->blame.spring_count + blames_force(limit);
 }
 
 double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what) {
-  if (place < 0 || place >= limit->blame.spring_count) return NAN;
-  const struct hooke_blamed_spring *s = &limit->blame.spring[place];
+  if (place < 0 || place >= hooke_limit_blame_count(limit)) return NAN;
+  if (blames_force(limit) && place == 0) {
+    const double share = limit->blame.force_share[hooke_blame_force(&limit->blame)];
+    return strcmp(what, "share") == 0 ? share : (double)NAN;
+  }
+  const struct hooke_blamed_spring *s = &limit->blame.spring[place - blames_force(limit)];
   const struct hooke_figure figures[] = {{"spring", (double)s->spring},
                                          {"first", (double)s->first},
                                          {"second", (double)s->second},
@@ -70,8 +79,12 @@ double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const c
 }
 
 const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what) {
-  if (place < 0 || place >= limit->blame.spring_count || strcmp(what, "group") != 0) return NULL;
-  return hooke_system_group_name(limit->system, limit->blame.spring[place].group);
+  if (place < 0 || place >= hooke_limit_blame_count(limit)) return NULL;
+  const int32_t force = place == 0 ? hooke_blame_force(&limit->blame) : -1;
+  if (strcmp(what, "force") == 0) return hooke_blame_force_name(force);
+  if (strcmp(what, "group") != 0) return NULL;
+  if (force >= 0) return "";
+  return hooke_system_group_name(limit->system, limit->blame.spring[place - blames_force(limit)].group);
 }
 
 int64_t hooke_limit_mover_count(const hooke_limit *limit) {

@@ -93,8 +93,9 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
     else
       scale[blame->particle[k].particle] = factor;
   }
-  const int32_t status = hooke_limit_predict(system, q, method, set->springs ? scale : NULL,
-                                             set->springs ? NULL : scale, ACCURACY, limit);
+  const int32_t status =
+      hooke_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
+                                 ACCURACY, blame->room, blame->patience, limit);
   hooke_free(scale);
   return status;
 }
@@ -207,6 +208,40 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
   if (isfinite(before)) add(text, size, ")");
 }
 
+/* ---- drag and damping ---- */
+
+/* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it either way. */
+static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
+                             const struct hooke_blame *blame, int32_t force, double *limit) {
+  hooke_system without = *system;
+  without.drag = 0.0;
+  const int drag = force == HOOKE_BLAME_DRAG;
+  const int32_t status = hooke_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL,
+                                                    ACCURACY, blame->room, blame->patience, limit);
+  if (!drag && strcmp(method, "rk4") == 0) *limit *= sqrt(2.0);
+  if (!drag && strcmp(method, "forward-euler") == 0) *limit = 0.0;
+  return status;
+}
+
+static int32_t tell_force(const hooke_system *system, const double *q, const char *method, double limit,
+                          const struct hooke_blame *blame, int32_t force, struct hooke_remedy *remedy) {
+  double without = 0.0;
+  const int32_t status = limit_without(system, q, method, blame, force, &without);
+  if (status != HOOKE_OK) return status;
+  add(remedy->sentence, sizeof remedy->sentence, "%s%s limits the step", remedy->kind ? "; " : "",
+      force == HOOKE_BLAME_DRAG ? "drag" : "damping along springs");
+  if (without > LEAST_COST * limit && isfinite(without)) {
+    add(remedy->sentence, sizeof remedy->sentence, ": without it %s would be stable up to %.6g s", method,
+        without);
+  } else if (isinf(without)) {
+    add(remedy->sentence, sizeof remedy->sentence, ": without it nothing would limit that of %s", method);
+  }
+  add(remedy->sentence, sizeof remedy->sentence, "; verlet takes %s implicitly, and has no limit by it",
+      force == HOOKE_BLAME_DRAG ? "drag" : "damping");
+  remedy->force = 1;
+  return HOOKE_OK;
+}
+
 /* ---- the whole ---- */
 
 /* Fills in the remedy if changing the set buys anything; `kind` stays NULL if not. */
@@ -248,6 +283,10 @@ int32_t hooke_remedy_find(const hooke_system *system, const double *q, const cha
     if (status == HOOKE_OK && remedy->kind == NULL && springs && particles)
       status = try_set(system, q, method, limit, blame, &second, remedy);
   }
-  if (status == HOOKE_OK && remedy->kind == NULL) tell_groups(system, blame, remedy);
+  const int32_t force = hooke_blame_force(blame);
+  if (status == HOOKE_OK && (force == HOOKE_BLAME_DRAG || force == HOOKE_BLAME_DAMPING))
+    status = tell_force(system, q, method, limit, blame, force, remedy);
+  else if (status == HOOKE_OK && remedy->kind == NULL)
+    tell_groups(system, blame, remedy);
   return status;
 }

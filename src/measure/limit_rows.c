@@ -78,6 +78,8 @@ int32_t hooke_limit_predict_rows(hooke_limit *limit, const double *q) {
   struct hooke_linearised linearised;
   int32_t status = hooke_linearised_create(limit->system, q, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
+  linearised.patience = limit->patience;
+  linearised.room = limit->room;
   status = find_bounds(limit, q);
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
   limit->products = linearised.products;

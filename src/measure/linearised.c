@@ -178,6 +178,13 @@ static double *part(double **block, int64_t count) {
   return start;
 }
 
+double hooke_linearised_bytes(const hooke_system *system) {
+  enum { OF_SPRINGS = 11, OF_PARTICLES = 3 + 3 * 20, OF_TETRAHEDRA = 14 };
+  return sizeof(double) *
+         (OF_SPRINGS * (double)system->springs.count + OF_PARTICLES * (double)system->particle_count +
+          OF_TETRAHEDRA * (double)system->altitudes.count);
+}
+
 int32_t hooke_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
                                 const double *mass_scale, struct hooke_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs.count;

@@ -14,6 +14,7 @@
 #define HOOKE_MEASURE_LINEARISED_H
 
 #include "kernel/tangent_loops.h"
+#include "measure/patience.h"
 #include "model/system.h"
 
 struct hooke_linearised {
@@ -38,7 +39,14 @@ struct hooke_linearised {
   /* a K + b C, from the last hooke_linearised_weigh() */
   struct hooke_tangent tangent;
   double *g[3], *g_across, brake, bent;
+  /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with HOOKE_STOPPED (NULL:
+   * none); and bytes that a basis may take (0: as many as are usual) */
+  struct hooke_patience *patience;
+  double room;
 };
+
+/* Bytes that it takes at most, with what a search for the largest eigenvalue needs besides. */
+double hooke_linearised_bytes(const hooke_system *system);
 
 /* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL. HOOKE_BAD_VALUE for
  * numbers that are not finite; HOOKE_NO_MEMORY. */

@@ -61,8 +61,7 @@ static void add_tetrahedron(struct hooke_node_blocks *blocks, const struct hooke
   }
 }
 
-int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
-                                 struct hooke_node_blocks *blocks) {
+int32_t hooke_node_blocks_begin(const hooke_system *system, struct hooke_node_blocks *blocks) {
   *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
   blocks->stiffness = hooke_new(6 * system->particle_count, sizeof(double));
   blocks->damping = hooke_new(6 * system->particle_count, sizeof(double));
@@ -70,8 +69,14 @@ int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
     hooke_node_blocks_release(blocks);
     return HOOKE_NO_MEMORY;
   }
-  hooke_node_blocks_fill(blocks, q);
   return HOOKE_OK;
+}
+
+int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
+                                 struct hooke_node_blocks *blocks) {
+  const int32_t status = hooke_node_blocks_begin(system, blocks);
+  if (status == HOOKE_OK) hooke_node_blocks_fill(blocks, q);
+  return status;
 }
 
 void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
@@ -82,7 +87,9 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
   blocks->least_ratio = INFINITY;
   blocks->across = 0;
   struct hooke_spring_batch batch;
+  int64_t turns = 0;
   for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hooke_patience_ends(blocks->patience, "bounds")) return;
     for (int64_t k = 0; k < batch.count; k++) {
       const struct hooke_spring spring = hooke_batch_spring(&batch, k);
       if (!system->held[spring.head] || !system->held[spring.tail]) add_spring(blocks, &spring, q);

@@ -7,12 +7,14 @@
 #ifndef HOOKE_MEASURE_NODE_BLOCKS_H
 #define HOOKE_MEASURE_NODE_BLOCKS_H
 
+#include "measure/patience.h"
 #include "model/system.h"
 
 struct hooke_node_blocks {
   const hooke_system *system;
-  double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
-  double least_ratio;          /* smallest gamma/kappa of a stiff spring, infinity without one */
+  double *stiffness, *damping;     /* 6 a particle: xx, yy, zz, xy, xz, yz */
+  double least_ratio;              /* smallest gamma/kappa of a stiff spring, infinity without one */
+  struct hooke_patience *patience; /* whose end ends a filling half-way (NULL: none) */
   int32_t
       across; /* some stretched spring is stiff across its direction, where it has no damping, or there is bending, which
                     has none */
@@ -21,6 +23,8 @@ struct hooke_node_blocks {
 /* At positions q (3n). HOOKE_NO_MEMORY. */
 int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
                                  struct hooke_node_blocks *blocks);
+/* Without positions yet. */
+int32_t hooke_node_blocks_begin(const hooke_system *system, struct hooke_node_blocks *blocks);
 /* The same again at other positions, in the memory there is. */
 void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q);
 void hooke_node_blocks_release(struct hooke_node_blocks *blocks);

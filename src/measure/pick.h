@@ -24,6 +24,7 @@ struct hooke_pick {
   struct hooke_reference reference;
   struct hooke_pick_row best; /* the cheapest that meets the want, or else the closest */
   int32_t met;                /* 1: `best` does, over what is studied and judged */
+  double evaluation;          /* of the forces, about [s] */
   double begun, deadline;     /* by the clock [s] */
   hooke_progress *progress;
   void *ctx;
@@ -40,6 +41,8 @@ double hooke_pick_trusted(const struct hooke_pick *pick);
 
 /* Searches one method; a row that beats `best` takes its place (pick_search.c). */
 int32_t hooke_pick_search(struct hooke_pick *pick, const char *method);
+/* About what the first run of a search takes [s], for the order in which methods are tried. */
+double hooke_pick_guess(struct hooke_pick *pick, const char *method);
 /* Runs one row, for as long as it takes. */
 int32_t hooke_pick_try(struct hooke_pick *pick, const char *method, double value);
 /* Options of a run by a method with a step or tolerance. */

@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { MOST_RUNS = 12, REPEATS = 3 };
-static const double FIRST_TOLERANCE = 1e-3, LOOSEST = 0.1, TIGHTEST = 1e-14;
+static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double AIM = 0.7, GOOD = 0.5; /* of the error that is allowed: aimed at; good enough */
 static const double CLOSE = 1.2;           /* a bracket this narrow is not searched further */
 static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* from one value to the next */
@@ -20,6 +20,7 @@ static const double COST_POWER = 1.0 / 6.0;                       /* of a run, i
 static const double PATIENCE = 1.3; /* of the best row's time, for a run that might be cheaper */
 static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its time */
 static const double MOST_STEPS = 1e8;
+static const double SHARE_OF_REFERENCE = 0.2; /* that a run takes of its time, about */
 
 struct search {
   struct hooke_pick *pick;
@@ -27,9 +28,11 @@ struct search {
   int32_t adaptive;
   double order;        /* of the error, in the value */
   double most;         /* error that is allowed [m] */
+  double bound;        /* of a step at the start [s]; infinity if none limits it */
   double largest;      /* value that may be taken */
   double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
   double error_meets, error_fails;
+  double rate; /* least seconds for an evaluation of forces or of their derivative, in any run */
   double until; /* where a run that costs too much ends, by the clock [s] */
   int32_t late;
 };
@@ -84,12 +87,16 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
+  const double work = trial.force_evaluations + fmax(0.0, trial.linear_iterations);
   for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
     looker.soundness.count = looker.soundness.capacity; /* seen already */
     const struct hooke_listener quiet = {.on_progress = on_progress, .ctx = &looker};
     status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
     result->seconds = fmin(result->seconds, trial.wall_seconds);
   }
+  /* a run's own time may have met a busy machine */
+  s->rate = fmin(s->rate, result->seconds / work);
+  result->seconds = work * s->rate;
   if (looker.soundness.time) {
     result->allowed = hooke_soundness_limit_share * looker.soundness.least_bound;
     result->gains = hooke_soundness_rise(&looker.soundness) > hooke_soundness_most_rise;
@@ -147,7 +154,8 @@ static double aim(const struct search *s) {
 
 /* The next value to run; NaN where the search is over. */
 static double next_value(const struct search *s) {
-  if (isnan(s->meets) && isnan(s->fails)) return fit(s, s->adaptive ? FIRST_TOLERANCE : s->largest);
+  if (isnan(s->meets) && isnan(s->fails))
+    return fit(s, s->adaptive ? s->most / s->pick->reference.extent : s->largest);
   if (!isnan(s->meets) && (s->error_meets >= GOOD * s->most || s->fails / s->meets <= CLOSE)) return NAN;
   double value = aim(s);
   if (!isnan(s->meets) && !isnan(s->fails)) /* within the bracket, and clear of its ends */
@@ -157,17 +165,19 @@ static double next_value(const struct search *s) {
   return value;
 }
 
+/* Of the first run at least, of the others about [s]. */
 static double cost_of(const struct search *s, const struct result *last, double value) {
-  return last->seconds * pow(last->value / value, s->adaptive ? COST_POWER : 1.0);
+  if (last->seconds > 0.0) return last->seconds * pow(last->value / value, s->adaptive ? COST_POWER : 1.0);
+  return s->adaptive ? 0.0 : s->pick->evaluation * s->pick->share * s->pick->duration / value;
 }
 
-static double first_largest(const struct search *s) {
-  double bound = NAN;
+/* The bound on the step at the start, and the largest value that may be taken. */
+static void find_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
-  if (s->adaptive) return LOOSEST;
-  if (hooke_step_bound(s->pick->system, s->method, q, &bound) != HOOKE_OK || isnan(bound))
-    return s->pick->unit;
-  return fmin(s->pick->unit, hooke_soundness_limit_share * bound);
+  s->bound = INFINITY;
+  if (!s->adaptive) (void)hooke_step_bound(s->pick->system, s->method, q, &s->bound);
+  if (isnan(s->bound)) s->bound = INFINITY;
+  s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hooke_soundness_limit_share * s->bound);
 }
 
 static struct search begin(struct hooke_pick *pick, const char *method) {
@@ -179,10 +189,18 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
                      .fails = NAN,
                      .error_meets = NAN,
                      .error_fails = NAN,
+                     .rate = INFINITY,
                      .until = INFINITY};
   s.order = s.adaptive ? 1.0 : (double)hooke_method_find(method)->order;
-  s.largest = first_largest(&s);
+  find_largest(&s);
   return s;
+}
+
+double hooke_pick_guess(struct hooke_pick *pick, const char *method) {
+  const struct search s = begin(pick, method);
+  const double order = (double)hooke_method_find(method)->order, span = pick->share * pick->duration;
+  if (s.adaptive || isinf(s.bound)) return SHARE_OF_REFERENCE * pick->reference.wall_seconds;
+  return pick->evaluation * order * order * span / s.largest;
 }
 
 int32_t hooke_pick_try(struct hooke_pick *pick, const char *method, double value) {
@@ -200,7 +218,7 @@ int32_t hooke_pick_search(struct hooke_pick *pick, const char *method) {
   for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK && s.largest > 0.0; run++) {
     const double value = next_value(&s), now = hooke_clock_seconds();
     if (isnan(value) || (!s.adaptive && pick->duration / value > MOST_STEPS)) break;
-    const double cost = run > 0 ? cost_of(&s, &result, value) : 0.0;
+    const double cost = cost_of(&s, &result, value);
     if (pick->met && cost > pick->best.seconds) break;
     if (pick->best.method && now + cost > pick->deadline) break;
     /* a first row is found in any case */

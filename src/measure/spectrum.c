@@ -331,8 +331,19 @@ static int32_t sort(struct hooke_spectrum *s) {
 
 /* ---- making ---- */
 
+/* Dense solves have no end but their own: [s] for the cube of the unknowns, as much as they take at most. */
+static const double SECONDS_PROPORTIONAL = 2e-10, SECONDS_DAMPED = 2.5e-8;
+
+static int32_t has_time_for_all(const struct hooke_spectrum *s) {
+  const double n = (double)s->linearised->unknowns;
+  if (n > (s->proportional ? HOOKE_SPECTRUM_PROPORTIONAL : HOOKE_SPECTRUM_DAMPED)) return 1;
+  return hooke_patience_has(s->linearised->patience,
+                            (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n);
+}
+
 static int32_t solve(struct hooke_spectrum *s, double *decaying) {
   struct hooke_linearised *lin = s->linearised;
+  if (!has_time_for_all(s)) return HOOKE_STOPPED;
   if (s->proportional) {
     s->fastest_decay = s->beta * s->stiffest + s->delta;
     return lin->unknowns <= HOOKE_SPECTRUM_PROPORTIONAL ? solve_proportional(s) : solve_stiffest(s);

@@ -25,7 +25,7 @@ struct lanczos {
 };
 
 static int32_t make_room(struct hooke_linearised *lin, struct lanczos *z) {
-  const double fit = MEMORY / (8.0 * (double)lin->size);
+  const double fit = (lin->room > 0.0 ? fmin(lin->room, MEMORY) : MEMORY) / (8.0 * (double)lin->size);
   *z = (struct lanczos){.lin = lin, .most = fit < FEWEST ? FEWEST : fit > MOST ? MOST : (int64_t)fit};
   z->vector = hooke_new(z->most + 1, sizeof *z->vector);
   z->length = hooke_new(3 * (z->most + 1), sizeof(double));
@@ -103,6 +103,7 @@ static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *
   z->length[0] = sqrt(hooke_linearised_dot(z->lin, mode, mode));
   int32_t status = HOOKE_OK;
   for (int64_t check = 4; status == HOOKE_OK && !*done && z->count < z->most;) {
+    if (hooke_patience_ends(z->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
     status = turn(z);
     const int exhausted = !(z->length[z->count] > EXHAUSTED * fabs(z->diagonal[0]));
     if (status != HOOKE_OK || (z->count < check && z->count < z->most && !exhausted)) continue;

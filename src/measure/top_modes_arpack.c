@@ -75,6 +75,7 @@ static int32_t run(struct search *s) {
   s->info = 1;         /* the start is in `residual` */
   a_int wants = 0;
   do {
+    if (hooke_patience_ends(s->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
     dsaupd_c(&wants, "I", s->size, "LA", s->count, s->tolerance, s->residual, s->vectors, s->basis, s->size,
              s->parameter, s->pointer, s->work, s->room, s->room_size, &s->info);
     if (wants == 1 || wants == -1) multiply(s, s->work + s->pointer[0] - 1, s->work + s->pointer[1] - 1);
@@ -102,8 +103,9 @@ int32_t hooke_top_modes_arpack(struct hooke_linearised *lin, int64_t count, doub
     hooke_linearised_unpack(lin, s.basis + (count - 1 - k) * lin->unknowns, mode + k * lin->size);
   }
   release(&s);
-  return status == HOOKE_OK ? status
-                            : hooke_fail(status, NULL, "ARPACK found no eigenvalues (%d)", (int)s.info);
+  return status != HOOKE_SOLVER_FAILED
+             ? status
+             : hooke_fail(status, NULL, "ARPACK found no eigenvalues (%d)", (int)s.info);
 }
 
 #else

@@ -7,34 +7,145 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "measure/linearised.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const double LEAST_SECONDS = 2.0;
+/* A pass for bounds in evaluations of forces: it takes the springs one by one. */
+static const double PASS = 40.0;
+
+/* Share of its time after which nothing begins any more. */
+static const double PUNCTUAL = 0.85;
+
+static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0.4;
 
 static int ended_early(const hooke_integrator *run) {
   return run->outcome == HOOKE_DIVERGED || run->outcome == HOOKE_SOLVER_FAILED ||
          run->outcome == HOOKE_STEP_LIMIT;
 }
 
-static int32_t inquire(struct hooke_inquiry *inquiry) {
+/* ---- what it may take ---- */
+
+const hooke_state *hooke_inquiry_last(const struct hooke_inquiry *inquiry) {
+  return inquiry->last ? inquiry->last : hooke_recent_state(&inquiry->run->recent, 0, NULL);
+}
+
+/* Adds to a list of what was left out. */
+static void leave_out(char *list, size_t size, const char *what) {
+  const size_t used = strlen(list);
+  if (strstr(list, what) == NULL) snprintf(list + used, size - used, "%s%s", used ? ", " : "", what);
+}
+
+int32_t hooke_inquiry_has_room(struct hooke_inquiry *inquiry, double bytes, const char *what) {
+  if (bytes <= inquiry->room - inquiry->held) return 1;
+  leave_out(inquiry->no_room, sizeof inquiry->no_room, what);
+  return 0;
+}
+
+void hooke_inquiry_end_part(struct hooke_inquiry *inquiry, const char *what) {
+  if (hooke_patience_take_back(&inquiry->patience))
+    leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
+}
+
+static void tell_left_out(struct hooke_inquiry *inquiry) {
+  char *text = inquiry->why->left_out;
+  const size_t size = sizeof inquiry->why->left_out;
+  if (inquiry->no_time[0])
+    hooke_print(text, size, "not known, since time was short (%.3g s): %s",
+                (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL, inquiry->no_time);
+  const size_t used = strlen(text);
+  if (inquiry->no_room[0])
+    hooke_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s",
+                used ? "; " : "", 1e-6 * inquiry->room, inquiry->no_room);
+}
+
+/* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was built. */
+static double usual_room(const hooke_integrator *run) {
+  const hooke_system *system = run->system;
+  const double built = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  const double held = (double)(hooke_system_memory(system) + hooke_integrator_count(run, "memory_bytes")) +
+                      2.0 * (double)run->size * sizeof(double);
+  return fmax(LEAST_BYTES, SHARE_OF_MEMORY * fmax(built, held));
+}
+
+static void begin_inquiry(struct hooke_inquiry *inquiry) {
+  const hooke_system *system = inquiry->system;
+  enum { SHAPES = 16 }; /* numbers a coordinate, of a limit with its modes */
+  inquiry->room = usual_room(inquiry->run);
+  const double spectrum =
+      hooke_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
+  inquiry->large = spectrum > inquiry->room;
+  inquiry->excess.bound = NAN;
+  const hooke_integrator *run = inquiry->run;
+  if (run->count.force_evaluations > 0)
+    inquiry->pass = PASS * run->wall_seconds / (double)run->count.force_evaluations;
+}
+
+static int32_t replay(struct hooke_inquiry *inquiry) {
+  enum { NUMBERS = 4 + 1 + 2 }; /* a coordinate: blocks, positions one step ago, a state */
+  const double bytes = (double)hooke_integrator_count(inquiry->run, "memory_bytes") +
+                       NUMBERS * (double)inquiry->run->size * sizeof(double);
+  if (!hooke_inquiry_has_room(inquiry, bytes, "the last steps again")) return HOOKE_OK;
+  hooke_patience_lend(&inquiry->patience, 0.4);
   int32_t status = hooke_state_create_sized(inquiry->run->size, 1, &inquiry->last);
-  inquiry->excess.q = hooke_new(inquiry->run->size, sizeof(double));
-  if (status == HOOKE_OK && inquiry->excess.q == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_inquiry_replay(inquiry);
-  if (status == HOOKE_OK) status = hooke_inquiry_judge(inquiry);
-  if (status == HOOKE_OK) status = hooke_inquiry_advise(inquiry);
-  if (status == HOOKE_OK && inquiry->patience.stopped) status = HOOKE_STOPPED;
-  if (status == HOOKE_OK && inquiry->patience.spent)
-    hooke_print(inquiry->why->left_out, sizeof inquiry->why->left_out,
-                "not all was looked into: the time for it was up after %.3g s",
-                inquiry->patience.until - inquiry->patience.begun);
+  hooke_inquiry_end_part(inquiry, "the last steps again");
+  return status;
+}
+
+/* Of a large scene first what costs least; where it gives the cause, nothing more is looked for. */
+static int32_t survey(struct hooke_inquiry *inquiry) {
+  struct hooke_node_blocks blocks;
+  const double bytes = 12.0 * (double)inquiry->system->particle_count * sizeof(double);
+  if (!inquiry->large || inquiry->run->method->adaptive) return HOOKE_OK;
+  if (!hooke_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
+  inquiry->held += bytes;
+  hooke_patience_lend(&inquiry->patience, 0.8);
+  int32_t status = hooke_node_blocks_begin(inquiry->system, &blocks);
+  blocks.patience = &inquiry->patience;
+  if (status == HOOKE_OK) {
+    status = hooke_inquiry_survey(inquiry, &blocks);
+    hooke_node_blocks_release(&blocks);
+  }
+  if (inquiry->excess.found)
+    hooke_patience_take_back(&inquiry->patience);
+  else
+    hooke_inquiry_end_part(inquiry, "whether the step is above the limit");
+  inquiry->held -= bytes;
+  return status;
+}
+
+static void release_growing(struct hooke_inquiry *inquiry) {
+  if (inquiry->growing.x) inquiry->held -= hooke_growing_bytes(inquiry->system);
+  hooke_growing_release(&inquiry->growing);
+}
+
+static int32_t find_out(struct hooke_inquiry *inquiry) {
+  int32_t status = survey(inquiry);
+  if (status == HOOKE_OK && !inquiry->excess.found && !inquiry->patience.stopped) status = replay(inquiry);
+  release_growing(inquiry);
+  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hooke_inquiry_judge(inquiry);
+  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hooke_inquiry_advise(inquiry);
+  if (!inquiry->patience.stopped) return status;
+  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+}
+
+static int32_t inquire(struct hooke_inquiry *inquiry) {
+  begin_inquiry(inquiry);
+  inquiry->excess.q = hooke_new(inquiry->run->size, sizeof(double));
+  inquiry->held = (double)inquiry->run->size * sizeof(double);
+  const int32_t status = inquiry->excess.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
+  tell_left_out(inquiry);
+  hooke_growing_release(&inquiry->growing);
+  hooke_blame_release(&inquiry->excess.blame);
   hooke_free(inquiry->excess.q);
   hooke_state_destroy(inquiry->last);
   return status;
 }
+
+/* ---- the diagnosis ---- */
 
 /* [s] */
 static double usual_time(const hooke_integrator *run) {
@@ -69,8 +180,9 @@ int32_t hooke_why_create(const hooke_integrator *run, double seconds, hooke_prog
       .system = run->system,
       .why = why,
       .bad_particle = -1,
+      .force = -1,
       .flipped = -1,
-      .patience = hooke_patience_of(seconds > 0.0 ? seconds : usual_time(run), progress, ctx)};
+      .patience = hooke_patience_of(PUNCTUAL * (seconds > 0.0 ? seconds : usual_time(run)), progress, ctx)};
   const int32_t status = inquire(&inquiry);
   if (status == HOOKE_OK)
     *out = why;
@@ -128,15 +240,17 @@ int64_t hooke_why_blame_count(const hooke_why *why) {
 double hooke_why_blame_number(const hooke_why *why, int64_t place, const char *what) {
   if (place < 0 || place >= why->blame_count) return NAN;
   const struct hooke_why_blame *blame = &why->blame[place];
+  if (strcmp(what, "share") == 0) return blame->share;
+  if (blame->spring < 0) return NAN;
   if (strcmp(what, "spring") == 0) return (double)blame->spring;
   if (strcmp(what, "first") == 0) return (double)blame->first;
-  if (strcmp(what, "second") == 0) return (double)blame->second;
-  return strcmp(what, "share") == 0 ? blame->share : (double)NAN;
+  return strcmp(what, "second") == 0 ? (double)blame->second : (double)NAN;
 }
 
 const char *hooke_why_blame_text(const hooke_why *why, int64_t place, const char *what) {
-  if (place < 0 || place >= why->blame_count || strcmp(what, "group") != 0) return NULL;
-  return why->blame[place].group;
+  if (place < 0 || place >= why->blame_count) return NULL;
+  if (strcmp(what, "force") == 0) return why->blame[place].force;
+  return strcmp(what, "group") == 0 ? why->blame[place].group : NULL;
 }
 
 int64_t hooke_why_advice_count(const hooke_why *why) {

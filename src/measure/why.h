@@ -5,6 +5,8 @@
 
 #include "hooke/why.h"
 #include "integrate/integrator.h"
+#include "measure/growing.h"
+#include "measure/limit_blame.h"
 #include "measure/node_blocks.h"
 #include "measure/patience.h"
 
@@ -14,16 +16,17 @@ struct hooke_why_blame {
   int64_t spring, first, second;
   double share;
   char group[96];
+  const char *force; /* "" of a spring; else `spring` is -1 */
 };
 
 struct hooke_why_advice {
-  char change[480], option[32], value[48];
+  char change[720], option[32], value[48];
   hooke_options *run; /* of a run, with nothing set but what is to be changed; NULL: a change of the scene */
 };
 
 struct hooke_why {
   const char *cause;
-  char sentence[1024], method[32], left_out[240];
+  char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;
   int64_t blame_count, advice_count;
   struct hooke_why_blame blame[HOOKE_WHY_MOST_BLAME];
@@ -41,8 +44,13 @@ struct hooke_slip {
 struct hooke_excess {
   int32_t found, tries;
   int64_t pause; /* looks to let pass: between bound and limit nothing is gained by asking at every one */
-  double time, limit, *q;
-  int64_t particle; /* where the bound shows it */
+  double time, *q;
+  double limit,      /* NaN: only that it is */
+      at_most;       /* at most that; infinity: that is not known */
+  int64_t particle;  /* where the bound shows it */
+  double bound;      /* that the step was seen above first; NaN: it never was */
+  int32_t has_blame; /* of the motion that grows there */
+  struct hooke_blame blame;
 };
 
 struct hooke_inquiry {
@@ -50,21 +58,29 @@ struct hooke_inquiry {
   const hooke_system *system;
   struct hooke_why *why;
   struct hooke_patience patience;
+  double room, held;               /* [bytes] that may be taken, and those that are */
+  char no_time[200], no_room[200]; /* what was left out */
+  double pass;                     /* [s] that one pass over the springs for bounds takes, by estimate */
+  int32_t large;                   /* the spectrum is out of reach: what grows has to tell */
+  struct hooke_growing growing;
 
-  hooke_state *last;  /* the last one within all bounds */
+  hooke_state *last;  /* the last one within all bounds; NULL: the run's newest is */
   int64_t last_step;  /* steps before it */
+  int32_t cut;        /* the steps again were not all taken */
   int32_t reproduced; /* the steps again went wrong again */
   double bad_time;
-  int64_t bad_particle;  /* the one that moves fastest then */
-  int32_t sudden;        /* from a sensible size beyond all numbers within three steps */
+  int64_t bad_particle; /* the one that moves fastest then */
+  int32_t sudden;       /* from a sensible size beyond all numbers within three steps */
+  double
+      squares; /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
   double size, bad_size; /* largest position or velocity, before and after */
   struct hooke_slip slip;
   struct hooke_excess excess;
   int64_t flips,
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
-  int32_t bent;     /* the limiting mode has most of its force from bending or altitude springs */
-  char remedy[400]; /* what it would buy to change the scene; "" if nothing is known */
+  int32_t force;    /* that the limit hangs on: HOOKE_BLAME_*; -1: springs */
+  char remedy[640]; /* what it would buy to change the scene; "" if nothing is known */
 };
 
 /* Numbers up to this size (in SI units) are taken to be meant. */
@@ -74,9 +90,32 @@ struct hooke_inquiry {
  * of hooke_integrator_create(); HOOKE_STOPPED if a callback asked for it. */
 int32_t hooke_inquiry_replay(struct hooke_inquiry *inquiry);
 
-/* Looks whether the step is above the limit at `state`, if it was not before. */
+/* Looks whether the step is above the limit at positions q of the time t, if it was not before. */
 int32_t hooke_inquiry_consider(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks,
-                               const hooke_state *state);
+                               const double *q, double t);
+
+/* The same at the states that the run kept. */
+int32_t hooke_inquiry_survey(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks);
+
+/* The limit of `method` at q, if there is room and time for it; else the bound below it, and `known` is 0. */
+int32_t hooke_inquiry_limit(struct hooke_inquiry *inquiry, const double *q, const char *method,
+                            double accuracy, double *limit, int32_t *known);
+
+/* 1 if the model gains energy by itself: at much smaller steps, too. */
+int32_t hooke_inquiry_gains(struct hooke_inquiry *inquiry, int32_t *gains);
+
+/* Finds the springs and the force to blame for an excess, and a remedy. */
+int32_t hooke_inquiry_blame(struct hooke_inquiry *inquiry);
+void hooke_inquiry_blame_spring(struct hooke_inquiry *inquiry, int64_t spring, double share);
+
+/* The last state within all bounds. */
+const hooke_state *hooke_inquiry_last(const struct hooke_inquiry *inquiry);
+
+/* 1 if there is room for as many bytes more; if not, `what` is left out for that. */
+int32_t hooke_inquiry_has_room(struct hooke_inquiry *inquiry, double bytes, const char *what);
+
+/* Ends a part of which patience was lent; if that was spent, `what` is left out for want of time. */
+void hooke_inquiry_end_part(struct hooke_inquiry *inquiry, const char *what);
 
 /* Names cause, place and time. */
 int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry);

@@ -4,8 +4,6 @@
 #include "core/number.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "measure/limit_predict.h"
-#include "measure/step_bound.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,20 +37,21 @@ double hooke_handy_step(double step, double limit, double every, double duration
 
 /* ---- candidates ---- */
 
-/* The limit; the bound below it where the limit cannot be had. */
-static int32_t limit_at(const hooke_system *system, const double *q, const char *method, double *limit) {
-  const int32_t status = hooke_limit_predict(system, q, method, NULL, NULL, ACCURACY, limit);
-  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
-  return hooke_step_bound(system, method, q, limit);
-}
-
 /* The largest step known to be stable by `method`: at the start, and where it was found too large. */
-static int32_t stable_step(const struct hooke_plan *plan, const char *method, double *limit) {
-  const struct hooke_excess *excess = &plan->inquiry->excess;
+static int32_t stable_step(struct hooke_plan *plan, const char *method, double *limit) {
+  struct hooke_inquiry *inquiry = plan->inquiry;
+  const struct hooke_excess *excess = &inquiry->excess;
   double later = INFINITY;
-  int32_t status = limit_at(plan->inquiry->system, plan->first->q, method, limit);
+  int32_t known;
+  if (inquiry->large && !isnan(excess->bound) && strcmp(method, inquiry->run->method->name) == 0) {
+    *limit = excess->found && !(excess->at_most > 0.0) ? 0.0 : excess->bound;
+    return HOOKE_OK;
+  }
+  hooke_patience_lend(&inquiry->patience, 0.3);
+  int32_t status = hooke_inquiry_limit(inquiry, plan->first->q, method, ACCURACY, limit, &known);
   if (status == HOOKE_OK && excess->found)
-    status = limit_at(plan->inquiry->system, excess->q, method, &later);
+    status = hooke_inquiry_limit(inquiry, excess->q, method, ACCURACY, &later, &known);
+  hooke_inquiry_end_part(inquiry, "limits of steps");
   *limit = fmin(*limit, later);
   return status;
 }
@@ -69,7 +68,8 @@ static int32_t offer_step(struct hooke_plan *plan, const char *method, double li
   double step = hooke_handy_step(plan->step, most, plan->every, plan->duration);
   if (!(step > 0.0) || (!other && step == plan->step)) return HOOKE_OK;
   int32_t status = hooke_change_begin(&change, other ? "method" : "step");
-  const int too_long = !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
+  const int too_long =
+      plan->inquiry->squares > 0.0 || !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hooke_handy_step(NAN, most, NAN, NAN);
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
   if (status == HOOKE_OK && step != plan->step) status = hooke_options_set_number(change.run, "step", step);
@@ -101,10 +101,13 @@ static int32_t offer_smaller(struct hooke_plan *plan, double limit, const char *
 static int32_t offer_fixed(struct hooke_plan *plan, const char *method) {
   double limit = 0.0;
   int32_t taken;
-  const int32_t status = stable_step(plan, method, &limit);
+  int32_t status = stable_step(plan, method, &limit);
   if (status != HOOKE_OK) return status;
-  return offer_step(plan, method, MARGIN * limit,
-                    isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
+  plan->backed = plan->inquiry->excess.found;
+  status = offer_step(plan, method, MARGIN * limit,
+                      isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
+  plan->backed = 0;
+  return status;
 }
 
 /* To two digits, so that it reads well. */
@@ -176,7 +179,7 @@ static int32_t offer_shorter(struct hooke_plan *plan) {
   struct hooke_change change;
   int32_t taken;
   const double step = plan->step, begun = inquiry->run->t0;
-  double duration = isnan(step) ? *inquiry->last->t - begun : (double)inquiry->last_step * step;
+  double duration = isnan(step) ? *hooke_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
   if (inquiry->slip.found && inquiry->slip.time - begun < duration) {
     duration =
         isnan(step) ? inquiry->slip.time - begun : floor((inquiry->slip.time - begun) / step - 1.0) * step;
@@ -217,10 +220,15 @@ static int32_t offer_for_step(struct hooke_plan *plan) {
   const char *mine = plan->inquiry->run->method->name;
   double limit = 0.5 * plan->step;
   int32_t status = HOOKE_OK;
-  if (excess->found) status = stable_step(plan, mine, &limit);
+  const int above = excess->found || !isnan(excess->bound);
+  if (above) status = stable_step(plan, mine, &limit);
+  plan->backed = above;
   if (status == HOOKE_OK && limit > 0.0)
-    status =
-        offer_smaller(plan, (excess->found ? MARGIN : 1.0) * limit, excess->found ? ", below the limit" : "");
+    status = offer_smaller(plan, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
+  plan->backed = 0;
+  const int implicit =
+      plan->inquiry->force == HOOKE_BLAME_DRAG || plan->inquiry->force == HOOKE_BLAME_DAMPING;
+  if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(plan, "verlet");
   return status == HOOKE_OK ? offer_others(plan) : status;
 }
 
@@ -244,6 +252,22 @@ static int32_t offer_for_solver(struct hooke_plan *plan) {
   return status == HOOKE_OK ? offer_others(plan) : status;
 }
 
+/* No step cures it; damping does, and so may what a method damps. */
+static int32_t offer_for_gain(struct hooke_plan *plan) {
+  int32_t status = offer_shorter(plan);
+  if (status == HOOKE_OK) status = hooke_plan_try_damping(plan);
+  if (status == HOOKE_OK) status = offer_fixed(plan, "backward-euler");
+  return status == HOOKE_OK ? offer_adaptive(plan, "cvode-bdf", 1.0) : status;
+}
+
+/* As long as the squares of what moves have numbers. */
+static int32_t offer_for_squares(struct hooke_plan *plan) {
+  int32_t taken;
+  if (isnan(plan->step)) return HOOKE_OK;
+  return offer_step(plan, plan->inquiry->run->method->name, plan->inquiry->squares,
+                    ", by which nothing moves beyond numbers that have squares", &taken);
+}
+
 static int32_t offer_all(struct hooke_plan *plan) {
   const struct hooke_why *why = plan->inquiry->why;
   int32_t status;
@@ -255,6 +279,10 @@ static int32_t offer_all(struct hooke_plan *plan) {
     status = offer_for_solver(plan);
   else if (strcmp(why->cause, "never-stable") == 0)
     status = offer_others(plan);
+  else if (strcmp(why->cause, "model-gains-energy") == 0)
+    status = offer_for_gain(plan);
+  else if (strcmp(why->cause, "overflow") == 0 && plan->inquiry->squares > 0.0)
+    status = offer_for_squares(plan);
   else
     status = offer_for_step(plan);
   return status == HOOKE_OK && why->advice_count == 0 ? offer_shorter(plan) : status;
@@ -272,6 +300,12 @@ static void advise_scene(struct hooke_inquiry *inquiry) {
                 inquiry->slip.time);
   } else if (inquiry->remedy[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
+  } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
+             !isnan(why->particle) && why->blame_count == 0) {
+    snprintf(
+        advice->change, sizeof advice->change,
+        "look at the units of the scene: positions in m, velocities in m/s; no square of them may be beyond "
+        "1.8e308");
   } else if (strcmp(why->cause, "overflow") == 0) {
     snprintf(
         advice->change, sizeof advice->change,
@@ -290,6 +324,7 @@ int32_t hooke_inquiry_advise(struct hooke_inquiry *inquiry) {
   int32_t status = hooke_plan_begin(inquiry, &plan);
   if (status == HOOKE_OK && plan.duration > 0.0) status = offer_all(&plan);
   hooke_plan_release(&plan);
+  hooke_inquiry_end_part(inquiry, "what else to do");
   if (status == HOOKE_OK) advise_scene(inquiry);
   return status;
 }

@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "measure/limit.h"
 #include "measure/naming.h"
 
 #include <math.h>
@@ -31,28 +30,13 @@ static void say(struct hooke_inquiry *inquiry, const char *cause, const char *fo
   va_end(args);
 }
 
-static void blame_spring(struct hooke_inquiry *inquiry, int64_t spring, double share) {
-  struct hooke_why *why = inquiry->why;
-  if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
-  const struct hooke_spring found = hooke_naming_spring(inquiry->system, spring);
-  struct hooke_why_blame *blame = &why->blame[why->blame_count++];
-  *blame =
-      (struct hooke_why_blame){.spring = spring, .first = found.head, .second = found.tail, .share = share};
-  snprintf(blame->group, sizeof blame->group, "%s", hooke_naming_group(inquiry->system, spring));
-}
-
-/* ": spring 3 (particles 1 and 2) and 11 more". */
-static const char *blamed_words(const struct hooke_inquiry *inquiry, char text[HOOKE_NAMING_SIZE]) {
-  text[0] = '\0';
-  if (inquiry->why->blame_count > 0) hooke_naming_words(inquiry->system, inquiry->why->blame[0].spring, text);
-  return text;
-}
-
 /* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */
 static const char *show(const struct hooke_inquiry *inquiry, char text[160]) {
   const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
                                                                                   : inquiry->why->noticed;
-  if (inquiry->run->outcome == HOOKE_DIVERGED) {
+  if (inquiry->run->outcome == HOOKE_DIVERGED && inquiry->bad_particle < 0) {
+    hooke_print(text, 160, "it was noticed at t = %.6g s", t);
+  } else if (inquiry->run->outcome == HOOKE_DIVERGED) {
     hooke_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
                 (long long)inquiry->bad_particle,
                 isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
@@ -83,71 +67,42 @@ static void judge_slip(struct hooke_inquiry *inquiry) {
   }
 }
 
-/* The springs and the change of the scene that the limit hangs on, where the step was first seen above it. */
-static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
-  const hooke_integrator *run = inquiry->run;
-  hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
-  memcpy(state->q, inquiry->excess.q, (size_t)state->size * sizeof(double));
-  int32_t status = hooke_limit_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", run->method->name);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "predict", 1.0);
-  if (status == HOOKE_OK) status = hooke_limit_create(inquiry->system, run->options, options, &limit);
-  if (status == HOOKE_OK) status = hooke_limit_find(limit, state);
-  for (int64_t k = 0; status == HOOKE_OK && k < hooke_limit_blame_count(limit); k++)
-    blame_spring(inquiry, (int64_t)hooke_limit_blame_number(limit, k, "spring"),
-                 hooke_limit_blame_number(limit, k, "share"));
-  double bending = 0.0;
-  for (int64_t g = inquiry->system->group_count; status == HOOKE_OK && g < limit->blame.group_count; g++)
-    bending += limit->blame.group_share[g];
-  inquiry->bent = bending > 0.5;
-  if (status == HOOKE_OK && hooke_limit_remedy_text(limit, "kind"))
-    snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", hooke_limit_remedy_text(limit, "sentence"));
-  hooke_limit_destroy(limit);
-  hooke_options_destroy(options);
-  return status;
-}
-
-static int32_t find_blame(struct hooke_inquiry *inquiry) {
-  const struct hooke_excess *excess = &inquiry->excess;
-  hooke_state *state = NULL;
-  int32_t status = hooke_state_create_sized(inquiry->run->size, 1, &state);
-  if (status == HOOKE_OK) status = ask_limit(inquiry, state);
-  hooke_state_destroy(state);
-  if (status == HOOKE_NO_MEMORY) return status;
-  /* where no mode is to be had, the particle at which the bound showed it */
-  if (inquiry->why->blame_count == 0) {
-    blame_spring(inquiry,
-                 hooke_naming_heaviest(inquiry->system, excess->particle, inquiry->run->schedule.step), NAN);
-  }
-  return HOOKE_OK;
-}
-
-/* 1 if drag alone takes half of what the step allows, at the particle where the bound showed it. */
-static int is_drag(const struct hooke_inquiry *inquiry) {
-  const struct hooke_excess *excess = &inquiry->excess;
-  return excess->limit * inquiry->system->drag * inquiry->system->inverse_mass[excess->particle] > 1.0;
+/* What the limit hangs on. */
+static void name_blamed(const struct hooke_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
+  const struct hooke_why *why = inquiry->why;
+  const int64_t particle = inquiry->excess.particle;
+  char spring[HOOKE_NAMING_SIZE] = "no spring";
+  const int64_t first = inquiry->force >= 0;
+  if (first < why->blame_count) hooke_naming_words(inquiry->system, why->blame[first].spring, spring);
+  if (inquiry->force == HOOKE_BLAME_DRAG)
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "the drag of particle %lld", (long long)particle);
+  else if (inquiry->force >= HOOKE_BLAME_BENDING)
+    hooke_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
+  else
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s",
+             inquiry->force == HOOKE_BLAME_DAMPING ? "the damping of " : "", spring);
 }
 
 static int32_t judge_excess(struct hooke_inquiry *inquiry) {
   const struct hooke_excess *excess = &inquiry->excess;
   const char *method = inquiry->run->method->name;
-  char where[HOOKE_NAMING_SIZE], end[160];
+  char where[2 * HOOKE_NAMING_SIZE], end[160];
   inquiry->why->limit = excess->limit;
   inquiry->why->particle = (double)excess->particle;
-  const int32_t status = find_blame(inquiry);
-  if (is_drag(inquiry))
-    snprintf(where, sizeof where, "the drag of particle %lld", (long long)excess->particle);
-  else if (inquiry->bent)
-    hooke_naming_heaviest_words(inquiry->system, excess->particle, inquiry->run->schedule.step, where);
-  else
-    blamed_words(inquiry, where);
+  const int32_t status = hooke_inquiry_blame(inquiry);
+  name_blamed(inquiry, where);
   show(inquiry, end);
-  if (excess->limit == 0.0) {
+  if (excess->at_most == 0.0) {
+    inquiry->why->limit = 0.0;
     say(inquiry, "never-stable",
         "%s is stable at no step for this scene: motion without damping grows by it at any step, slowly at a "
         "small one; here, with steps of %.6g s, most of all in %s; %s",
         method, inquiry->why->step, where, end);
+  } else if (isnan(excess->limit)) {
+    say(inquiry, "step-above-limit",
+        "the step %.6g s is above the largest stable one of %s at t = %.6g s, which is between %.6g and %.6g "
+        "s, so motion grows in every step, most of all in %s; %s",
+        inquiry->why->step, method, excess->time, excess->bound, excess->at_most, where, end);
   } else {
     say(inquiry, "step-above-limit",
         "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s, so motion grows in "
@@ -207,7 +162,7 @@ static void judge_overflow(struct hooke_inquiry *inquiry) {
   double steepest;
   const int64_t spring = steepest_spring(system, &steepest), bent = steepest_bending(system, steepest);
   char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
-  if (bent < 0) blame_spring(inquiry, spring, NAN);
+  if (bent < 0) hooke_inquiry_blame_spring(inquiry, spring, NAN);
   if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step))
@@ -237,18 +192,63 @@ static void judge_overflow(struct hooke_inquiry *inquiry) {
 
 static void judge_collapse(struct hooke_inquiry *inquiry, int64_t spring, const char *what) {
   char where[HOOKE_NAMING_SIZE], end[160];
-  blame_spring(inquiry, spring, 1.0);
+  hooke_inquiry_blame_spring(inquiry, spring, 1.0);
   hooke_naming_words(inquiry->system, spring, where);
   say(inquiry, "collapsed-spring",
       "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
       where, what, show(inquiry, end));
 }
 
+/* ---- squares ---- */
+
+/* Lengths and speeds above this have no square: it is beyond all numbers. */
+static const double HAS_SQUARE = 1e154;
+
+/* The particle of a state with the largest number of those that have no square, and that number; -1 if all have. */
+static int64_t largest_unsquared(const hooke_system *system, const double *x, double *most) {
+  int64_t found = -1;
+  *most = HAS_SQUARE;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++) {
+    if (!(fabs(x[k]) > *most) || system->held[k / 3]) continue;
+    *most = fabs(x[k]);
+    found = k / 3;
+  }
+  return found;
+}
+
+/* 1 if a spring, or a motion from one step to the next, is too long for its square, or a speed too large. */
+static int32_t judge_squares(struct hooke_inquiry *inquiry, double t, const double *q, const double *v) {
+  const char *const words[] = {"is at a speed of", "is at a distance of"}, *const units[] = {"m/s", "m"};
+  const double *const x[] = {v, q};
+  for (int k = 0; k < 2; k++) {
+    double most;
+    const int64_t particle = x[k] ? largest_unsquared(inquiry->system, x[k], &most) : -1;
+    if (particle < 0) continue;
+    inquiry->why->particle = (double)particle;
+    inquiry->squares = k == 0 ? 1e-4 * HAS_SQUARE / most : 0.0;
+    say(inquiry, "overflow",
+        "particle %lld %s %.3g %s at t = %.6g s, and squares of numbers above 1.3e154 leave the range of "
+        "double precision",
+        (long long)particle, words[k], most, units[k], t);
+    return 1;
+  }
+  return 0;
+}
+
+/* At the start already; where it is not known, at the last state. */
+static int32_t judge_start(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  const hooke_state *known = run->recent.first ? run->recent.first : hooke_inquiry_last(inquiry);
+  if (run->recent.first == NULL && run->t0 == 0.0)
+    return judge_squares(inquiry, 0.0, inquiry->system->position, inquiry->system->velocity);
+  return judge_squares(inquiry, *known->t, known->q, known->v);
+}
+
 /* ---- solvers ---- */
 
 /* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
 static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *ratio) {
-  const hooke_state *state = inquiry->last;
+  const hooke_state *state = hooke_inquiry_last(inquiry);
   const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
   const struct hooke_springs *springs = &inquiry->system->springs;
   int64_t found = -1;
@@ -273,7 +273,7 @@ static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *rati
 }
 
 static int32_t is_beyond_numbers(const struct hooke_inquiry *inquiry, int32_t *beyond) {
-  const hooke_state *last = inquiry->last;
+  const hooke_state *last = hooke_inquiry_last(inquiry);
   const int64_t size = last->size;
   const double h = inquiry->run->method->adaptive ? 1.0 : inquiry->run->schedule.step;
   double *a = hooke_new(size, sizeof(double));
@@ -294,6 +294,7 @@ static int32_t judge_solver(struct hooke_inquiry *inquiry) {
   const int32_t status = is_beyond_numbers(inquiry, &beyond);
   if (status != HOOKE_OK) return status;
   const int64_t shortest = shortest_spring(inquiry, &ratio);
+  if (judge_start(inquiry)) return HOOKE_OK;
   if (beyond) {
     judge_overflow(inquiry);
   } else if (inquiry->run->outcome == HOOKE_SOLVER_FAILED && shortest >= 0 && ratio < COLLAPSED) {
@@ -322,8 +323,40 @@ static int grew_before(const struct hooke_inquiry *inquiry) {
   return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
 }
 
+static int32_t judge_gain(struct hooke_inquiry *inquiry) {
+  char end[160];
+  say(inquiry, "model-gains-energy",
+      "with %s steps it does, too, so it is no matter of the step %.6g s: the model gains energy by itself, "
+      "as "
+      "altitude springs do wherever another altitude of a tetrahedron comes to be the shortest, far from "
+      "rest; %s",
+      inquiry->run->method->adaptive ? "far tighter tolerances and smaller" : "16 times smaller",
+      inquiry->why->step, show(inquiry, end));
+  return HOOKE_OK;
+}
+
+/* There was no time or no room to look. */
+static void judge_unknown(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  char end[160];
+  show(inquiry, end);
+  if (isnan(excess->bound)) {
+    say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
+  } else {
+    say(inquiry, "unknown",
+        "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above "
+        "the "
+        "limit itself is not known; %s",
+        inquiry->why->step, excess->bound, inquiry->run->method->name, end);
+  }
+}
+
 static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   char end[160], what[120];
+  int32_t gains = 0;
+  if (judge_start(inquiry)) return HOOKE_OK;
+  const int32_t status = hooke_inquiry_gains(inquiry, &gains);
+  if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
   if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
   } else if (inquiry->excess.found) {
@@ -333,6 +366,11 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
     hooke_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
                 (long long)inquiry->flips, inquiry->flip_time);
     judge_collapse(inquiry, inquiry->flipped, what);
+  } else if (judge_squares(inquiry, *hooke_inquiry_last(inquiry)->t, hooke_inquiry_last(inquiry)->q,
+                           hooke_inquiry_last(inquiry)->v)) {
+    return HOOKE_OK;
+  } else if (inquiry->last == NULL || inquiry->cut) {
+    judge_unknown(inquiry);
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",
         "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
@@ -349,11 +387,27 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
+/* Adds to the sentence that springs began without a direction. */
+static void tell_coincident(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  char *text = inquiry->why->sentence;
+  const size_t used = strlen(text);
+  const double *q = run->recent.first ? run->recent.first->q
+                    : run->t0 == 0.0  ? inquiry->system->position
+                                      : NULL;
+  const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
+  if (count > 0)
+    hooke_print(text + used, sizeof inquiry->why->sentence - used,
+                "; %lld springs began with both ends at one place, without a direction", (long long)count);
+}
+
 int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry) {
-  inquiry->why->time = *inquiry->last->t;
-  if (inquiry->slip.found) {
+  inquiry->why->time = *hooke_inquiry_last(inquiry)->t;
+  int32_t status = HOOKE_OK;
+  if (inquiry->slip.found)
     judge_slip(inquiry);
-    return HOOKE_OK;
-  }
-  return inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  else
+    status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  tell_coincident(inquiry);
+  return status;
 }

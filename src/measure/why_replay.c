@@ -3,8 +3,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/limit_predict.h"
-#include "measure/step_bound.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,8 +13,7 @@ static const double MOST_LOOKS = 400;            /* looks at the step along it *
 static const double MOST_TURNS = 3e8;            /* springs times steps watched for turning round */
 static const int64_t MOST_INTERNAL_STEPS = 2000; /* of an error-controlled method */
 /* Of the last steps, where the trouble is, every third is looked at. */
-enum { MOST_TRIES = 12, BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
-static const double LIMIT_ACCURACY = 1e-4;
+enum { BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
 
 /* ---- callbacks under observation ---- */
 
@@ -103,31 +100,6 @@ static void spy_release(struct spy *spy) {
 
 /* ---- what a step shows ---- */
 
-int32_t hooke_inquiry_consider(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks,
-                               const hooke_state *state) {
-  struct hooke_excess *excess = &inquiry->excess;
-  const char *method = inquiry->run->method->name;
-  const double h = inquiry->run->schedule.step;
-  int64_t particle;
-  if (excess->found || excess->tries >= MOST_TRIES || !hooke_step_is_bounded(method)) return HOOKE_OK;
-  if (!hooke_all_finite(state->size, state->q)) return HOOKE_OK;
-  hooke_node_blocks_fill(blocks, state->q);
-  if (hooke_step_is_safe(blocks, method, h, &particle)) return HOOKE_OK;
-  if (excess->pause-- > 0) return HOOKE_OK;
-  excess->pause = excess->tries++;
-  double limit = 0.0;
-  const int32_t status =
-      hooke_limit_predict(inquiry->system, state->q, method, NULL, NULL, LIMIT_ACCURACY, &limit);
-  if (status == HOOKE_NO_MEMORY) return status;
-  if (status != HOOKE_OK || !(h > limit)) return HOOKE_OK; /* unknown is not above */
-  excess->found = 1;
-  excess->time = *state->t;
-  excess->limit = limit;
-  excess->particle = particle;
-  memcpy(excess->q, state->q, (size_t)state->size * sizeof(double));
-  return HOOKE_OK;
-}
-
 /* Springs that now point the other way than before: in between, their length went through zero. */
 static void watch_turns(struct hooke_inquiry *inquiry, const double *before, const hooke_state *state) {
   const struct hooke_springs *springs = &inquiry->system->springs;
@@ -204,9 +176,10 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   for (int k = 0; k <= BEFORE; k++)
     replay->size[k] = largest_of(state);
   for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
-    if (hooke_patience_ends(&inquiry->patience, "the last steps again")) return HOOKE_OK;
+    inquiry->cut = hooke_patience_ends(&inquiry->patience, "the last steps again");
+    if (inquiry->cut) return HOOKE_OK;
     if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
-      status = hooke_inquiry_consider(inquiry, &replay->blocks, state);
+      status = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (status != HOOKE_OK) return status;
     status = take_step(replay, state);
     if (status != HOOKE_OK) break;
@@ -217,7 +190,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   if (status == HOOKE_DIVERGED) {
     inquiry->excess.tries = 0;
     inquiry->excess.pause = 0;
-    const int32_t looked = hooke_inquiry_consider(inquiry, &replay->blocks, state);
+    const int32_t looked = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (looked != HOOKE_OK) return looked;
   }
   inquiry->reproduced = status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED;
@@ -250,16 +223,6 @@ static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) 
   return status;
 }
 
-/* Earlier states first, so that the time at which the step became too large is the earliest known. */
-static int32_t consider_recent(struct replay *replay) {
-  const struct hooke_recent *recent = &replay->inquiry->run->recent;
-  int32_t status = HOOKE_OK;
-  if (recent->first) status = hooke_inquiry_consider(replay->inquiry, &replay->blocks, recent->first);
-  for (int64_t k = recent->count - 1; k >= 0 && status == HOOKE_OK; k--)
-    status = hooke_inquiry_consider(replay->inquiry, &replay->blocks, hooke_recent_state(recent, k, NULL));
-  return status;
-}
-
 static int32_t replay_with(struct replay *replay, const hooke_system *observed) {
   struct hooke_inquiry *inquiry = replay->inquiry;
   const hooke_integrator *run = inquiry->run;
@@ -267,11 +230,13 @@ static int32_t replay_with(struct replay *replay, const hooke_system *observed) 
   int32_t status = hooke_integrator_create(observed, run->options, &replay->again);
   if (status != HOOKE_OK) return status;
   replay->again->thorough = 1;
-  status = hooke_node_blocks_create(inquiry->system, run->recent.state[0]->q, &replay->blocks);
+  status = hooke_node_blocks_begin(inquiry->system, &replay->blocks);
+  replay->blocks.patience = &inquiry->patience;
   replay->before = hooke_new(run->size, sizeof(double));
   if (status == HOOKE_OK && replay->before == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = start(replay, inquiry->last, &steps);
-  if (status == HOOKE_OK && replay->again->recent.step[0] > 0) status = consider_recent(replay);
+  if (status == HOOKE_OK && replay->again->recent.step[0] > 0)
+    status = hooke_inquiry_survey(inquiry, &replay->blocks);
   if (status == HOOKE_OK && run->outcome != HOOKE_STEP_LIMIT) status = walk(replay, inquiry->last, steps);
   hooke_recent_state(&replay->again->recent, 0, &inquiry->last_step);
   /* an error-controlled method that starts anew takes other steps */

@@ -84,7 +84,7 @@ static int32_t changed_options(const struct hooke_plan *plan, const struct hooke
 
 /* ---- trials ---- */
 
-struct trial {
+struct effort {
   const hooke_integrator *integrator;
   struct hooke_patience *patience;
   double size;
@@ -92,39 +92,60 @@ struct trial {
 };
 
 static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
-  struct trial *trial = ctx;
-  const struct hooke_counts *c = &trial->integrator->count;
+  struct effort *effort = ctx;
+  const struct hooke_counts *c = &effort->integrator->count;
   (void)step, (void)state;
-  trial->spent = trial->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
-                 hooke_patience_ends(trial->patience, "trying what to do");
-  return trial->spent;
+  effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
+                  hooke_patience_ends(effort->patience, "trying what to do");
+  return effort->spent;
 }
 
-/* Runs with `options` as far as the work allows; `reached` is how far, and `steps` how many it took. */
-static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, double *reached,
-                       int32_t *finished, int64_t *steps) {
-  hooke_integrator *integrator = NULL;
+/* What a run by a method holds at most [bytes]. */
+static double bytes_of_trial(const struct hooke_plan *plan, const char *method) {
+  static const struct {
+    const char *method;
+    double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
+  } heavy[] = {{"backward-euler", 300.0}, {"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
+  const hooke_integrator *run = plan->inquiry->run;
+  const double n = (double)plan->inquiry->system->particle_count;
+  /* the state, the motion, and the last states as far as 16 MB have them */
+  double numbers = 25.0;
+  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double));
+  for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
+    if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;
+  }
+  if (strcmp(method, run->method->name) == 0)
+    return (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double);
+  return numbers * n * sizeof(double) + recent;
+}
+
+/* Runs as far as the work allows. */
+static int32_t run_trial(struct hooke_plan *plan, hooke_integrator *integrator, struct hooke_trial *trial) {
   hooke_state *state = NULL;
-  *finished = 0;
-  *reached = -INFINITY;
+  struct effort effort = {.integrator = integrator, .patience = &plan->inquiry->patience, .size = plan->size};
+  const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
+  int32_t status = hooke_state_create_sized(plan->first->size, 1, &state);
+  if (status != HOOKE_OK) return status;
+  hooke_state_copy(plan->first, state);
+  hooke_integrator_on_step(integrator, stride, watch_work, &effort);
+  status = hooke_integrator_run(integrator, state);
+  trial->finished = status == HOOKE_OK;
+  trial->diverged = status == HOOKE_DIVERGED;
+  trial->steps = hooke_integrator_count(integrator, "steps");
+  if (trial->finished || effort.spent) trial->reached = *state->t;
+  hooke_state_destroy(state);
+  if (status == HOOKE_STOPPED && !effort.spent) return status;
+  return status > 0 || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
+}
+
+static int32_t try_run(struct hooke_plan *plan, const hooke_system *system, const hooke_options *options,
+                       struct hooke_trial *trial) {
+  hooke_integrator *integrator = NULL;
   plan->trials++;
-  int32_t status = hooke_integrator_create(plan->inquiry->system, options, &integrator);
+  int32_t status = hooke_integrator_create(system, options, &integrator);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_NOT_BUILT)
     return HOOKE_OK; /* it does not fit: not to be advised */
-  if (status == HOOKE_OK) status = hooke_state_create_sized(plan->first->size, 1, &state);
-  if (status == HOOKE_OK) status = hooke_state_copy(plan->first, state);
-  if (status == HOOKE_OK) {
-    struct trial trial = {.integrator = integrator, .patience = &plan->inquiry->patience, .size = plan->size};
-    const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
-    hooke_integrator_on_step(integrator, stride, watch_work, &trial);
-    status = hooke_integrator_run(integrator, state);
-    *finished = status == HOOKE_OK;
-    *steps = hooke_integrator_count(integrator, "steps");
-    if (*finished || trial.spent) *reached = *state->t;
-    if (status > 0 || status == HOOKE_SOLVER_FAILED)
-      status = trial.spent || status != HOOKE_STOPPED ? HOOKE_OK : status;
-  }
-  hooke_state_destroy(state);
+  if (status == HOOKE_OK) status = run_trial(plan, integrator, trial);
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -132,14 +153,38 @@ static int32_t try_run(struct hooke_plan *plan, const hooke_options *options, do
 /* Words for what the trial showed; 0 if it did not get past the trouble. */
 static int proves(const struct hooke_plan *plan, double reached, int32_t finished, char *text, size_t size) {
   const double noticed = plan->inquiry->why->noticed, begun = *plan->first->t;
+  if (!(finished && !plan->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
   if (plan->late)
     hooke_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
   else if (finished)
     snprintf(text, size, " (tried: it runs to its end)");
   else
     hooke_print(text, size, " (tried up to t = %.3g s: there it is well)", reached);
-  return (finished && !plan->late) || reached > noticed + 0.5 * (noticed - begun);
+  return 1;
 }
+
+/* 1 if there is time and room for a trial; if not, that is noted. */
+static int32_t can_try(const struct hooke_plan *plan, const hooke_options *options) {
+  struct hooke_inquiry *inquiry = plan->inquiry;
+  const double bytes = bytes_of_trial(plan, hooke_options_text(options, "method"));
+  if (hooke_patience_ends(&inquiry->patience, "trying what to do")) return 0;
+  return hooke_inquiry_has_room(inquiry, bytes, "trials of what to do");
+}
+
+int32_t hooke_plan_try(struct hooke_plan *plan, const hooke_system *system, const struct hooke_change *change,
+                       struct hooke_trial *trial) {
+  hooke_options *options = NULL;
+  *trial = (struct hooke_trial){.reached = -INFINITY};
+  int32_t status = changed_options(plan, change, &options);
+  trial->tried = status == HOOKE_OK && can_try(plan, options);
+  if (trial->tried) status = try_run(plan, system, options, trial);
+  if (trial->tried && status == HOOKE_OK)
+    proves(plan, trial->reached, trial->finished, trial->proof, sizeof trial->proof);
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* ---- advice ---- */
 
 static int same_changes(const hooke_options *a, const hooke_options *b) {
   for (int64_t k = 0; k < hooke_options_row_count(a); k++) {
@@ -175,31 +220,27 @@ void hooke_plan_take(struct hooke_plan *plan, struct hooke_change *change, const
 }
 
 int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken) {
-  hooke_options *options = NULL;
-  double reached = NAN;
-  int32_t finished = 0, status = HOOKE_OK;
-  int64_t steps = 0;
-  char proof[96];
+  const struct hooke_inquiry *inquiry = plan->inquiry;
+  int32_t status = HOOKE_OK;
   *taken = 0;
-  if (plan->inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change) &&
-      !hooke_patience_ends(&plan->inquiry->patience, "trying what to do")) {
-    status = changed_options(plan, change, &options);
-    if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, &steps);
-    *taken = status == HOOKE_OK && proves(plan, reached, finished, proof, sizeof proof);
-    if (*taken) hooke_plan_take(plan, change, proof);
+  if (inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
+    struct hooke_trial trial;
+    status = hooke_plan_try(plan, inquiry->system, change, &trial);
+    const int32_t cut = !trial.tried || inquiry->patience.spent;
+    if (!trial.proof[0] && plan->backed && cut) {
+      snprintf(trial.proof, sizeof trial.proof, " (not tried to its end, for want of %s)",
+               inquiry->patience.spent ? "time" : "memory");
+    }
+    *taken = status == HOOKE_OK && trial.proof[0];
+    if (*taken) hooke_plan_take(plan, change, trial.proof);
   }
-  hooke_options_destroy(options);
   hooke_change_drop(change);
   return status;
 }
 
 int32_t hooke_plan_count_steps(struct hooke_plan *plan, const struct hooke_change *change, int64_t *steps) {
-  hooke_options *options = NULL;
-  double reached = 0.0;
-  int32_t finished = 0;
-  int32_t status = changed_options(plan, change, &options);
-  if (status == HOOKE_OK) status = try_run(plan, options, &reached, &finished, steps);
-  if (!finished || plan->late) *steps = -1;
-  hooke_options_destroy(options);
+  struct hooke_trial trial;
+  const int32_t status = hooke_plan_try(plan, plan->inquiry->system, change, &trial);
+  *steps = trial.finished && !plan->late ? trial.steps : -1;
   return status;
 }

@@ -16,6 +16,7 @@ struct hooke_plan {
   double step, every, duration; /* of the run; NaN: free */
   double size;                  /* particles and springs: the work of an evaluation */
   int32_t trials;
+  int32_t backed; /* what is offered has a step below the limits that are known: it is advice untried, too */
 };
 
 /* HOOKE_NO_MEMORY, HOOKE_STOPPED; hooke_plan_release() has to follow. */
@@ -32,6 +33,21 @@ int32_t hooke_change_begin(struct hooke_change *change, const char *option);
 void hooke_change_say(struct hooke_change *change, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void hooke_change_drop(struct hooke_change *change);
+
+/* What a trial showed: how far it came, and what that proves, in words ("": nothing). */
+struct hooke_trial {
+  int32_t tried, finished, diverged;
+  int64_t steps;
+  double reached;
+  char proof[96];
+};
+
+/* Runs `system`, the plan's or one like it, with the change as far as the work allows, if there is time and room. */
+int32_t hooke_plan_try(struct hooke_plan *plan, const hooke_system *system, const struct hooke_change *change,
+                       struct hooke_trial *trial);
+
+/* Tries more and more damping of altitude springs, and makes what proves well the remedy. */
+int32_t hooke_plan_try_damping(struct hooke_plan *plan);
 
 /* Tries the change, and gives it as advice if it proves well; takes it over in any case. */
 int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken);

@@ -13,9 +13,10 @@ import fuzz
 import fuzz_hdf5
 import sanitizers
 import soak
+import want
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, want)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

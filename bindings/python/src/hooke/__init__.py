@@ -26,6 +26,7 @@ from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, Sol
 from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
+from .estimate import RunError
 from .first_order import FirstOrder
 from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
@@ -66,6 +67,7 @@ __all__ = [
     "Options",
     "Result",
     "Row",
+    "RunError",
     "Scene",
     "SolverFailed",
     "Springs",

@@ -33,6 +33,7 @@ TRAJECTORY = _handle("hooke_trajectory")
 COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
+ESTIMATE = _handle("hooke_estimate")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 VIEW = _handle("hooke_view")
@@ -200,6 +201,17 @@ PROTOTYPES = {
     "hooke_comparison_reference": (TEXT, COMPARISON),
     "hooke_comparison_frame_count": (INT64, COMPARISON),
     "hooke_comparison_series": (DOUBLES, COMPARISON, INT64, TEXT),
+    # estimate.h
+    "hooke_estimate_create": (STATUS, SYSTEM, DOUBLE, POINTER(ESTIMATE)),
+    "hooke_estimate_destroy": (None, ESTIMATE),
+    "hooke_estimate_on_progress": (None, ESTIMATE, PROGRESS, ADDRESS),
+    "hooke_estimate_pick": (STATUS, ESTIMATE, TEXT, OPTIONS),
+    "hooke_estimate_begin": (STATUS, ESTIMATE, INTEGRATOR, STATE),
+    "hooke_estimate_see": (INT32, INT64, STATE, ADDRESS),
+    "hooke_estimate_measure": (STATUS, ESTIMATE, INTEGRATOR, STATE),
+    "hooke_estimate_refine": (STATUS, ESTIMATE, OPTIONS),
+    "hooke_estimate_number": (DOUBLE, ESTIMATE, TEXT),
+    "hooke_estimate_text": (TEXT, ESTIMATE, TEXT),
     # study.h
     "hooke_study_options_create": (STATUS, POINTER(OPTIONS)),
     "hooke_study_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(STUDY)),

@@ -28,6 +28,7 @@ from ._progress import shown
 from ._prototypes import RECORD, TRAJECTORY
 from ._status import BadCall, BadValue, Error, Unsuited
 from ._types import FloatArray, Path, Table
+from .estimate import Estimate, Length, RunError
 from .first_order import FirstOrder
 from .integrator import Integrator, Observer
 from .options import Options
@@ -62,7 +63,7 @@ class Result:
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
     `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
     `stop_value` is what the callback that stopped the run returned, `output` the file that was written.
-    `integrator` is kept of a run that blew up, to be asked why.
+    `integrator` is kept of a run that blew up, to be asked why. `error` is how wrong the run is, where that was asked for.
     """
 
     status: str
@@ -77,6 +78,7 @@ class Result:
     frames: Frames | None = None
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
+    error: RunError | None = None
 
     @property
     def diagnosis(self) -> str:
@@ -108,6 +110,8 @@ def run(
     progress: Progress | bool | None = None,
     on_frame: Observer | None = None,
     on_step: tuple[int, Observer] | None = None,
+    want: Length | None = None,
+    estimate: bool = False,
     **options: Any,
 ) -> Result:
     """Runs a scene (or the path of one), a system or a first-order problem, and returns the `Result`.
@@ -119,25 +123,69 @@ def run(
     `hooke.resume`), ``frames=True`` keeps all frames in memory, `force` adds a force
     callback (see `System.set_force`), ``progress(fraction, state)`` is told at each frame, ``progress=True``
     shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
+
+    ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance so that no frame is off by more than this,
+    runs, measures the error, and takes a finer one if that is not met; a `method` that is given restricts the choice.
+    ``estimate=True`` has the error of a run estimated after it has run. The result's `error` then has it.
     """
     scene, problem, given = resolve(problem, force)
-    integrator = Integrator(problem, given, **options)
-    state = problem.state() if state is None else state
-    watchers: list[Observer] = []
-    if on_frame is not None:
-        watchers.append(on_frame)
-    recorder = _Recorder(integrator.frame_count, state) if frames else None
-    if recorder is not None:
-        watchers.append(recorder)
-    with shown(progress, fills=False) as tell:  # a run may end early
-        if tell is not None:
-            watchers.append(_Progress(tell, integrator.frame_count))
-        if output is None:
-            status = integrator.run(state, on_frame=_all(watchers), on_step=on_step)
-        else:
-            file = _create_file(os.fsencode(output), scene, integrator)
-            status = _run_to_file(os.fsencode(output), file, integrator.run, integrator, state, watchers, on_step)
-    return _result(status, integrator, state, output, recorder.frames() if recorder is not None else None)
+    wanted = (given.copy() if given is not None else Options.for_run()).set(**options)
+    once = _Once(problem, scene, output, frames, progress, on_frame, on_step)
+    if want is None and not estimate:
+        return once.run(wanted, problem.state() if state is None else state)
+    if not isinstance(problem, System) or state is not None:
+        raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
+    return _run_to_want(once, problem, wanted, options, want)
+
+
+@dataclass(frozen=True)
+class _Once:
+    """What stays the same from run to run."""
+
+    problem: System | FirstOrder
+    scene: Scene | None
+    output: Path | None
+    frames: bool
+    progress: Progress | bool | None
+    on_frame: Observer | None
+    on_step: tuple[int, Observer] | None
+
+    def run(self, options: Options, state: State, estimate: Estimate | None = None) -> Result:
+        integrator = Integrator(self.problem, options)
+        watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
+        recorder = _Recorder(integrator.frame_count, state) if self.frames else None
+        if recorder is not None:
+            watchers.append(recorder)
+        if estimate is not None:
+            estimate.begin(integrator, state)
+            watchers.append(estimate.see)
+        with shown(self.progress, fills=False) as tell:  # a run may end early
+            if tell is not None:
+                watchers.append(_Progress(tell, integrator.frame_count))
+            status = self._integrate(integrator, state, watchers)
+        result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
+        return result if estimate is None else replace(result, error=estimate.measure(integrator, state))
+
+    def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
+        if self.output is None:
+            return integrator.run(state, on_frame=_all(watchers), on_step=self.on_step)
+        path = os.fsencode(self.output)
+        file = _create_file(path, self.scene, integrator)
+        return _run_to_file(path, file, integrator.run, integrator, state, watchers, self.on_step)
+
+
+def _run_to_want(
+    once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
+) -> Result:
+    """Runs, with a wanted error until it is met or nothing finer is known to help."""
+    estimate = Estimate(system, want)
+    if want is not None:
+        estimate.pick(options, given)
+    while True:
+        result = once.run(options, system.state(), estimate)
+        met = result.error is None or result.error.met
+        if want is None or result.status != "finished" or met or not estimate.refine(options):
+            return result
 
 
 def resume(

@@ -271,6 +271,28 @@ HOOKE_API const double *hooke_comparison_series(const hooke_comparison *comparis
 }
 #endif
 #endif
+#ifndef HOOKE_ESTIMATE_H
+#define HOOKE_ESTIMATE_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_estimate hooke_estimate;
+HOOKE_API int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **estimate);
+HOOKE_API void hooke_estimate_destroy(hooke_estimate *estimate);
+HOOKE_API void hooke_estimate_on_progress(hooke_estimate *estimate, hooke_progress *progress, void *ctx);
+HOOKE_API int32_t hooke_estimate_pick(hooke_estimate *estimate, const char *method, hooke_options *run);
+HOOKE_API int32_t hooke_estimate_begin(hooke_estimate *estimate, const hooke_integrator *integrator,
+                                       const hooke_state *state);
+HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate);
+HOOKE_API int32_t hooke_estimate_measure(hooke_estimate *estimate, const hooke_integrator *integrator,
+                                         const hooke_state *state);
+HOOKE_API int32_t hooke_estimate_refine(hooke_estimate *estimate, hooke_options *run);
+HOOKE_API double hooke_estimate_number(const hooke_estimate *estimate, const char *what);
+HOOKE_API const char *hooke_estimate_text(const hooke_estimate *estimate, const char *what);
+#ifdef __cplusplus
+}
+#endif
+#endif
 #ifndef HOOKE_STUDY_H
 #define HOOKE_STUDY_H
 #ifdef __cplusplus

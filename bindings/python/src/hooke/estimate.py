@@ -1,0 +1,117 @@
+"""The error of a run: the one that is wanted, and the one it has."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from decimal import Decimal, InvalidOperation
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
+
+from ._callback import listening
+from ._library import lib
+from ._memory import Handle, text
+from ._prototypes import ESTIMATE
+from ._status import BadValue, Unsuited
+
+if TYPE_CHECKING:
+    from .integrator import Integrator
+    from .options import Options
+    from .state import State
+    from .system import System
+
+#: A length: a number [m], or text with a unit, such as "1mm".
+Length = Union[float, str]
+
+_METRES = {"": 0, "m": 0, "km": 3, "cm": -2, "mm": -3, "um": -6, "nm": -9}
+_CHOSEN = ("step", "rtol", "atol", "atol_velocity")
+
+
+class RunError(NamedTuple):
+    """How wrong a run is.
+
+    `estimate` is the root mean square error over free particles [m], NaN if it is not known: with a wanted error the
+    largest over frames, else that at the end. It was made between `known_from` and `known_until` [s]. `by` is "half-step",
+    "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m] and `met` whether it was
+    met, None if nobody can know or none was wanted. `energy_rise` is by how much energy rose by itself over the last half of
+    the run, as a share of what the scene has, NaN if that cannot be told. `note` says why an error is not known or not met.
+    """
+
+    estimate: float
+    known_from: float
+    known_until: float
+    by: str | None
+    wanted: float
+    met: bool | None
+    energy_rise: float
+    note: str
+
+
+def metres(length: Length, name: str) -> float:
+    """A length in metres; BadValue for a unit that there is not."""
+    if not isinstance(length, str):
+        return float(length)
+    word = length.strip()
+    number = word.rstrip("abcdfghijklmnopqrstuvwxyz").strip()
+    unit = word[len(number) :].strip()
+    try:
+        return float(Decimal(number).scaleb(_METRES[unit]))
+    except (KeyError, InvalidOperation):
+        units = ", ".join(unit for unit in _METRES if unit)
+        raise BadValue(f"{name}: {length!r} is not a length; a number [m] is, or one with a unit: {units}") from None
+
+
+def _number(handle: Handle, what: str) -> float:
+    return float(lib.hooke_estimate_number(handle, what.encode()))
+
+
+class Estimate:
+    """Wraps a `hooke_estimate`: what it picks, sees and measures of runs of one system."""
+
+    def __init__(self, system: System, want: Length | None, progress: Any = None):
+        made = ESTIMATE()
+        wanted = math.nan if want is None else metres(want, "want")
+        lib.hooke_estimate_create(system._committed(), wanted, ctypes.byref(made))
+        self._handle = Handle(made, lib.hooke_estimate_destroy, system._handle)
+        self._progress = progress
+
+    def pick(self, options: Options, given: dict[str, Any]) -> None:
+        """Sets a method and its step or tolerance for the wanted error; the method, if it is among those `given`."""
+        chosen = [name for name in _CHOSEN if given.get(name) is not None]
+        if chosen:
+            raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(chosen)}, or want")
+        method = given.get("method")
+        with listening(lib.hooke_estimate_on_progress, self._handle, self._progress):
+            lib.hooke_estimate_pick(self._handle, None if method is None else method.encode(), options._handle)
+
+    def begin(self, integrator: Integrator, state: State) -> None:
+        """Before a run of `integrator` from `state`."""
+        lib.hooke_estimate_begin(self._handle, integrator._handle, state._handle)
+
+    def see(self, step: int, state: State) -> None:
+        """An observer of its frames."""
+        lib.hooke_estimate_see(step, state._handle, self._handle.pointer)
+
+    def measure(self, integrator: Integrator, state: State) -> RunError:
+        """What it has come to."""
+        with listening(lib.hooke_estimate_on_progress, self._handle, self._progress):
+            lib.hooke_estimate_measure(self._handle, integrator._handle, state._handle)
+        by = lib.hooke_estimate_text(self._handle, b"by")
+        met = _number(self._handle, "met")
+        return RunError(
+            _number(self._handle, "estimate"),
+            _number(self._handle, "known_from"),
+            _number(self._handle, "known_until"),
+            text(by) if by else None,
+            _number(self._handle, "wanted"),
+            None if math.isnan(met) else met == 1.0,
+            _number(self._handle, "energy_rise"),
+            text(lib.hooke_estimate_text(self._handle, b"note")),
+        )
+
+    def refine(self, options: Options) -> bool:
+        """Sets something finer, if that is known to help."""
+        try:
+            lib.hooke_estimate_refine(self._handle, options._handle)
+        except Unsuited:
+            return False
+        return True

@@ -1,0 +1,111 @@
+#include "fit.h"
+
+#include "print.h"
+#include "report.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { MOST_PARTS = 10000 };
+static const double SHARE_OF_SAFE = 0.5, SHARE_OF_DURATION = 1e-3; /* of which a step is taken */
+static const double SHRINK = 0.9;     /* a step that is given may become as small as this share of it */
+static const double MOST_STEPS = 1e8; /* that a run may mean without anyone asking for them */
+
+struct fit {
+  const struct hooke_arguments *arguments;
+  hooke_options *options;
+  double step, every, duration; /* NaN: not given */
+};
+
+static int is_whole(double quotient) {
+  return round(quotient) >= 1.0 && fabs(quotient - round(quotient)) <= 1e-9 * quotient;
+}
+
+static int fits(const struct fit *fit, double step) {
+  return is_whole(fit->duration / step) && (isnan(fit->every) || is_whole(fit->every / step));
+}
+
+/* The largest step that fits and is at most `most`, down to `least`; NaN if there is none. */
+static double largest_that_fits(const struct fit *fit, double most, double least) {
+  const double shorter = isnan(fit->every) ? fit->duration : fmin(fit->every, fit->duration);
+  double parts = ceil(shorter / most * (1.0 - 1e-12));
+  for (int k = 0; k < MOST_PARTS; k++, parts++) {
+    const double step = shorter / fmax(1.0, parts);
+    if (step < least) break;
+    if (fits(fit, step)) return step;
+  }
+  return NAN;
+}
+
+static int set(struct fit *fit, const char *name, double *number, double value, const char *why) {
+  char text[HOOKE_NUMBER_SIZE];
+  const int32_t status = hooke_options_set_number(fit->options, name, value);
+  *number = value;
+  if (status != HOOKE_OK) return hooke_report_status(fit->arguments, status);
+  if (!fit->arguments->quiet)
+    hooke_report_words(fit->arguments, "%s is %s s: %s", name, hooke_format_number(value, text), why);
+  return HOOKE_EXIT_DONE;
+}
+
+/* ---- no step is given ---- */
+
+static int refuse(const struct fit *fit, const char *method, double safe) {
+  if (safe == 0.0)
+    return hooke_report(fit->arguments, HOOKE_EXIT_USAGE,
+                        "no step: %s is certain to be stable here at no step; give one with --step, or take "
+                        "another method",
+                        method);
+  return hooke_report(
+      fit->arguments, HOOKE_EXIT_USAGE,
+      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
+      "give one with --step, or take another method",
+      method, safe);
+}
+
+static int choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {
+  double safe = NAN;
+  const int32_t status = hooke_step_bound(system, method, q, &safe);
+  if (status != HOOKE_OK) return hooke_report_status(fit->arguments, status);
+  const int limited = !isnan(safe) && !isinf(safe);
+  double most = limited ? SHARE_OF_SAFE * safe : SHARE_OF_DURATION * fit->duration;
+  if (!(most > 0.0) || fit->duration / most > MOST_STEPS) return refuse(fit, method, safe);
+  if (fit->every < most) most = fit->every;
+  if (fit->duration < most) most = fit->duration;
+  double step = largest_that_fits(fit, most, 0.5 * most);
+  if (isnan(step)) step = fit->every / ceil(fit->every / most * (1.0 - 1e-12));
+  return set(fit, "step", &fit->step, step,
+             limited ? "the largest that fits, up to half of the safe one" : "a thousandth of the duration");
+}
+
+/* ---- one is given, and does not fit ---- */
+
+static int move_times(struct fit *fit) {
+  int code = HOOKE_EXIT_DONE;
+  const double every = fit->step * fmax(1.0, round(fit->every / fit->step));
+  const double duration = fit->step * fmax(1.0, round(fit->duration / fit->step));
+  if (!isnan(fit->every) && !is_whole(fit->every / fit->step))
+    code = set(fit, "every", &fit->every, every, "the nearest whole multiple of the step");
+  if (code == HOOKE_EXIT_DONE && !is_whole(fit->duration / fit->step))
+    code = set(fit, "duration", &fit->duration, duration, "the nearest whole multiple of the step");
+  return code;
+}
+
+int hooke_fit_run(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
+  const char *method = hooke_options_text(setup->options, "method");
+  struct fit fit = {.arguments = arguments,
+                    .options = setup->options,
+                    .step = hooke_options_number(setup->options, "step"),
+                    .every = hooke_options_number(setup->options, "every"),
+                    .duration = hooke_options_number(setup->options, "duration")};
+  if (hooke_arguments_text(arguments, "strict") || isnan(fit.duration)) return HOOKE_EXIT_DONE;
+  if (hooke_method_is_adaptive(method) != 0) return HOOKE_EXIT_DONE;
+  if (isnan(fit.step)) {
+    const int code = choose_step(&fit, setup->system, hooke_state_position(setup->state), method);
+    return code == HOOKE_EXIT_DONE ? move_times(&fit) : code;
+  }
+  if (fits(&fit, fit.step)) return HOOKE_EXIT_DONE;
+  const double smaller = largest_that_fits(&fit, fit.step, SHRINK * fit.step);
+  return isnan(smaller) ? move_times(&fit)
+                        : set(&fit, "step", &fit.step, smaller,
+                              "a little less, so that every and duration are whole multiples of it");
+}

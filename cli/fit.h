@@ -1,0 +1,12 @@
+/* A step that fits: for a fixed-step method, `every` and `duration` have to be whole multiples of it. */
+#ifndef HOOKE_CLI_FIT_H
+#define HOOKE_CLI_FIT_H
+
+#include "setup.h"
+
+/* Chooses the step where none is given, and has step, `every` and `duration` fit one another; each change is told in a line.
+ * With --strict nothing is chosen or changed, and with --want no step. A step that cannot be chosen is reported, with the
+ * reason. */
+int hooke_fit_run(const struct hooke_arguments *arguments, struct hooke_setup *setup);
+
+#endif

@@ -1,0 +1,102 @@
+"""hooke run --want and hooke study --want, and the error that a plain run says it has, held against ends by extrapolation in
+long double (tests/data/wants.json, made by tests/long/make_wants.py); `make test-long PART=want` asks more."""
+
+import math
+import shlex
+
+import pytest
+from wants import ENDS, WANTS, complaints, cost, estimate_complaints, is_of_the_end, study_complaints
+
+pytestmark = pytest.mark.everything
+
+SCENES = ["six-particles", "rope", "stiff-spring", "mesh", "cloth-damped", "cantilever", "cloth-gentle", "pendulum", "cable", "swung-rope"]
+STUDIED = ["six-particles", "rope", "pendulum", "cable", "swung-rope"]
+ASKED = ["1cm", "1mm"]
+DEARER = 4.0  # times the cheapest of a fine ladder of all methods that a pick may cost, in evaluations and solves
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("name", SCENES)
+def test_a_run_keeps_its_want(hooke, name, asked):
+    end = ENDS[name]
+    answer = hooke("run", end.scene, "--want", asked, "--json", "--final")
+    assert answer.code == 0, answer.err
+    value = answer.json
+    assert complaints(answer.code, value, True, end.error(value), WANTS[asked]) == []
+    assert value["want"]["wanted"] == WANTS[asked]
+    assert cost(value["method"], value["force_evaluations"]) <= DEARER * end.best(asked), value["method"]
+
+
+@pytest.mark.parametrize("name", STUDIED)
+def test_a_study_keeps_its_want(hooke, name):
+    end = ENDS[name]
+    for asked in ASKED:
+        answer = hooke("study", end.scene, "--want", asked, "--json", "--budget", "10s")
+        assert answer.code == 0, answer.err
+        value = answer.json
+        again = hooke(*shlex.split(value["recommendation"]["command"])[1:], "--json", "--final")
+        error = end.error(again.json) if again.code == 0 else math.nan
+        assert study_complaints(answer.code, value, again.code, error, WANTS[asked]) == []
+
+
+@pytest.mark.parametrize("name", [name for name, end in ENDS.items() if end.data["scene"].startswith("examples/")])
+def test_a_plain_run_says_its_error(hooke, name):
+    end = ENDS[name]
+    answer = hooke("run", end.scene, "--json", "--final")
+    assert answer.code == 0, answer.err
+    value = answer.json
+    assert {"estimate", "known_until", "by"} <= set(value["error"])
+    assert value["error"]["by"] in (None, "half-step", "tolerance", "reference", "slice")
+    assert estimate_complaints(value, end.error(value)) == []
+
+
+def test_most_plain_runs_know_their_error(hooke):
+    """An estimate that is left out is none. Where twice the step is unstable a slice is all that half the time buys."""
+    names = ["six-particles", "oscillator", "drag-or-damping", "mesh", "cloth-gentle"]
+    assert [name for name in names if not is_of_the_end(hooke("run", ENDS[name].scene, "--json").json)] == []
+
+
+# ---- the judge, on answers that are wrong ----
+
+
+def answer_of(met, estimate=2e-3, until=1.0, by="half-step"):
+    return {"time": 1.0, "want": {"wanted": 1e-3, "met": met}, "error": {"estimate": estimate, "known_until": until, "by": by}}
+
+
+@pytest.mark.parametrize(
+    ("code", "value", "known", "error", "count"),
+    [
+        (0, answer_of(True, 5e-4), True, 9e-4, 0),
+        (7, answer_of(False), True, 3e-3, 0),
+        (7, answer_of(None, None, None), False, math.nan, 0),
+        (0, answer_of(True, 9e-4), True, 1.1e-3, 1),  # misses it
+        (0, answer_of(True, 1e-4), True, 9e-4, 1),  # an estimate that is too small
+        (7, answer_of(False, 9e-3), True, 2e-3, 0),  # at a frame before the end
+        (7, answer_of(False, 1e-3, 0.5), True, 9e-3, 0),  # known until an earlier time alone
+        (0, answer_of(None, 9e-4), True, 9e-4, 1),  # exit code and key differ
+        (7, answer_of(True, 9e-4), True, 9e-4, 1),
+        (0, answer_of(True, 9e-4), False, 9e-4, 1),  # nobody can know
+        (4, answer_of(True), True, 9e-4, 1),
+        (0, {"time": 1.0}, True, 9e-4, 1),  # says nothing at all
+    ],
+)
+def test_the_judge(code, value, known, error, count):
+    assert len(complaints(code, value, known, error, 1e-3)) == count
+
+
+@pytest.mark.parametrize(
+    ("estimate", "until", "by", "count"),
+    [(1e-3, 1.0, "half-step", 0), (2.9e-3, 1.0, "half-step", 0), (3.1e-3, 1.0, "half-step", 1), (3e-4, 1.0, "half-step", 1),
+     (3e-4, 1.0, "slice", 0), (3e-4, 0.5, "tolerance", 0), (None, None, None, 0)],
+)  # fmt: skip
+def test_the_judge_of_estimates(estimate, until, by, count):
+    assert len(estimate_complaints(answer_of(None, estimate, until, by), 1e-3)) == count
+
+
+def test_the_judge_of_studies():
+    met, none = {"recommendation": {"met": True}}, {"recommendation": {"met": False}}
+    assert study_complaints(0, met, 0, 9e-4, 1e-3) == []
+    assert study_complaints(7, none, None, math.nan, 1e-3) == []
+    assert len(study_complaints(0, met, 0, 1.1e-3, 1e-3)) == 1
+    assert len(study_complaints(0, met, 4, math.nan, 1e-3)) == 1
+    assert len(study_complaints(0, none, None, math.nan, 1e-3)) == 1

@@ -1,0 +1,96 @@
+"""What is asked of a run that says how wrong it is, or that a wanted error is met: that it is true."""
+
+import json
+import math
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parents[1] / "data/wants.json"
+WANTS = {"1cm": 1e-2, "1mm": 1e-3, "10um": 1e-5}
+FACTOR = 3.0  # by which an estimate may be off
+FLOOR = 1e-12  # [m] below which errors are rounding
+WITHIN = 0.1  # of a want: how well the solution has to be known for a claim
+IMPLICIT = ("backward-euler", "cvode-bdf")
+SOLVE = 50  # evaluations of forces that a solve counts for: 20 to 80 in scenes as small as these
+
+
+def cost(method, evaluations):
+    """In evaluations of forces; implicit methods solve after each."""
+    return evaluations * (1 + SOLVE * (method in IMPLICIT))
+
+
+def distance(free, a, b):
+    """Root mean square over the free particles of how far they are apart [m]; 3n numbers each."""
+    return math.sqrt(sum((a[3 * p + k] - b[3 * p + k]) ** 2 for p in free for k in range(3)) / len(free))
+
+
+def at_end(time, end):
+    """Steps do not add up to the last digit."""
+    return abs(time - end) <= 1e-9 * end
+
+
+class End:
+    """Where the particles of a scene are at its end, from tests/data/wants.json."""
+
+    def __init__(self, data):
+        self.data = data
+        self.scene = Path(__file__).resolve().parents[2] / data["scene"]
+
+    def error(self, value):
+        """Of a run with --final."""
+        assert at_end(value["time"], self.data["time"])
+        found = [x for row in value["final"]["position"] for x in row]
+        return distance(self.data["free"], found, self.data["position"])
+
+
+    def best(self, asked):
+        """What the want costs at best."""
+        return min(cost(method, evaluations) for method, evaluations in self.data["best"][asked].items())
+
+
+ENDS = {Path(one["scene"]).stem: End(one) for one in json.loads(DATA.read_text())}
+
+
+def complaints(code, value, known, error, want):
+    """Of a run with a want [m], whose error at the end is `error` where that is `known`."""
+    if code not in (0, 7):
+        return [f"exit {code}"]
+    met, found = value.get("want", {}).get("met"), []
+    if (code == 0) != (met is True):
+        found.append(f"exit {code} with met {met}")
+    if code == 0 and known and not error <= want:
+        found.append(f"claims {want} m, but is off by {error:.3g} m")
+    if code == 0 and not known:
+        found.append("claims what nobody can know")
+    return found + estimate_complaints(value, error if known else math.nan, largest=True)
+
+
+def is_of_the_end(value):
+    """Whether the estimate is of the error from the start to the end, and not of a slice or of an earlier time."""
+    estimate, until, by = (value.get("error", {}).get(key) for key in ("estimate", "known_until", "by"))
+    return estimate is not None and by != "slice" and at_end(until, value["time"])
+
+
+def estimate_complaints(value, error, largest=False):
+    """An estimate of the error at the end is right within the factor; with `largest` it is of the largest error at a frame, which
+    is not smaller."""
+    if not is_of_the_end(value) or math.isnan(error):
+        return []
+    estimate = value["error"]["estimate"]
+    if max(estimate, error) <= FLOOR or (error <= FACTOR * estimate and (largest or estimate <= FACTOR * error)):
+        return []
+    return [f"is estimated as {estimate:.3g} m by {value['error']['by']}, but is {error:.3g} m"]
+
+
+def study_complaints(code, value, again, error, want, known=True):
+    """Of a study with a want, whose recommended run, done again, ended with the code `again` and is off by `error`, where that
+    is `known`."""
+    met = value["recommendation"]["met"]
+    found = [] if (code == 0) == (met is True) and code in (0, 7) else [f"exit {code} with met {met}"]
+    if met and again != 0:
+        found.append(f"the recommended run ends with exit {again}")
+    if met and again == 0 and not known:
+        found.append("recommends what nobody can know")
+    elif met and again == 0 and not error <= want:
+        found.append(f"recommends for {want} m what is off by {error:.3g} m")
+    return found
+

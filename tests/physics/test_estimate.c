@@ -1,0 +1,179 @@
+/* What a run is said to be off by is what it is off by; what is picked for a wanted error keeps to it; and what grows by
+ * itself is seen to. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double OMEGA = 6.0, DURATION = 2.0, EVERY = 0.02;
+
+/* The estimate of a run, for the caller to destroy; `state` receives its end. */
+static hooke_estimate *estimated_run(const hooke_system *system, const hooke_options *options, double want,
+                                     hooke_estimate *estimate, hooke_state **state) {
+  hooke_integrator *integrator;
+  if (!estimate) check_ok(hooke_estimate_create(system, want, &estimate));
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  *state = start_state(system);
+  check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
+  check_ok(hooke_estimate_begin(estimate, integrator, *state));
+  check_ok(hooke_integrator_run(integrator, *state));
+  check_ok(hooke_estimate_measure(estimate, integrator, *state));
+  hooke_integrator_destroy(integrator);
+  return estimate;
+}
+
+/* Of the oscillator, whose motion is known. */
+static double true_error(const hooke_state *state) {
+  const double *q = hooke_state_position(state) + 3, t = hooke_state_time(state);
+  const double x = cos(OMEGA * t), y = 0.5 * sin(OMEGA * t) / OMEGA;
+  return hypot(q[0] - x, q[1] - y);
+}
+
+static void check_estimate(const hooke_system *system, const char *method, int64_t *known) {
+  hooke_state *state;
+  hooke_options *options =
+      run_options((struct run){.method = method, .step = 2.5e-3, .duration = DURATION, .every = EVERY});
+  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
+  const double found = hooke_estimate_number(estimate, "estimate"), truly = true_error(state);
+  if (!isnan(found) && strcmp(hooke_estimate_text(estimate, "by"), "slice") != 0) {
+    ++*known;
+    if (!(found > truly / 3.0 && found < 3.0 * truly))
+      check_failed("%s is said to be off by %.3g m, and is by %.3g m", method, found, truly);
+    check_close(hooke_estimate_number(estimate, "known_until"), DURATION, 0.0);
+    check_close(hooke_estimate_number(estimate, "known_from"), 0.0, 0.0);
+  }
+  assert_true(isnan(hooke_estimate_number(estimate, "met")));
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+}
+
+static void test_estimates_are_within_a_factor_of_three(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  int64_t known = 0, methods = 0;
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!hooke_method_is_built(method)) continue;
+    methods += hooke_method_is_adaptive(method) == 0;
+    check_estimate(system, method, &known);
+  }
+  if (known < methods - 1) check_failed("%d estimates for %d methods", (int)known, (int)methods);
+  hooke_system_destroy(system);
+}
+
+static void test_a_coarse_run_is_judged_in_a_last_piece(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  hooke_state *state;
+  hooke_options *options =
+      run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 20.0, .every = 0.2});
+  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
+  assert_string_equal(hooke_estimate_text(estimate, "by"), "slice");
+  assert_true(hooke_estimate_number(estimate, "known_from") >= 19.0);
+  assert_true(hooke_estimate_number(estimate, "estimate") > 0.0);
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+static double rise_of(const hooke_system *system, const char *method, double step) {
+  hooke_state *state;
+  hooke_options *options =
+      run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
+  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
+  const double rise = hooke_estimate_number(estimate, "energy_rise");
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  return rise;
+}
+
+/* By forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
+static void test_energy_that_grows_by_itself_is_seen(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  const double step = 1e-3, rate = OMEGA * OMEGA * step;
+  const double expected = exp(rate * DURATION) - exp(0.5 * rate * DURATION);
+  const double found = rise_of(system, "forward-euler", step);
+  if (!(found > 0.9 * expected && found < 1.1 * expected))
+    check_failed("a rise of %.4g of the energy, not of %.4g", found, expected);
+  check_close(rise_of(system, "symplectic-euler", 1e-2), 0.0, 0.0);
+  check_close(rise_of(system, "backward-euler", 1e-2), 0.0, 0.0);
+  hooke_system_destroy(system);
+}
+
+static void check_want(const hooke_system *system, const char *method, double want) {
+  hooke_state *state;
+  hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
+  hooke_estimate *estimate;
+  check_ok(hooke_estimate_create(system, want, &estimate));
+  const int32_t status = hooke_estimate_pick(estimate, method, options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_estimate_destroy(estimate);
+    hooke_options_destroy(options);
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  if (method) assert_string_equal(hooke_options_text(options, "method"), method);
+  estimated_run(system, options, want, estimate, &state);
+  const double truly = true_error(state), found = hooke_estimate_number(estimate, "estimate");
+  if (hooke_estimate_number(estimate, "met") != 1.0 ||
+      !(truly <= want && found <= want && found >= 0.8 * truly))
+    check_failed("%s for %g m: met %g, said to be off by %.3g m, and is by %.3g m",
+                 hooke_options_text(options, "method"), want, hooke_estimate_number(estimate, "met"), found,
+                 truly);
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+}
+
+static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  static const double wants[] = {0.1, 1e-3, 1e-6};
+  for (int k = 0; k < 3; k++)
+    check_want(system, NULL, wants[k]);
+  check_want(system, "verlet", 1e-4);
+  check_want(system, "cvode-adams", 1e-4);
+  hooke_system_destroy(system);
+}
+
+static void test_what_cannot_be_asked_for(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  hooke_estimate *estimate = NULL;
+  hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
+  hooke_state *state = start_state(system);
+  check_status(hooke_estimate_create(system, -1.0, &estimate), HOOKE_BAD_VALUE);
+  check_status(hooke_estimate_create(system, INFINITY, &estimate), HOOKE_BAD_VALUE);
+  check_ok(hooke_estimate_create(system, NAN, &estimate));
+  check_status(hooke_estimate_pick(estimate, NULL, options), HOOKE_BAD_CALL);
+  check_status(hooke_estimate_refine(estimate, options), HOOKE_UNSUITED);
+  assert_true(isnan(hooke_estimate_number(estimate, "estimate")));
+  assert_true(hooke_estimate_text(estimate, "by") == NULL);
+  hooke_estimate_destroy(estimate);
+  /* stable at no step without damping */
+  check_ok(hooke_estimate_create(system, 1e-3, &estimate));
+  const int32_t status = hooke_estimate_pick(estimate, "forward-euler", options);
+  assert_true(status == HOOKE_UNSUITED || status == HOOKE_NOT_BUILT);
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_estimates_are_within_a_factor_of_three),
+      cmocka_unit_test(test_a_coarse_run_is_judged_in_a_last_piece),
+      cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
+      cmocka_unit_test(test_what_is_picked_keeps_to_the_wanted_error),
+      cmocka_unit_test(test_what_cannot_be_asked_for),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
