@@ -93,10 +93,16 @@ def test_the_judge_of_estimates(estimate, until, by, count):
     assert len(estimate_complaints(answer_of(None, estimate, until, by), 1e-3)) == count
 
 
+def study_of(met, until=1.0):
+    return {"duration": 1.0, "reference": {"trusted_until": until}, "recommendation": {"met": met}}
+
+
 def test_the_judge_of_studies():
-    met, none = {"recommendation": {"met": True}}, {"recommendation": {"met": False}}
+    met, none = study_of(True), study_of(False)
     assert study_complaints(0, met, 0, 9e-4, 1e-3) == []
     assert study_complaints(7, none, None, math.nan, 1e-3) == []
+    assert study_complaints(0, study_of(True, 0.5), 0, 9e-3, 1e-3) == []  # known until an earlier time alone
     assert len(study_complaints(0, met, 0, 1.1e-3, 1e-3)) == 1
+    assert len(study_complaints(0, met, 0, 9e-4, 1e-3, known=False)) == 1
     assert len(study_complaints(0, met, 4, math.nan, 1e-3)) == 1
     assert len(study_complaints(0, none, None, math.nan, 1e-3)) == 1

@@ -46,7 +46,7 @@ PART = Part(
                       f"cmake --build {BUILD}", 240),
         hold("small example scenes", " ".join(f"examples/scenes/{name}.json" for name in SMALL), 300),
         hold("twenty random scenes", "random:20", 120),
-        hold("large example scenes", " ".join(f"examples/scenes/{name}.json" for name in LARGE), 1800),
+        hold("large example scenes", " ".join(f"examples/scenes/{name}.json" for name in LARGE), 5000),
         hold("the cloth of the README", "cloth.md", 600),
     ],
     rows,
