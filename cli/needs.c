@@ -124,8 +124,10 @@ const struct hooke_verb hooke_verb_needs = {
         "Leaves out one ingredient after another (spring groups and families, damping, drag, gravity, idle "
         "springs, what touches nothing, resistance to compression, half the resolution), runs each variant "
         "with errors of the time step a tenth of --want, and prints by how much the watched positions "
-        "change and what it saves. Then leaves out together what is not needed and checks the lean scene "
-        "against the full one. Ctrl-C prints what is known so far.",
+        "change and what it saves. Then leaves out together what is not needed, checks the lean scene "
+        "against "
+        "the full one, and compares what each takes at its cheapest within --want. Ctrl-C prints what is "
+        "known so far.",
     .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = hooke_needs_options_create,

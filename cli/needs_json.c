@@ -12,7 +12,26 @@ static void print_full(struct hooke_json *json, const hooke_needs *needs) {
   for (int k = 0; k < COSTS; k++)
     hooke_json_number(json, cost_numbers[k], hooke_needs_figure(needs, cost_numbers[k]));
   hooke_json_number(json, "step_error", hooke_needs_figure(needs, "step_error"));
+  hooke_json_number(json, "own_error", hooke_needs_figure(needs, "own_error"));
+  hooke_json_number(json, "moved", hooke_needs_figure(needs, "moved"));
   hooke_json_close(json);
+}
+
+static void print_warnings(struct hooke_json *json, const hooke_needs *needs) {
+  char text[HOOKE_NEEDS_TRUST];
+  const char *note = hooke_needs_word(needs, "note");
+  hooke_json_open(json, "warnings", '[');
+  if (hooke_needs_results_trust(needs, text)) hooke_json_text(json, NULL, text);
+  if (note[0]) hooke_json_text(json, NULL, note);
+  hooke_json_close(json);
+}
+
+/* null where it cannot be told */
+static void print_needed(struct hooke_json *json, double needed) {
+  if (isnan(needed))
+    hooke_json_text(json, "needed", NULL);
+  else
+    hooke_json_flag(json, "needed", needed == 1.0);
 }
 
 static void print_rows(struct hooke_json *json, const hooke_needs *needs) {
@@ -24,10 +43,20 @@ static void print_rows(struct hooke_json *json, const hooke_needs *needs) {
     hooke_json_number(json, "error", hooke_needs_number(needs, row, "error"));
     for (int k = 0; k < COSTS; k++)
       hooke_json_number(json, cost_numbers[k], hooke_needs_number(needs, row, cost_numbers[k]));
-    hooke_json_flag(json, "needed", hooke_needs_number(needs, row, "needed") == 1.0);
+    print_needed(json, hooke_needs_number(needs, row, "needed"));
     hooke_json_text(json, "note", hooke_needs_text(needs, row, "note"));
     hooke_json_close(json);
   }
+  hooke_json_close(json);
+}
+
+/* The full scene's own cheapest run within the want. */
+static void print_cheapest(struct hooke_json *json, const hooke_needs *needs) {
+  static const char *const numbers[] = {"cheapest_error", "cheapest_wall_seconds",      "cheapest_step",
+                                        "cheapest_rtol",  "cheapest_force_evaluations", "cheapest_steps"};
+  hooke_json_open(json, "full", '{');
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    hooke_json_number(json, numbers[k] + sizeof "cheapest_" - 1, hooke_needs_figure(needs, numbers[k]));
   hooke_json_close(json);
 }
 
@@ -51,6 +80,11 @@ static void print_lean(struct hooke_json *json, const struct hooke_needs_results
   hooke_json_number(json, "error", hooke_needs_figure(needs, "lean_error"));
   for (int k = 0; k < COSTS; k++)
     hooke_json_number(json, numbers[k] + sizeof "lean_" - 1, hooke_needs_figure(needs, numbers[k]));
+  print_cheapest(json, needs);
+  hooke_json_number(json, "times_less", hooke_needs_figure(needs, "times_less"));
+  hooke_json_text(json, "other_method", hooke_needs_word(needs, "other_method"));
+  hooke_json_number(json, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
+  hooke_json_text(json, "note", hooke_needs_word(needs, "lean_note"));
   hooke_json_text(json, "command", results->command);
   hooke_json_close(json);
 }
@@ -91,6 +125,7 @@ void hooke_needs_results_print_json(const struct hooke_needs_results *results) {
   hooke_json_text(&json, "method", hooke_needs_word(needs, "method"));
   hooke_json_number(&json, "duration", hooke_needs_figure(needs, "duration"));
   hooke_json_number(&json, "judged_until", hooke_needs_figure(needs, "judged_until"));
+  print_warnings(&json, needs);
   print_full(&json, needs);
   if (results->refine) {
     print_parts(&json, needs);

@@ -14,6 +14,9 @@ struct hooke_needs_results {
   char *command;       /* that runs it; NULL: none */
 };
 
+enum { HOOKE_NEEDS_TRUST = 256 };
+/* Says until when it holds; 0: to the end, and there is nothing to say. */
+int32_t hooke_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]);
 void hooke_needs_results_print(const struct hooke_needs_results *results);
 void hooke_needs_results_print_json(const struct hooke_needs_results *results);
 

@@ -47,8 +47,9 @@ static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
   print_costs(hooke_needs_number(needs, row, "force_evaluations"),
               nanoseconds(wall, hooke_needs_number(needs, row, "steps")), wall,
               hooke_needs_number(needs, row, "step_limit"));
-  printf("  %s%s%s\n", hooke_needs_number(needs, row, "needed") == 1.0 ? "needed" : "-", note[0] ? "; " : "",
-         note);
+  const double needed = hooke_needs_number(needs, row, "needed");
+  const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
+  printf("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
 }
 
 static void print_table(const hooke_needs *needs) {
@@ -70,6 +71,35 @@ static void print_table(const hooke_needs *needs) {
 
 /* ---- the lean scene ---- */
 
+static int32_t has_unknown(const hooke_needs *needs) {
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    if (isnan(hooke_needs_number(needs, row, "needed"))) return 1;
+  }
+  return 0;
+}
+
+/* Both within the want, each at its cheapest. */
+static void print_saving(const hooke_needs *needs) {
+  const double less = hooke_needs_figure(needs, "times_less");
+  const char *other = hooke_needs_word(needs, "other_method");
+  char text[512], ratio[64], cheaper[160] = "";
+  snprintf(ratio, sizeof ratio, less >= 1.0 ? "%.1f times less" : "%.1f times more",
+           less >= 1.0 ? less : 1.0 / less);
+  if (other)
+    snprintf(cheaper, sizeof cheaper, "; %s would bring the full scene there in %.3g s", other,
+             hooke_needs_figure(needs, "other_seconds"));
+  snprintf(text, sizeof text,
+           "left out together: error at most %.3g m, %.0f springs instead of %.0f; wall time %.3g s by %s, "
+           "where the "
+           "full scene takes %.3g s to be within the want (%s)%s",
+           hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_springs"),
+           hooke_needs_figure(needs, "springs"), hooke_needs_figure(needs, "lean_wall_seconds"),
+           hooke_needs_word(needs, "method"), hooke_needs_figure(needs, "cheapest_wall_seconds"), ratio,
+           cheaper);
+  printf("%-*s", LABEL, "");
+  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+}
+
 static void print_lean(const struct hooke_needs_results *results) {
   const hooke_needs *needs = results->needs;
   if (!hooke_needs_lean(needs)) return;
@@ -81,16 +111,16 @@ static void print_lean(const struct hooke_needs_results *results) {
     left_out++;
   }
   if (!left_out) {
-    printf("\n%-*sall that would save something is needed: there is nothing to leave out\n", LABEL, "lean");
+    printf("\n%-*s%s\n", LABEL, "lean",
+           has_unknown(needs) ? "nothing is left out: it cannot be told what is not needed"
+                              : "all that would save something is needed: there is nothing to leave out");
     return;
   }
-  printf("%-*sleft out together: error %.3g m, wall time %.3g s instead of %.3g s (%.1f times less), %.0f "
-         "springs "
-         "instead of %.0f\n",
-         LABEL, "", hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_wall_seconds"),
-         hooke_needs_figure(needs, "wall_seconds"),
-         hooke_needs_figure(needs, "wall_seconds") / hooke_needs_figure(needs, "lean_wall_seconds"),
-         hooke_needs_figure(needs, "lean_springs"), hooke_needs_figure(needs, "springs"));
+  print_saving(needs);
+  if (hooke_needs_word(needs, "lean_note")[0]) {
+    printf("%-*s", LABEL, "");
+    hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_needs_word(needs, "lean_note"));
+  }
   printf("%-*s", LABEL, "");
   if (results->command)
     hooke_print_text(stdout, results->command);
@@ -137,18 +167,28 @@ static void print_parts(const hooke_needs *needs) {
   }
 }
 
-static void print_trust(const hooke_needs *needs) {
+int32_t hooke_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]) {
   const double until = hooke_needs_figure(needs, "judged_until");
-  if (until >= hooke_needs_figure(needs, "duration") * (1.0 - 1e-9)) return;
-  char text[256];
+  if (until >= hooke_needs_figure(needs, "duration") * (1.0 - 1e-9)) return 0;
   snprintf(
-      text, sizeof text,
+      text, HOOKE_NEEDS_TRUST,
       "after %g s small differences grow so fast that no time step keeps its error below a tenth of what is "
       "wanted: changes are those up to %g s of %g s",
       until, until, hooke_needs_figure(needs, "duration"));
+  return 1;
+}
+
+static void print_warning(const char *text) {
   printf("%-*s", LABEL, "WARNING");
   hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
   printf("\n");
+}
+
+static void print_warnings(const hooke_needs *needs) {
+  char text[HOOKE_NEEDS_TRUST];
+  const char *note = hooke_needs_word(needs, "note");
+  if (hooke_needs_results_trust(needs, text)) print_warning(text);
+  if (note[0]) print_warning(note);
 }
 
 void hooke_needs_results_print(const struct hooke_needs_results *results) {
@@ -164,7 +204,7 @@ void hooke_needs_results_print(const struct hooke_needs_results *results) {
     return;
   }
   printf("; the time step puts the full scene off by at most %.2g m\n\n", step_error);
-  print_trust(needs);
+  print_warnings(needs);
   if (results->refine) {
     print_parts(needs);
     return;

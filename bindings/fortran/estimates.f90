@@ -68,8 +68,10 @@ contains
     class(hooke_options), intent(inout) :: run
     character(*), intent(in), optional :: method
     integer, intent(out), optional :: status
+    character(:), allocatable :: c_method
     if (self%is_missing(status)) return
-    call accept(c_estimate_pick(self%address(), to_c_if(method), run%address()), status)
+    call to_c_if(method, c_method)
+    call accept(c_estimate_pick(self%address(), c_method, run%address()), status)
   end subroutine
 
   ! Before a run of `integrator` from `state`.

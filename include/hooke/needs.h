@@ -37,7 +37,9 @@ HOOKE_API void hooke_needs_destroy(hooke_needs *needs);
 HOOKE_API void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx);
 
 /* Fills the table, then leaves out together what is not needed and saves work, the smallest change first, as long as a run
- * with the largest step that allows it stays within what is wanted, all errors together; once. HOOKE_STOPPED keeps what is
+ * with the largest step that allows it stays within what is wanted, all errors together; single springs of a part only
+ * where that halves the work. Where the watched particles move by less than a thousandth of what is wanted, nothing can be
+ * told, and nothing is left out. Once. HOOKE_STOPPED keeps what is
  * known so far; HOOKE_BAD_VALUE if no step that could be tried holds the full system to a tenth of what is wanted; the
  * failures of hooke_integrator_run(). */
 HOOKE_API int32_t hooke_needs_find(hooke_needs *needs);
@@ -49,10 +51,18 @@ HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
  * that no step would keep its error small, and changes are those up to there; "runs": made so far. Of the full system:
  * "wall_seconds" (stepping alone), "springs", "particles", "step_limit" [s] (predicted with LAPACK, else hooke_step_bound();
  * infinity: nothing limits it), "step" [s], "rtol", "atol" [m], "steps", "force_evaluations", "step_error" [m] (how far the
- * step may put it off). The same words after "lean_" for the lean system, and "lean_error" [m]: of the run that is
- * recommended, against the full system. NaN where it does not apply. */
+ * step may put it off); "own_error" [m] (how far the finer one of its last two runs may be off, against which all variants
+ * are held); "moved" [m] (of the watched particles, like a change, from where they begin).
+ *
+ * The same words after "lean_" for the run of the lean system that is recommended, and after "cheapest_" for a run of the
+ * full system by the same method: each with the largest step, or tolerances, within what is wanted, all errors together.
+ * "lean_error" and "cheapest_error" [m]: at most that far from the full system, the distance from its finer run and
+ * "own_error" together. "times_less": the wall time of the full system's over that of the lean one's, taken in turns.
+ * "other_seconds" [s]: of the full system's run within what is wanted by "other_method", which takes clearly less. NaN where
+ * it does not apply. */
 HOOKE_API double hooke_needs_figure(const hooke_needs *needs, const char *what);
-/* "method". NULL for another word. */
+/* "method"; "other_method" (NULL if none was seen to be cheaper for the full system, or nothing is left out); "note": that nothing moves, or less than is wanted; "lean_note": which groups of parts the lean system has spring by
+ * spring, since it has some of their springs only; both "" where there is nothing to say. NULL for another word. */
 HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *what);
 
 /* ---- rows: what was left out ---- */
@@ -62,7 +72,7 @@ HOOKE_API int64_t hooke_needs_row_count(const hooke_needs *needs);
  * "damping", "drag", "gravity", "callback", "idle", "loose", "part", "compression", "resolution"; "note": why there is no
  * number, "" otherwise. NULL if there is no such row. */
 HOOKE_API const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *what);
-/* "error" [m] (the change; NaN if the run did not end), "needed" (0 or 1), "left_out" (1: also in the lean system), and the
+/* "error" [m] (the change; NaN if the run did not end), "needed" (0 or 1; NaN where nothing moves that it could change), "left_out" (1: also in the lean system), and the
  * words of the full system above. */
 HOOKE_API double hooke_needs_number(const hooke_needs *needs, int64_t row, const char *what);
 

@@ -45,8 +45,8 @@ HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_
                                         hooke_progress *progress, void *ctx, hooke_why **why);
 HOOKE_API void hooke_why_destroy(hooke_why *why);
 
-/* "cause": "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed", "overflow" or
- * "model-gains-energy";
+/* "cause": "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed", "overflow",
+ * "model-gains-energy" or "unknown" (there was no time or memory to tell);
  * "sentence": what happened, where and when, in one or two sentences; "method"; "left_out": what was not looked into for want of time or
  * memory, "" if nothing was. NULL for another word. */
 HOOKE_API const char *hooke_why_text(const hooke_why *why, const char *what);

@@ -28,6 +28,18 @@ static void add_full(struct hooke_text *data, const hooke_needs *needs) {
   hooke_text_close(data, '}');
 }
 
+/* The full system's own run within the want. */
+static void add_cheapest(struct hooke_text *data, const hooke_needs *needs) {
+  static const char *const names[] = {
+      "cheapest_particles", "cheapest_springs",           "cheapest_step",         "cheapest_rtol",
+      "cheapest_steps",     "cheapest_force_evaluations", "cheapest_wall_seconds", "cheapest_error"};
+  hooke_text_open(data, "cheapest", '{');
+  for (int k = 0; k < COUNT_OF(names); k++)
+    hooke_text_number(data, names[k] + sizeof "cheapest_" - 1, hooke_needs_figure(needs, names[k]));
+  hooke_report_add_step(data, "step_limit", hooke_needs_figure(needs, "cheapest_step_limit"));
+  hooke_text_close(data, '}');
+}
+
 static void add_lean(struct hooke_text *data, const hooke_needs *needs, const char *command) {
   if (hooke_needs_lean(needs) == NULL) {
     hooke_text_word(data, "lean", NULL);
@@ -35,9 +47,14 @@ static void add_lean(struct hooke_text *data, const hooke_needs *needs, const ch
   }
   hooke_text_open(data, "lean", '{');
   hooke_text_number(data, "error", hooke_needs_figure(needs, "lean_error"));
+  hooke_text_number(data, "times_less", hooke_needs_figure(needs, "times_less"));
+  hooke_text_word(data, "note", hooke_needs_word(needs, "lean_note"));
+  hooke_text_word(data, "other_method", hooke_needs_word(needs, "other_method"));
+  hooke_text_number(data, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
   for (int k = 0; k < COUNT_OF(costs); k++)
     hooke_text_number(data, costs[k] + BARE, hooke_needs_figure(needs, costs[k]));
   hooke_report_add_step(data, "step_limit", hooke_needs_figure(needs, "lean_step_limit"));
+  add_cheapest(data, needs);
   hooke_text_word(data, "command", command);
   hooke_text_close(data, '}');
 }
@@ -107,6 +124,7 @@ static void add_data(struct hooke_text *data, const void *ctx) {
   for (int k = 0; k < COUNT_OF(figures); k++)
     hooke_text_number(data, figures[k], hooke_needs_figure(needs, figures[k]));
   hooke_text_word(data, "method", hooke_needs_word(needs, "method"));
+  hooke_text_word(data, "note", hooke_needs_word(needs, "note"));
   hooke_text_number(data, "watched", (double)needs->watch_count);
   hooke_text_number(data, "particles", (double)hooke_system_particle_count(needs->system));
   add_full(data, needs);

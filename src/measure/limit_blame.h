@@ -59,7 +59,7 @@ struct hooke_remedy {
   double gain;           /* factor of the step that this buys: re-computed, */
   double gain_predicted; /* and by first-order perturbation */
   int32_t force;         /* 1: the sentence is about drag or damping, which limit the step */
-  char sentence[400];
+  char sentence[640];
 };
 
 /* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the step without

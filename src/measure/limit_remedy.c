@@ -228,7 +228,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   double without = 0.0;
   const int32_t status = limit_without(system, q, method, blame, force, &without);
   if (status != HOOKE_OK) return status;
-  add(remedy->sentence, sizeof remedy->sentence, "%s limits the step",
+  add(remedy->sentence, sizeof remedy->sentence, "%s%s limits the step", remedy->kind ? "; " : "",
       force == HOOKE_BLAME_DRAG ? "drag" : "damping along springs");
   if (without > LEAST_COST * limit && isfinite(without)) {
     add(remedy->sentence, sizeof remedy->sentence, ": without it %s would be stable up to %.6g s", method,
@@ -278,14 +278,15 @@ int32_t hooke_remedy_find(const hooke_system *system, const double *q, const cha
     second = other;
   }
   int32_t status = HOOKE_OK;
-  const int32_t force = hooke_blame_force(blame);
-  if (force == HOOKE_BLAME_DRAG || (force == HOOKE_BLAME_DAMPING && blame->spring_count > 0))
-    return tell_force(system, q, method, limit, blame, force, remedy);
   if (limit > 0.0 && isfinite(limit)) {
     if (springs || particles) status = try_set(system, q, method, limit, blame, &first, remedy);
     if (status == HOOKE_OK && remedy->kind == NULL && springs && particles)
       status = try_set(system, q, method, limit, blame, &second, remedy);
   }
-  if (status == HOOKE_OK && remedy->kind == NULL) tell_groups(system, blame, remedy);
+  const int32_t force = hooke_blame_force(blame);
+  if (status == HOOKE_OK && (force == HOOKE_BLAME_DRAG || force == HOOKE_BLAME_DAMPING))
+    status = tell_force(system, q, method, limit, blame, force, remedy);
+  else if (status == HOOKE_OK && remedy->kind == NULL)
+    tell_groups(system, blame, remedy);
   return status;
 }

@@ -4,6 +4,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "hooke/study.h"
@@ -14,6 +15,7 @@
 #include <string.h>
 
 static const double LEAST_JUDGED = 0.05; /* of the duration: less says nothing of the run */
+static const double RESTS = 1e-3;        /* of the want: what moves by less says nothing of what moves it */
 
 static const struct hooke_option_row needs_rows[] = {
     {.name = "want",
@@ -84,7 +86,7 @@ int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
   hooke_needs *needs = hooke_handle_new("hooke_needs", sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
   needs->system = system;
-  needs->lean_error = NAN;
+  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
   status = prepare(needs, run, options);
   if (status == HOOKE_OK)
     *out = needs;
@@ -150,6 +152,26 @@ static int32_t refuse_full(const hooke_needs *needs) {
       "the want", needs->want, hooke_options_text(needs->run, "method"));
 }
 
+int32_t hooke_needs_rests(const hooke_needs *needs) {
+  return needs->moved <= RESTS * needs->want;
+}
+
+static void say_how_it_moves(hooke_needs *needs) {
+  needs->moved = hooke_needs_moved(needs, &needs->path);
+  if (hooke_needs_rests(needs)) {
+    hooke_print(
+        needs->note, sizeof needs->note,
+        "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
+        "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
+        needs->moved);
+  } else if (needs->moved <= needs->want) {
+    hooke_print(needs->note, sizeof needs->note,
+                "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "
+                "stands still would do; take a smaller want to learn what moves them",
+                needs->moved);
+  }
+}
+
 int32_t hooke_needs_run_full(hooke_needs *needs) {
   if (needs->path.position) return HOOKE_OK;
   needs->pieces += 2;
@@ -162,7 +184,9 @@ int32_t hooke_needs_run_full(hooke_needs *needs) {
   const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
     status = refuse_full(needs);
-  if (status != HOOKE_OK) {
+  if (status == HOOKE_OK) {
+    say_how_it_moves(needs);
+  } else {
     hooke_needs_path_release(&needs->path);
     needs->judged = needs->frame_count;
   }

@@ -29,6 +29,7 @@ struct hooke_needs_row {
   struct hooke_variant variant;
   double error; /* [m] */
   int32_t measured, needed, left_out;
+  int32_t untold; /* 1: nothing moves, so that it cannot be told; needed, too */
   struct hooke_needs_cost cost;
 };
 
@@ -50,7 +51,10 @@ struct hooke_needs {
 
   struct hooke_needs_cost full;
   struct hooke_needs_path path; /* of the full system */
-  double *largest_force;        /* of each spring over the frames of the full system [N] */
+  double own_error;             /* how far `path` may be off itself [m] */
+  double moved;                 /* by `path`, from where it begins [m] */
+  char note[HOOKE_NEEDS_NOTE];
+  double *largest_force; /* of each spring over the frames of the full system [N] */
 
   int64_t row_count, row_capacity;
   struct hooke_needs_row *row;
@@ -62,6 +66,12 @@ struct hooke_needs {
   struct hooke_needs_cost lean_cost;
   struct hooke_needs_path lean_path; /* of the run that is recommended */
   double lean_error;
+  char lean_note[HOOKE_NEEDS_NOTE];
+  struct hooke_needs_cost cheapest; /* of the full system within the want, as of the lean one */
+  double cheapest_error;
+  const char
+      *other_method; /* by which the full system is cheaper than by its own; NULL: none is seen to be */
+  double other_seconds;
 
   int64_t part_count;
   struct hooke_needs_part *part;
@@ -92,7 +102,8 @@ void hooke_needs_path_release(struct hooke_needs_path *path);
 /* Maximum over frames of the root mean square distance of the watched particles [m]. */
 double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_path *a,
                             const struct hooke_needs_path *b);
-
+/* The same, from where they are at the first frame. */
+double hooke_needs_moved(const hooke_needs *needs, const struct hooke_needs_path *path);
 /* Frames up to which the same stays within `bound`. */
 int64_t hooke_needs_agreed(const hooke_needs *needs, const struct hooke_needs_path *a,
                            const struct hooke_needs_path *b, double bound);
@@ -103,17 +114,22 @@ struct hooke_needs_trial {
   const struct hooke_variant_map *map;
 };
 /* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is the path of the
- * run with half the step. Where differences grow so fast that no step is small enough, step_error is that of the best; the
+ * run with half the step, which for the full system may be off by `own_error`. Where differences grow so fast that no step is small enough, step_error is that of the best; the
  * full system then says how many frames are judged. It is NaN, and there is no path, if no run came to its end.
  * HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
                             struct hooke_needs_cost *cost, struct hooke_needs_path *fine);
-/* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together: the
- * run to recommend. `from` (NULL: the step limit) says where to begin. `error` is NaN, and there is no path, if none is not
- * much smaller than that of the full system. */
+/* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together, that
+ * of the path of the full system included: the run to recommend. `error` is NaN, and there is no path, if none is not much
+ * smaller than that of the full system. */
 int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                        const struct hooke_needs_cost *from, struct hooke_needs_cost *cost,
-                        struct hooke_needs_path *path, double *error);
+                        struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error);
+/* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than `most` [s], or the
+ * method does not suit it. */
+int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
+/* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the least of each. */
+int32_t hooke_needs_time_in_turns(hooke_needs *needs, const struct hooke_needs_trial trial[2],
+                                  struct hooke_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run);
 
@@ -121,6 +137,8 @@ int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options 
 
 /* Runs the full system unless that was done. */
 int32_t hooke_needs_run_full(hooke_needs *needs);
+/* 1 if it moves by so little that nothing can be told from it. */
+int32_t hooke_needs_rests(const hooke_needs *needs);
 /* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
 int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row);
 int32_t hooke_needs_run_rows(hooke_needs *needs);

@@ -32,15 +32,26 @@ double hooke_needs_figure(const hooke_needs *needs, const char *what) {
       {"duration", needs->duration},
       {"judged_until", (double)(needs->judged - 1) * needs->every},
       {"lean_error", needs->lean_error},
+      {"cheapest_error", needs->cheapest_error},
+      {"other_seconds", needs->other_seconds},
+      {"times_less",
+       needs->lean ? needs->cheapest.wall_seconds / needs->lean_cost.wall_seconds : (double)NAN},
   };
   const double value = HOOKE_FIGURE(figures, what);
   if (!isnan(value)) return value;
   if (strncmp(what, "lean_", 5) == 0)
     return needs->lean ? cost_number(&needs->lean_cost, what + 5) : (double)NAN;
-  return needs->path.position ? cost_number(&needs->full, what) : (double)NAN;
+  if (strncmp(what, "cheapest_", 9) == 0)
+    return needs->lean ? cost_number(&needs->cheapest, what + 9) : (double)NAN;
+  if (needs->path.position == NULL) return NAN;
+  if (strcmp(what, "own_error") == 0) return needs->own_error;
+  return strcmp(what, "moved") == 0 ? needs->moved : cost_number(&needs->full, what);
 }
 
 const char *hooke_needs_word(const hooke_needs *needs, const char *what) {
+  if (strcmp(what, "other_method") == 0) return needs->other_method;
+  if (strcmp(what, "note") == 0) return needs->note;
+  if (strcmp(what, "lean_note") == 0) return needs->lean_note;
   return strcmp(what, "method") == 0 ? hooke_options_text(needs->run, "method") : NULL;
 }
 
@@ -71,7 +82,7 @@ double hooke_needs_number(const hooke_needs *needs, int64_t row, const char *wha
   if (r == NULL) return NAN;
   const struct hooke_figure figures[] = {
       {"error", r->error},
-      {"needed", (double)r->needed},
+      {"needed", r->untold ? (double)NAN : (double)r->needed},
       {"left_out", (double)r->left_out},
   };
   const double value = HOOKE_FIGURE(figures, what);

@@ -25,6 +25,8 @@ static void judge(const hooke_needs *needs, const struct hooke_needs_path *path,
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
   row->error = hooke_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
+  row->untold = !row->needed && hooke_needs_rests(needs);
+  if (row->untold) row->needed = 1;
   if (beyond > 0.0)
     hooke_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }

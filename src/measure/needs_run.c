@@ -1,12 +1,16 @@
 /* One run of a variant: where the watched particles are at every frame, and what it takes. */
 #include "measure/needs_run.h"
 
+#include "core/clock.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/trial.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { TURNS = 20 };
+static const double TURNS_TAKE = 0.2; /* [s]: so long two runs are repeated in turns */
 
 int32_t hooke_needs_path_create(const hooke_needs *needs, struct hooke_needs_path *path) {
   path->recorded = 0;
@@ -20,13 +24,18 @@ void hooke_needs_path_release(struct hooke_needs_path *path) {
   memset(path, 0, sizeof *path);
 }
 
+/* Of the watched positions at two frames. */
+static double distance_of(const hooke_needs *needs, const double *a, const double *b) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * needs->watch_count; k++)
+    sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sqrt(sum / (double)needs->watch_count);
+}
+
 static double distance_at(const hooke_needs *needs, const struct hooke_needs_path *a,
                           const struct hooke_needs_path *b, int64_t frame) {
-  const int64_t size = 3 * needs->watch_count;
-  double sum = 0.0;
-  for (int64_t k = frame * size; k < (frame + 1) * size; k++)
-    sum += (a->position[k] - b->position[k]) * (a->position[k] - b->position[k]);
-  return sqrt(sum / (double)needs->watch_count);
+  const int64_t at = frame * 3 * needs->watch_count;
+  return distance_of(needs, a->position + at, b->position + at);
 }
 
 double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_path *a,
@@ -37,6 +46,13 @@ double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_p
     if (!(distance <= most)) most = distance;
     if (isnan(most)) break;
   }
+  return most;
+}
+
+double hooke_needs_moved(const hooke_needs *needs, const struct hooke_needs_path *path) {
+  double most = 0.0;
+  for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
+    most = fmax(most, distance_of(needs, path->position, path->position + f * 3 * needs->watch_count));
   return most;
 }
 
@@ -86,7 +102,9 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
 }
 
 static int32_t see_progress(double share, void *ctx) {
-  const struct hooke_needs_recorder *recorder = ctx;
+  struct hooke_needs_recorder *recorder = ctx;
+  recorder->expired = recorder->deadline > 0.0 && hooke_clock_seconds() > recorder->deadline;
+  if (recorder->expired) return 1;
   return hooke_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
 }
 
@@ -103,6 +121,26 @@ int32_t hooke_needs_run_once(struct hooke_needs_recorder *recorder, const hooke_
   hooke_frames_release(&none);
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
+  if (status == HOOKE_STOPPED && recorder->expired) return HOOKE_OK;
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT ? HOOKE_OK
                                                                                                  : status;
+}
+
+int32_t hooke_needs_time_in_turns(hooke_needs *needs, const struct hooke_needs_trial trial[2],
+                                  struct hooke_needs_cost *const cost[2]) {
+  hooke_options *options = NULL;
+  double spent = 0.0;
+  int32_t status = hooke_options_copy(needs->run, &options);
+  for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
+    struct hooke_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
+    struct hooke_needs_cost again;
+    int32_t finished;
+    status = hooke_needs_set_step(cost[k % 2], options);
+    if (status == HOOKE_OK) status = hooke_needs_run_once(&recorder, options, &finished, &again);
+    if (status != HOOKE_OK) break;
+    cost[k % 2]->wall_seconds = fmin(cost[k % 2]->wall_seconds, again.wall_seconds);
+    spent += again.wall_seconds;
+  }
+  hooke_options_destroy(options);
+  return status;
 }

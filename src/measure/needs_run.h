@@ -10,6 +10,8 @@ struct hooke_needs_recorder {
   struct hooke_needs_path *path; /* NULL: only the time is wanted */
   double last_step;
   double share_begun, share; /* of the measurement: before this run, and of it */
+  double deadline;           /* hooke_clock_seconds() at which a run is given up; 0: none */
+  int32_t expired;           /* 1: it was */
 };
 
 /* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. HOOKE_STOPPED and other failures

@@ -1,6 +1,7 @@
 /* Finding the step with which a variant is off by a tenth of the want at most. */
 #include "measure/needs_run.h"
 
+#include "core/clock.h"
 #include "core/status.h"
 #include "integrate/method.h"
 #include "measure/limit_predict.h"
@@ -10,6 +11,8 @@
 static const double BELOW_LIMIT = 0.9; /* where the search begins */
 static const double DIFFERENCE_FACTOR =
     2.0; /* error of a step over the change when it is halved, at order 1 or more */
+static const double FINE_FACTOR =
+    1.25; /* error of the finer of two runs over their change: 1 at order 1, and room for what is beyond it */
 static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
 static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
 static const double LEAST_GAIN =
@@ -19,8 +22,10 @@ static const double WELL_BEGUN =
 static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
 static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
 static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
-enum { REPEATS = 20 };
-static const double SHORT = 0.02; /* [s]: runs are repeated that long for their time */
+enum { REPEATS = 20, HALVINGS = 3 };
+static const double TRIES = 4.0,
+                    AT_LEAST = 0.01; /* times what a run may take, and [s]: for all runs of another method */
+static const double SHORT = 0.02;    /* [s]: runs are repeated that long for their time */
 
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
@@ -213,6 +218,7 @@ static int32_t judge_full(struct search *search, double limit, struct hooke_need
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
   needs->judged = agreed(search, bound / MARGIN);
+  needs->own_error = FINE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
   hand_over(&search->path[1], fine);
   const int32_t status = hooke_needs_path_create(needs, &search->path[1]);
   begin_search(search, limit);
@@ -259,6 +265,8 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   if (status == HOOKE_OK) status = find_step(&search);
+  if (status == HOOKE_OK && has_finished(&search) && trial->map == NULL)
+    needs->own_error = FINE_FACTOR * search.error / DIFFERENCE_FACTOR;
   if (status == HOOKE_OK && has_finished(&search)) status = judge_full(&search, limit, fine);
   int32_t finished = has_finished(&search);
   fill_cost(&search, limit, cost);
@@ -269,23 +277,58 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
   return status;
 }
 
+/* ---- within the want, all errors together ---- */
+
+static double error_of(const struct search *search, int32_t which) {
+  const hooke_needs *needs = search->recorder.needs;
+  if (!search->finished[which]) return NAN;
+  return hooke_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
+}
+
+/* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place 0. */
+static int32_t coarsen(struct search *search, double failed, double *error) {
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < HALVINGS && status == HOOKE_OK; k++) {
+    const double middle = 0.5 * (failed + search->value), between = search->adaptive ? middle : floor(middle);
+    if (between == failed) break;
+    status = run_at(search, between, 1);
+    if (status != HOOKE_OK) break;
+    const double found = error_of(search, 1);
+    if (!(found <= search->recorder.needs->want)) {
+      failed = between;
+      continue;
+    }
+    search->value = between;
+    *error = found;
+    swap_runs(search);
+  }
+  return status;
+}
+
+/* Leaves it in place 0; `error` is NaN, or above the want, where there is none. */
+static int32_t find_coarsest(struct search *search, double *error) {
+  const double want = search->recorder.needs->want;
+  double failed = NAN;
+  for (;;) {
+    const int32_t status = run_at(search, search->value, 0);
+    if (status != HOOKE_OK) return status;
+    *error = error_of(search, 0);
+    if (*error <= want || !is_coarser_than_full(search)) break;
+    failed = search->value;
+    search->value = finer(search, search->value);
+  }
+  return *error <= want && !isnan(failed) ? coarsen(search, failed, error) : HOOKE_OK;
+}
+
 int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                        const struct hooke_needs_cost *from, struct hooke_needs_cost *cost,
-                        struct hooke_needs_path *path, double *error) {
+                        struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error) {
   const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
   struct search search = new_search(needs, trial);
-  int32_t status = start(&search, limit), finished = 0;
-  if (from) search.value = search.adaptive ? -log10(from->rtol) : round(needs->unit / from->step);
+  int32_t status = start(&search, limit);
   *error = NAN;
-  while (status == HOOKE_OK && !(*error <= needs->want)) {
-    status = run_at(&search, search.value, 0);
-    finished = search.finished[0];
-    *error = finished ? hooke_needs_distance(needs, &needs->path, &search.path[0]) : (double)NAN;
-    if (!is_coarser_than_full(&search)) break;
-    search.value = finer(&search, search.value);
-  }
+  if (status == HOOKE_OK) status = find_coarsest(&search, error);
   fill_cost(&search, limit, cost);
-  if (!(*error <= needs->want)) finished = 0;
+  int32_t finished = *error <= needs->want;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
   if (status == HOOKE_OK && finished)
     hand_over(&search.path[0], path);
@@ -293,4 +336,54 @@ int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *tria
     *error = NAN;
   end(&search);
   return status;
+}
+
+/* ---- the full system by another method ---- */
+
+static int32_t start_with(struct search *search, const char *method, double limit) {
+  int32_t status = start(search, limit);
+  if (status == HOOKE_OK) status = hooke_options_set_text(search->options, "method", method);
+  if (status == HOOKE_OK && search->adaptive) status = hooke_options_unset(search->options, "step");
+  return status;
+}
+
+/* Cheap, as it is for a run that may never be made. */
+static double safe_step(const hooke_system *system, const char *method) {
+  hooke_state *state = NULL;
+  double bound = NAN;
+  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
+  if (hooke_step_bound(system, method, hooke_state_position(state), &bound) != HOOKE_OK) bound = NAN;
+  hooke_state_destroy(state);
+  return bound;
+}
+
+/* As find_coarsest(), but no further than to runs that take longer than `most` [s]. */
+static int32_t find_quick(struct search *search, double most, double *error) {
+  search->recorder.deadline = hooke_clock_seconds() + TRIES * most + AT_LEAST;
+  for (;;) {
+    const int32_t status = run_at(search, search->value, 0);
+    if (status != HOOKE_OK) return status;
+    *error = error_of(search, 0);
+    if (*error <= search->recorder.needs->want || search->cost[0].wall_seconds > most ||
+        search->recorder.expired || is_exhausted(search))
+      return HOOKE_OK;
+    search->value = finer(search, search->value);
+  }
+}
+
+int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
+  const struct hooke_needs_trial trial = {needs->system, NULL};
+  const double limit = safe_step(trial.system, method);
+  struct search search = {.recorder = {.needs = needs, .trial = &trial},
+                          .adaptive = hooke_method_find(method)->adaptive};
+  double error = NAN;
+  *wall_seconds = NAN;
+  int32_t status = start_with(&search, method, limit), finished;
+  if (status == HOOKE_OK) status = find_quick(&search, most, &error);
+  finished = error <= needs->want;
+  search.recorder.deadline = 0.0;
+  if (status == HOOKE_OK && finished) status = find_time(&search, &search.cost[0], &finished);
+  if (status == HOOKE_OK && finished) *wall_seconds = search.cost[0].wall_seconds;
+  end(&search);
+  return status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }

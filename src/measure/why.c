@@ -102,7 +102,7 @@ static int32_t survey(struct hooke_inquiry *inquiry) {
   if (!inquiry->large || inquiry->run->method->adaptive) return HOOKE_OK;
   if (!hooke_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
   inquiry->held += bytes;
-  hooke_patience_lend(&inquiry->patience, 0.5);
+  hooke_patience_lend(&inquiry->patience, 0.8);
   int32_t status = hooke_node_blocks_begin(inquiry->system, &blocks);
   blocks.patience = &inquiry->patience;
   if (status == HOOKE_OK) {

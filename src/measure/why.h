@@ -20,7 +20,7 @@ struct hooke_why_blame {
 };
 
 struct hooke_why_advice {
-  char change[480], option[32], value[48];
+  char change[720], option[32], value[48];
   hooke_options *run; /* of a run, with nothing set but what is to be changed; NULL: a change of the scene */
 };
 
@@ -66,6 +66,7 @@ struct hooke_inquiry {
 
   hooke_state *last;  /* the last one within all bounds; NULL: the run's newest is */
   int64_t last_step;  /* steps before it */
+  int32_t cut;        /* the steps again were not all taken */
   int32_t reproduced; /* the steps again went wrong again */
   double bad_time;
   int64_t bad_particle; /* the one that moves fastest then */
@@ -79,7 +80,7 @@ struct hooke_inquiry {
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
   int32_t force;    /* that the limit hangs on: HOOKE_BLAME_*; -1: springs */
-  char remedy[400]; /* what it would buy to change the scene; "" if nothing is known */
+  char remedy[640]; /* what it would buy to change the scene; "" if nothing is known */
 };
 
 /* Numbers up to this size (in SI units) are taken to be meant. */

@@ -43,8 +43,8 @@ static int32_t stable_step(struct hooke_plan *plan, const char *method, double *
   const struct hooke_excess *excess = &inquiry->excess;
   double later = INFINITY;
   int32_t known;
-  if (inquiry->large && excess->found && strcmp(method, inquiry->run->method->name) == 0) {
-    *limit = excess->at_most > 0.0 ? excess->bound : 0.0;
+  if (inquiry->large && !isnan(excess->bound) && strcmp(method, inquiry->run->method->name) == 0) {
+    *limit = excess->found && !(excess->at_most > 0.0) ? 0.0 : excess->bound;
     return HOOKE_OK;
   }
   hooke_patience_lend(&inquiry->patience, 0.3);
@@ -220,11 +220,11 @@ static int32_t offer_for_step(struct hooke_plan *plan) {
   const char *mine = plan->inquiry->run->method->name;
   double limit = 0.5 * plan->step;
   int32_t status = HOOKE_OK;
-  if (excess->found) status = stable_step(plan, mine, &limit);
-  plan->backed = excess->found;
+  const int above = excess->found || !isnan(excess->bound);
+  if (above) status = stable_step(plan, mine, &limit);
+  plan->backed = above;
   if (status == HOOKE_OK && limit > 0.0)
-    status =
-        offer_smaller(plan, (excess->found ? MARGIN : 1.0) * limit, excess->found ? ", below the limit" : "");
+    status = offer_smaller(plan, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
   plan->backed = 0;
   const int implicit =
       plan->inquiry->force == HOOKE_BLAME_DRAG || plan->inquiry->force == HOOKE_BLAME_DAMPING;

@@ -335,6 +335,22 @@ static int32_t judge_gain(struct hooke_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
+/* There was no time or no room to look. */
+static void judge_unknown(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  char end[160];
+  show(inquiry, end);
+  if (isnan(excess->bound)) {
+    say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
+  } else {
+    say(inquiry, "unknown",
+        "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above "
+        "the "
+        "limit itself is not known; %s",
+        inquiry->why->step, excess->bound, inquiry->run->method->name, end);
+  }
+}
+
 static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   char end[160], what[120];
   int32_t gains = 0;
@@ -353,6 +369,8 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
   } else if (judge_squares(inquiry, *hooke_inquiry_last(inquiry)->t, hooke_inquiry_last(inquiry)->q,
                            hooke_inquiry_last(inquiry)->v)) {
     return HOOKE_OK;
+  } else if (inquiry->last == NULL || inquiry->cut) {
+    judge_unknown(inquiry);
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",
         "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "

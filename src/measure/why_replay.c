@@ -176,7 +176,8 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   for (int k = 0; k <= BEFORE; k++)
     replay->size[k] = largest_of(state);
   for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
-    if (hooke_patience_ends(&inquiry->patience, "the last steps again")) return HOOKE_OK;
+    inquiry->cut = hooke_patience_ends(&inquiry->patience, "the last steps again");
+    if (inquiry->cut) return HOOKE_OK;
     if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
       status = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (status != HOOKE_OK) return status;

@@ -100,7 +100,7 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   return effort->spent;
 }
 
-/* What a run by a method holds [bytes]: as much as the run that ended, where that was as simple. */
+/* What a run by a method holds at most [bytes]. */
 static double bytes_of_trial(const struct hooke_plan *plan, const char *method) {
   static const struct {
     const char *method;
@@ -108,14 +108,15 @@ static double bytes_of_trial(const struct hooke_plan *plan, const char *method) 
   } heavy[] = {{"backward-euler", 300.0}, {"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
   const hooke_integrator *run = plan->inquiry->run;
   const double n = (double)plan->inquiry->system->particle_count;
+  /* the state, the motion, and the last states as far as 16 MB have them */
   double numbers = 25.0;
+  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double));
   for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
     if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;
   }
-  const double same = strcmp(method, run->method->name) == 0
-                          ? (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double)
-                          : 0.0;
-  return fmax(same, numbers * n * sizeof(double));
+  if (strcmp(method, run->method->name) == 0)
+    return (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double);
+  return numbers * n * sizeof(double) + recent;
 }
 
 /* Runs as far as the work allows. */

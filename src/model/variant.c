@@ -91,6 +91,25 @@ int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_vari
   return covered && covers_springs(system, variant, other);
 }
 
+/* In a part of another resolution all springs stay. */
+static int32_t is_split(const hooke_system *system, const struct hooke_variant *variant, int64_t g,
+                        int64_t first) {
+  const struct hooke_group *group = &system->group[g];
+  if (!group->from_part || variant->group[g] || variant->part[group->part]) return 0;
+  if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
+  const uint8_t *spring = variant->spring + first;
+  return memchr(spring, 0, (size_t)group->count) != NULL && memchr(spring, 1, (size_t)group->count) != NULL;
+}
+
+int64_t hooke_variant_next_split(const hooke_system *system, const struct hooke_variant *variant,
+                                 int64_t group) {
+  int64_t first = 0;
+  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+    if (g >= group && is_split(system, variant, g, first)) return g;
+  }
+  return -1;
+}
+
 /* A callback of the caller's knows particles by their numbers. */
 static int32_t check_callbacks(const hooke_system *from, const struct hooke_variant *variant) {
   int32_t renumbered = 0;

@@ -28,6 +28,11 @@ void hooke_variant_join(const hooke_system *system, struct hooke_variant *varian
 int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_variant *variant,
                              const struct hooke_variant *other);
 
+/* The first group from `group` on, of a part that stays, of which some springs are left out and some stay: options of a part
+ * have no words for it. -1 if there is none. */
+int64_t hooke_variant_next_split(const hooke_system *system, const struct hooke_variant *variant,
+                                 int64_t group);
+
 /* Where particles of a system are in a variant of it. */
 struct hooke_variant_part {
   int64_t first;             /* in the variant; -1: left out */

@@ -1,5 +1,6 @@
 """Scenes with something in them that does nothing, and something that counts: `hooke needs` tells which is which."""
 
+import json
 import pathlib
 
 import h5py
@@ -25,6 +26,7 @@ PLANTED = {
     "damped-mass": (1e-3, None, ["drag"], ["damper", "damping"]),
     "shaken-rope": (1e-3, "rope", ["rope.bend", "twin"], ["rope.stretch", "damping"]),
     "free-sheet": (1e-3, "0-24", ["u", "v", "damping", "drag"], []),
+    "pinned-cloth": (5e-3, None, ["195 springs that never pass"], ["cloth.structural", "cloth.shear", "gravity"]),
 }
 
 
@@ -79,3 +81,42 @@ def test_the_lean_scene_is_within_the_want_of_a_full_run_made_apart(hooke, tmp_p
     # of every second particle rather than of all, the mean may be a little larger
     assert error <= 1.3 * PLANTED[name][0]
     assert error == pytest.approx(found["lean"]["error"], rel=0.5, abs=0.2 * PLANTED[name][0])
+
+
+def test_a_lean_scene_keeps_its_parts(hooke, tmp_path):
+    """The 76 springs that do nothing would save less than writing the part spring by spring costs its reader."""
+    found = find(hooke, "flat-cloth", "-o", tmp_path / "lean.json")
+    full, lean = (json.loads(path.read_text()) for path in (FOLDER / "flat-cloth.json", tmp_path / "lean.json"))
+    assert found["lean"]["without"] == ["cloth.shear", "cloth.bend"] and found["lean"]["note"] == ""
+    (expected,) = full["parts"]
+    (part,) = lean["parts"]
+    assert "springs" not in lean and "particles" not in lean
+    assert set(expected) - set(part) == {"shear", "bend"} and part.items() <= expected.items()
+    assert {key: lean[key] for key in ("gravity", "title")} == {key: full[key] for key in ("gravity", "title")}
+    (row,) = rows_called(found["rows"], "76 springs that never pass")
+    assert not row["needed"] and "spring by spring" in row["note"]
+
+
+def test_what_no_part_can_say_is_written_spring_by_spring_and_said(hooke, tmp_path):
+    found = find(hooke, "pinned-cloth", "-o", tmp_path / "lean.json")
+    lean = json.loads((tmp_path / "lean.json").read_text())
+    assert [len(group["between"]) for group in lean["springs"]] == [8, 7] and found["lean"]["springs"] == 15
+    names = ", ".join(group["name"] for group in lean["springs"])
+    assert names == "cloth.structural, cloth.shear" and found["lean"]["note"].startswith(f"{names}: written spring by spring")
+    (part,) = lean["parts"]
+    assert part["kind"] == "cloth" and "structural" not in part and "shear" not in part
+    words = hooke("needs", FOLDER / "pinned-cloth.json", "--want", "5mm").out
+    assert f"{names}: written spring by spring" in " ".join(words.split())
+
+
+def test_a_scene_in_which_nothing_moves_is_told_so(hooke, tmp_path):
+    scene = FOLDER / "balanced-mass.json"
+    answer = hooke("needs", scene, "--want", "1cm", "-o", tmp_path / "lean.json", "--json")
+    assert answer.code == 0, answer.err
+    (warning,) = answer.json["warnings"]
+    assert "nothing moves" in warning and answer.json["full"]["moved"] < 1e-12
+    needed = {row["without"]: row["needed"] for row in answer.json["rows"]}
+    assert needed == {"spring": True, "gravity": True, "damping": None, "drag": None, "resistance to compression": None}
+    assert answer.json["lean"]["without"] == [] and answer.json["lean"]["times_less"] == 1
+    words = " ".join(hooke("needs", scene, "--want", "1cm").out.split())
+    assert "WARNING nothing moves" in words and "it cannot be told" in words and "left out together" not in words

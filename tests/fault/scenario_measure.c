@@ -1,6 +1,7 @@
 /* Limits, why, needs, study, comparison, pick, cost. Times are no part of what comes out. */
 #include "scenarios.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* A mass that swings on a spring along x, the other end pinned. */

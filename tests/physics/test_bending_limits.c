@@ -152,7 +152,10 @@ static void a_limit_by_bending_names_it(void **unused) {
   const char *sentence = hooke_limit_remedy_text(limit, "sentence");
   assert_null(hooke_limit_remedy_text(limit, "kind"));
   if (sentence == NULL || strstr(sentence, "group `beam.bending` has ") == NULL) check_failed("%s", sentence);
-  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++)
+  assert_string_equal(hooke_limit_blame_text(limit, 0, "force"), "bending");
+  check_between(hooke_limit_blame_number(limit, 0, "share"), 0.98, 1.0);
+  assert_true(isnan(hooke_limit_blame_number(limit, 0, "spring")));
+  for (int64_t k = 1; k < hooke_limit_blame_count(limit); k++)
     check_between(hooke_limit_blame_number(limit, k, "share"), 0.0, 0.01);
   hooke_limit_destroy(limit);
   hooke_system_destroy(system);

@@ -153,6 +153,158 @@ static void changes_are_those_of_runs_made_apart(void **state) {
   hooke_system_destroy(without);
 }
 
+/* ---- errors and costs of the two runs within the want ---- */
+
+/* The run of a system with the step, or the tolerances, that were found for it. */
+static struct frames *run_found(const hooke_needs *needs, const hooke_system *system, const char *prefix) {
+  hooke_options *options = NULL;
+  check_ok(hooke_options_copy(hooke_needs_lean_run(needs), &options));
+  static const char *const names[] = {"step", "rtol", "atol"};
+  for (int k = 0; k < 3; k++) {
+    char word[32];
+    snprintf(word, sizeof word, "%s_%s", prefix, names[k]);
+    const double value = hooke_needs_figure(needs, word);
+    if (!isnan(value)) check_ok(hooke_options_set_number(options, names[k], value));
+  }
+  struct frames *frames = run_frames(system, options, 1);
+  hooke_options_destroy(options);
+  return frames;
+}
+
+/* What is said is an upper estimate: above the true error, by at most twice what the full run may be off itself. */
+static void check_said(const hooke_needs *needs, const char *prefix, const hooke_system *system,
+                       const struct frames *truth) {
+  char word[32];
+  snprintf(word, sizeof word, "%s_error", prefix);
+  struct frames *run = run_found(needs, system, prefix);
+  const double said = hooke_needs_figure(needs, word), error = distance(truth, run),
+               own = hooke_needs_figure(needs, "own_error");
+  check_between(error, 0.0, said);
+  check_between(said, 0.0, error + 2.0 * own);
+  check_between(said, 0.0, hooke_needs_figure(needs, "want"));
+  free(run);
+}
+
+static void errors_include_that_of_the_full_run(void **state) {
+  (void)state;
+  static const char *const methods[] = {"symplectic-euler", "backward-euler", "verlet", "rk4", "cvode-adams"};
+  hooke_system *system = hanging_rope(12, 1e-3);
+  struct frames *truth = run_fine(system, 1e-4, 1);
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    if (!hooke_method_is_built(methods[k])) continue;
+    struct run run = half_a_second;
+    run.method = methods[k];
+    hooke_needs *needs = start(system, run, 3e-4, NULL);
+    check_ok(hooke_needs_find(needs));
+    const double own = hooke_needs_figure(needs, "own_error");
+    check_between(own, 1e-10, 0.0625 * 3e-4);
+    assert_int_equal(hooke_system_particle_count(hooke_needs_lean(needs)), 13);
+    check_said(needs, "lean", hooke_needs_lean(needs), truth);
+    check_said(needs, "cheapest", system, truth);
+    hooke_needs_destroy(needs);
+  }
+  free(truth);
+  hooke_system_destroy(system);
+}
+
+/* By a method of order 1, whose error alone limits the step: to leave out faint springs saves no steps, though the full
+ * system takes ten times as many where its error is to be a tenth of the want. */
+static void savings_are_those_at_equal_error(void **state) {
+  (void)state;
+  const double want = 4e-4;
+  struct run run = half_a_second;
+  run.method = "symplectic-euler";
+  hooke_system *system = hanging_rope(12, 1e-5);
+  struct frames *truth = run_fine(system, 1e-4, 1);
+  hooke_needs *needs = start(system, run, want, "0-12");
+  check_ok(hooke_needs_find(needs));
+  assert_true(hooke_needs_number(needs, row_of(needs, "rope.bend"), "left_out") == 1.0);
+  const double lean = hooke_needs_figure(needs, "lean_steps"),
+               cheapest = hooke_needs_figure(needs, "cheapest_steps");
+  check_between(lean / cheapest, 0.8, 1.25);
+  check_between(hooke_needs_figure(needs, "steps") / cheapest, 5.0, 25.0);
+  check_close(hooke_needs_figure(needs, "times_less"),
+              hooke_needs_figure(needs, "cheapest_wall_seconds") /
+                  hooke_needs_figure(needs, "lean_wall_seconds"),
+              0.0);
+  /* and it is the cheapest: with a third less steps it is off by more than is wanted */
+  struct frames *within = run_found(needs, system, "cheapest");
+  run.step =
+      half_a_second.every / floor(half_a_second.every / hooke_needs_figure(needs, "cheapest_step") / 1.4);
+  hooke_options *coarse = run_options(run);
+  struct frames *beyond = run_frames(system, coarse, 1);
+  const double least = sqrt(12.0 / 13.0); /* the pinned particle is watched, and off by nothing */
+  check_between(least * distance(truth, within), 0.6 * want, want);
+  check_between(least * distance(truth, beyond), want, 2.0 * want);
+  hooke_options_destroy(coarse);
+  free(within);
+  free(beyond);
+  free(truth);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(system);
+}
+
+/* ---- scenes in which nothing moves ---- */
+
+/* A damped spring that holds a mass, stretched by its weight, or by `more` than that [m]. */
+static hooke_system *hung_mass(double gravity, double more) {
+  const double place[6] = {0, 0, 0, 0, -1.0 - gravity / 100.0 - more, 0}, down[3] = {0, -gravity, 0};
+  const int64_t ends[2] = {0, 1};
+  hooke_system *system = small_system(2, place, NULL, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.stiffness = 100, .damping = 0.5, .rest_length = 1});
+  if (gravity > 0.0) check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static hooke_needs *find_hung(const hooke_system *system) {
+  hooke_needs *needs = start(system, (struct run){.method = "rk4", .duration = 1, .every = 0.05}, 1e-2, NULL);
+  check_ok(hooke_needs_find(needs));
+  return needs;
+}
+
+static void a_scene_that_rests_is_told_so(void **state) {
+  (void)state;
+  hooke_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
+               *moving = hung_mass(9.81, 0.1);
+  hooke_needs *needs = find_hung(rest);
+  assert_non_null(strstr(hooke_needs_word(needs, "note"), "nothing moves"));
+  assert_true(hooke_needs_figure(needs, "moved") == 0.0);
+  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
+    assert_true(isnan(hooke_needs_number(needs, row, "needed")));
+    assert_true(hooke_needs_number(needs, row, "error") == 0.0);
+    assert_true(hooke_needs_number(needs, row, "left_out") == 0.0);
+  }
+  assert_int_equal(hooke_system_spring_count(hooke_needs_lean(needs)), 1);
+  hooke_needs_destroy(needs);
+
+  /* what holds the balance is needed all the same */
+  needs = find_hung(balance);
+  assert_non_null(strstr(hooke_needs_word(needs, "note"), "nothing moves"));
+  check_between(hooke_needs_figure(needs, "moved"), 0.0, 1e-12);
+  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
+  assert_true(hooke_needs_number(needs, row_of(needs, "springs"), "needed") == 1.0);
+  assert_true(isnan(hooke_needs_number(needs, row_of(needs, "damping"), "needed")));
+  hooke_needs_destroy(needs);
+
+  needs = find_hung(little);
+  assert_non_null(strstr(hooke_needs_word(needs, "note"), "less than is wanted"));
+  check_between(hooke_needs_figure(needs, "moved"), 7e-3, 8e-3);
+  assert_true(hooke_needs_number(needs, row_of(needs, "damping"), "needed") == 0.0);
+  hooke_needs_destroy(needs);
+
+  needs = find_hung(moving);
+  assert_string_equal(hooke_needs_word(needs, "note"), "");
+  check_between(hooke_needs_figure(needs, "moved"), 0.19, 0.2);
+  hooke_needs_destroy(needs);
+  hooke_system_destroy(rest);
+  hooke_system_destroy(balance);
+  hooke_system_destroy(little);
+  hooke_system_destroy(moving);
+}
+
+/* ---- resolutions ---- */
+
 /* What is left at 8 pieces, predicted from 8, 16 and 32, against 128. */
 static void refinement_predicts_a_much_finer_rope(void **state) {
   (void)state;
@@ -452,6 +604,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(groups_without_parts_are_ingredients),
       cmocka_unit_test(changes_are_those_of_runs_made_apart),
+      cmocka_unit_test(errors_include_that_of_the_full_run),
+      cmocka_unit_test(savings_are_those_at_equal_error),
+      cmocka_unit_test(a_scene_that_rests_is_told_so),
       cmocka_unit_test(refinement_predicts_a_much_finer_rope),
       cmocka_unit_test(a_callback_is_an_ingredient),
       cmocka_unit_test(every_method_finds_the_same),

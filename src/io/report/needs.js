@@ -6,10 +6,11 @@ const ran = full.wall_seconds !== null;
 const judgedAll = data.judged_until >= data.duration * (1 - 1e-9);
 const NEEDED = "#c2410c", LEFT_OUT = "#1b7f4d", KEPT = "#8fc9a8", FULL = "#5b6770", LEAN = "#0057b8";
 
-/* What a row is: needed, left out of the lean scene, or neither. */
+/* What a row is: needed, left out of the lean scene, neither, or not known. */
 const KINDS = { needed: ["needed", NEEDED], left_out: ["not needed, and left out", LEFT_OUT],
-  kept: ["not needed, but kept", KEPT] };
-const kindOf = (row) => (row.needed === 1 ? "needed" : row.left_out === 1 ? "left_out" : "kept");
+  kept: ["not needed, but kept", KEPT], unknown: ["not known", "#a9b1b8"] };
+const kindOf = (row) => (row.needed === 1 ? "needed" : row.needed === null ? "unknown" : row.left_out === 1 ? "left_out"
+  : "kept");
 const perStep = (cost) => (cost.steps > 0 ? 1e9 * cost.wall_seconds / cost.steps : null);
 
 /* ---- bars ---- */
@@ -124,7 +125,8 @@ function drawCosts(key) {
   const [, title, of, text] = MEASURES[key];
   const list = [["nothing (the full scene)", "full", full],
     ...data.rows.filter((row) => row.wall_seconds !== null).map((row) => [row.without, kindOf(row), row]),
-    ...(lean ? [["all that is left out (the lean scene)", "lean", lean]] : [])];
+    ...(lean ? [["all that is left out (the lean scene)", "lean", lean],
+      ["nothing, within what is wanted", "full", lean.cheapest]] : [])];
   const bars = list.map(([label, kind, cost]) => ({ label, kind, value: of(cost) === "none" ? null : of(cost),
     text: text(of(cost)), lines: [`${words(cost.wall_seconds)} s in ${whole(cost.steps)} steps`,
       `${whole(cost.springs)} springs, ${whole(cost.particles)} particles`] }));

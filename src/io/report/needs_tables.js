@@ -9,20 +9,24 @@ const leftOut = data.rows.filter((row) => row.left_out === 1);
 function writeHead() {
   writeLead("needs", `What this scene needs for watched positions within ${words(want)} m over ` +
     `${words(data.duration, 6)} s, by ${data.method}${data.method_picked === 1 ? " (picked)" : ""}. ` +
-    `${plural(data.runs, "run")}, ${data.date}.`);
+    `${plural(data.runs, "run")}, ${data.date}.${data.note ? ` Warning: ${data.note}.` : ""}`);
   document.getElementById("judged").textContent = judgedAll ? "" : "Changes are those up to " +
     `${words(data.judged_until, 6)} s: beyond, small differences grow so fast that no time step keeps its error small.`;
 }
 
 function writeLean(box) {
-  const faster = full.wall_seconds / lean.wall_seconds;
+  const faster = lean.times_less;
   const names = element("ul");
   for (const row of leftOut) names.append(element("li", row.without));
   box.append(element("h2", "What can be left out together"), names);
-  box.append(element("p", `The lean scene was run: it is within ${words(lean.error)} m of the full one` +
-    `${judgedAll ? "" : ` up to ${words(data.judged_until, 6)} s`}, with ${whole(lean.springs)} springs instead of ` +
-    `${whole(full.springs)}. It takes ${words(lean.wall_seconds)} s of wall time instead of ${words(full.wall_seconds)} s ` +
+  box.append(element("p", `The lean scene was run: it is at most ${words(lean.error)} m off the full one, whose own error is counted in,` +
+    `${judgedAll ? "" : ` up to ${words(data.judged_until, 6)} s`} with ${whole(lean.springs)} springs instead of ` +
+    `${whole(full.springs)}. Within what is wanted it takes ${words(lean.wall_seconds)} s of wall time, and the full one ` +
+    `${words(lean.cheapest.wall_seconds)} s by the same method with the largest step that does ` +
     (faster >= 1 ? `(${words(faster, 2)} times less).` : `(${words(1 / faster, 2)} times more).`)));
+  if (lean.other_method) box.append(element("p", `${lean.other_method} would bring the full scene there in ` +
+    `${words(lean.other_seconds)} s.`));
+  if (lean.note) box.append(element("p", `${lean.note}.`));
   if (lean.command) box.append(element("pre", lean.command));
 }
 
@@ -33,6 +37,10 @@ function writeVerdict() {
     return;
   }
   box.classList.add("none");
+  if (lean && data.rows.some((row) => kindOf(row) === "unknown")) {
+    box.append(element("h2", "It cannot be told what is needed"));
+    return;
+  }
   if (lean) {
     box.append(element("h2", "There is nothing to leave out"),
       element("p", "All that would save something is needed for what is wanted."));
@@ -83,7 +91,8 @@ function writeRows() {
   const lines = [["nothing (the full scene)", FULL, full, ""],
     ...data.rows.map((row) => [row.without, KINDS[kindOf(row)][1], row,
       [KINDS[kindOf(row)][0], row.note].filter(Boolean).join("; ")]),
-    ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, ""]] : [])];
+    ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, "within what is wanted"],
+      ["nothing, within what is wanted", FULL, lean.cheapest, "within what is wanted"]] : [])];
   const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
   const body = element("tbody");
   for (const [name, colour, row, says] of lines) {

@@ -20,7 +20,7 @@ from .options import Options
 from .results import Runnable, WorkProgress, prepare
 from .state import State
 from .system import System
-from .why import Blame
+from .why import _BLAME_NUMBERS, Blame
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
@@ -78,7 +78,8 @@ class Limit:
     part, the largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x
     = 0, of which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a
     limit, if that has none), its largest displacement 1; None where nothing is limited. `blame` has the springs that
-    it hangs on, at most 100, and `movers` the particles that move in it, each the largest share first; `remedy` what
+    it hangs on, at most 100, and before them a force that has half of it, and `movers` the particles that move in it,
+    each the largest share first; `remedy` what
     it would buy to change them, None where nothing is limited.
 
     `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of compressed
@@ -142,12 +143,7 @@ class Limit:
         for row in self.rows:
             lines.append(f"{row['method']:18}" + "".join(f"{_cell(name, row[name]):>18}" for name, _ in shown))
         if self.blame:
-            first = self.blame[0]
-            group = f", group {first.group}" if first.group else ""
-            lines.append(
-                f"the most to blame: spring {first.spring}, between particles {first.ends[0]} and {first.ends[1]}"
-                f"{group}, {100 * first.share:.1f} %"
-            )
+            lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
         if self.remedy is not None:
             lines.append(self.remedy.sentence)
         return "\n".join(lines)
@@ -225,11 +221,9 @@ def _read_modes(handle: Handle) -> list[FloatArray]:
 
 
 def _blame(handle: Handle, place: int) -> Blame:
-    def number(what: bytes) -> float:
-        return float(lib.hooke_limit_blame_number(handle, place, what))
-
-    group = text(lib.hooke_limit_blame_text(handle, place, b"group"))
-    return Blame(int(number(b"spring")), (int(number(b"first")), int(number(b"second"))), group, number(b"share"))
+    numbers = tuple(lib.hooke_limit_blame_number(handle, place, what) for what in _BLAME_NUMBERS)
+    group, force = (text(lib.hooke_limit_blame_text(handle, place, what)) for what in (b"group", b"force"))
+    return Blame.of(numbers, group, force)
 
 
 def _mover(handle: Handle, place: int) -> Mover:

@@ -22,9 +22,9 @@ from .system import System, write_scene
 
 
 class RunCost(NamedTuple):
-    """What a run takes with errors of its step a tenth of what is wanted: particles and springs, the largest stable
-    step [s] (infinite where nothing limits it), the step [s] or the tolerances that it was run with, what these may
-    put it off by [m], and the time of stepping alone [s]. NaN where a number does not apply."""
+    """What a run takes: particles and springs, the largest stable step [s] (infinite where nothing limits it), the
+    step [s] or the tolerances that it was run with, what these may put it off by [m] (a tenth of what is wanted), and
+    the time of stepping alone [s]. NaN where a number does not apply."""
 
     particles: float
     springs: float
@@ -56,9 +56,18 @@ class Needs(Closing):
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
     change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
-    end), needed, left_out (of the lean system, too), the fields of a `RunCost`, note. `full` is the cost of the full
-    system, `lean_cost` that of the lean one and `lean_error` [m] how far its recommended run is from the full system;
-    None and NaN while there is none.
+    end), needed (True, too, where it cannot be told, as `note` says), left_out (of the lean system, too), the fields
+    of a `RunCost`, note. `full` is the cost of the full system with errors of its step a tenth of what is wanted, and
+    `own_error` [m] how far the finer run of it may be off itself, against which all variants are held.
+
+    `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] at most how far that is from the
+    full system, `own_error` included. `cheapest` is the cost of the full system's own run within what is wanted, by
+    the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one;
+    `other_method` is one that would take the full system there in clearly less, `other_seconds` [s]. None and NaN
+    where there are none. `lean_note` names groups of parts that the lean system has spring by spring.
+
+    `moved` [m] is by how much the watched particles move from where they begin, and `note` says so where nothing moves,
+    or less than is wanted; both notes are "" otherwise.
 
     `parts` is a structured array with one row a part, after ``refine=True``: part, cells (along its first axis;
     cells_second, cells_third), change and change_fine [m] (between once and twice, twice and four times that
@@ -78,8 +87,17 @@ class Needs(Closing):
     rows: Table
     parts: Table
     full: RunCost
+    own_error: float
+    moved: float
+    note: str
     lean_cost: RunCost | None
     lean_error: float
+    lean_note: str
+    cheapest: RunCost | None
+    cheapest_error: float
+    times_less: float
+    other_method: str | None
+    other_seconds: float
 
     def __init__(self, handle: Handle, scene: Scene | None, system: System, status: int):
         self._handle = handle
@@ -87,17 +105,20 @@ class Needs(Closing):
         self._system = system  # its callbacks have to live as long as the lean one
         self.outcome = OUTCOMES.get(status, "stopped")
         self.method = text(lib.hooke_needs_word(handle, b"method"))
-        self.want, self.duration, self.judged_until, self.lean_error, count = (
-            lib.hooke_needs_figure(handle, what)
-            for what in (b"want", b"duration", b"judged_until", b"lean_error", b"runs")
-        )
-        self.runs = int(count)
+        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error", "times_less", "other_seconds"):
+            setattr(self, name, lib.hooke_needs_figure(handle, name.encode()))
+        other = lib.hooke_needs_word(handle, b"other_method")
+        self.other_method = text(other) if other else None
+        self.note = text(lib.hooke_needs_word(handle, b"note"))
+        self.lean_note = text(lib.hooke_needs_word(handle, b"lean_note"))
+        self.runs = int(lib.hooke_needs_figure(handle, b"runs"))
         row_count, part_count = lib.hooke_needs_row_count(handle), lib.hooke_needs_part_count(handle)
         self.rows = read_rows(handle, row_count, _ROW, lib.hooke_needs_text, lib.hooke_needs_number)
         self.parts = read_rows(handle, part_count, _PART, lib.hooke_needs_part_text, lib.hooke_needs_part_number)
         self.full = _cost(handle, "")
         self._has_lean = bool(lib.hooke_needs_lean(handle))
         self.lean_cost = _cost(handle, "lean_") if self._has_lean else None
+        self.cheapest = _cost(handle, "cheapest_") if self._has_lean else None
 
     def __getitem__(self, without: str) -> np.void:
         """The row of what was left out."""
@@ -163,12 +184,14 @@ class Needs(Closing):
         for row in self.rows:
             numbers = "".join(f"{row[name]:18.4g}" for _, name in columns)
             lines.append(f"{row['without']:{width}}{numbers}  {'needed' if row['needed'] else '-'}")
-        if self.lean_cost is not None:
+        if self.lean_cost is not None and self.cheapest is not None:
             left_out = ", ".join(self.left_out) or "nothing"
             lines.append(
-                f"left out together: {left_out}; error {self.lean_error:.3g} m, wall time "
-                f"{self.lean_cost.wall_seconds:.3g} s instead of {self.full.wall_seconds:.3g} s"
+                f"left out together: {left_out}; error at most {self.lean_error:.3g} m, wall time "
+                f"{self.lean_cost.wall_seconds:.3g} s where the full scene takes {self.cheapest.wall_seconds:.3g} s "
+                "within what is wanted"
             )
+        lines += [words for words in (self.lean_note, self.note) if words]
         return "\n".join(lines)
 
     def __repr__(self) -> str:

@@ -20,12 +20,24 @@ from .results import Result, Runnable, WorkProgress, resolve
 
 class Blame(NamedTuple):
     """A spring to blame: its number, its ends, the group that it is of ("" if that has no name), and its share of
-    the whole (NaN if that cannot be told)."""
+    the whole (NaN if that cannot be told). Or, before springs, a `force` that has half of the whole or more: "drag",
+    "damping", "bending" or "altitude"; then there is no spring, and its number and ends are -1."""
 
     spring: int
     ends: tuple[int, int]
     group: str
     share: float
+    force: str = ""
+
+    @classmethod
+    def of(cls, numbers: tuple[float, ...], group: str, force: str) -> Blame:
+        """From "spring", "first", "second" and "share" of the library."""
+        spring, first, second = (-1 if math.isnan(number) else int(number) for number in numbers[:3])
+        return cls(spring, (first, second), group, numbers[3], force)
+
+    def __str__(self) -> str:
+        place = self.force or f"spring {self.spring}, between particles {self.ends[0]} and {self.ends[1]}"
+        return place + (f", group {self.group}" if self.group else "")
 
 
 class Advice(NamedTuple):
@@ -39,8 +51,9 @@ class Advice(NamedTuple):
 class Why:
     """What is known of a run that ended early.
 
-    `cause` is "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed" or
-    "overflow"; `sentence` says what happened, where and when. `time` [s] is that of the last step within all bounds,
+    `cause` is "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed",
+    "overflow", "model-gains-energy" or "unknown"; `sentence` says what happened,
+    where and when. `time` [s] is that of the last step within all bounds,
     `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step and the largest stable one, `particle`
     the one concerned (None if none is); NaN where a number does not apply. `blame` has the springs, the largest share
     first, `advice` what to do, the best first. `left_out` says what was not looked into for want of time or memory.
@@ -73,12 +86,13 @@ class Why:
         return "\n".join([*sentences, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
 
 
+_BLAME_NUMBERS = (b"spring", b"first", b"second", b"share")
+
+
 def _blame(handle: Handle, place: int) -> Blame:
-    spring, first, second, share = (
-        lib.hooke_why_blame_number(handle, place, what) for what in (b"spring", b"first", b"second", b"share")
-    )
-    group = text(lib.hooke_why_blame_text(handle, place, b"group"))
-    return Blame(int(spring), (int(first), int(second)), group, share)
+    numbers = tuple(lib.hooke_why_blame_number(handle, place, what) for what in _BLAME_NUMBERS)
+    group, force = (text(lib.hooke_why_blame_text(handle, place, what)) for what in (b"group", b"force"))
+    return Blame.of(numbers, group, force)
 
 
 def _advice(handle: Handle, place: int) -> Advice:
