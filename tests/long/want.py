@@ -43,7 +43,7 @@ PART = Part(
     [],
     [
         Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
-                      f"cmake --build {BUILD}", 240),
+                      f"cmake --build {BUILD} --target hooke_cli hooke_long_extrapolate hooke_long_random_scenes", 240),
         hold("small example scenes", " ".join(f"examples/scenes/{name}.json" for name in SMALL), 300),
         hold("twenty random scenes", "random:20", 120),
         hold("large example scenes", " ".join(f"examples/scenes/{name}.json" for name in LARGE), 5000),
