@@ -273,6 +273,7 @@ static int run_and_tell(struct hooke_run *run) {
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
   if (!run->arguments->json) hooke_want_print(run);
+  hooke_run_print_final(run);
   if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->arguments->json) hooke_run_print(run);
   explain(run);

@@ -85,9 +85,9 @@ static void print_json(const struct hooke_run *run, int32_t with_final) {
   hooke_json_count(&json, "particles", hooke_system_particle_count(system));
   hooke_json_count(&json, "springs", hooke_system_spring_count(system));
   print_json_motion(&json, run);
-  hooke_want_print_json(run, &json);
   hooke_json_text(&json, "output", run->output);
   hooke_json_text(&json, "diagnosis", hooke_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
+  hooke_want_print_json(run, &json);
   if (with_final) {
     const int64_t particles = hooke_system_particle_count(system);
     hooke_json_open(&json, "final", '{');
@@ -202,12 +202,15 @@ static void print_final(const struct hooke_run *run) {
 }
 
 void hooke_run_print(const struct hooke_run *run) {
-  const int32_t with_final = hooke_arguments_text(run->arguments, "final") != NULL;
-  if (run->arguments->json) {
-    print_json(run, with_final);
-  } else {
+  if (run->arguments->json)
+    print_json(run, hooke_arguments_text(run->arguments, "final") != NULL);
+  else
     print_words(run);
-    if (with_final) print_final(run);
-  }
+  hooke_print_flush();
+}
+
+void hooke_run_print_final(const struct hooke_run *run) {
+  if (run->arguments->json || !hooke_arguments_text(run->arguments, "final")) return;
+  print_final(run);
   hooke_print_flush();
 }

@@ -32,7 +32,8 @@ struct hooke_run {
 
 const char *hooke_run_method(const struct hooke_run *run);
 
-/* With --json, as JSON; with --final, every particle, too. */
+/* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
 void hooke_run_print(const struct hooke_run *run);
+void hooke_run_print_final(const struct hooke_run *run);
 
 #endif

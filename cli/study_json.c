@@ -1,10 +1,13 @@
 /* The results of a study as JSON. */
 #include "study_results.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static void print_reference(struct hooke_json *json, const hooke_study *study) {
   static const char *const parts[] = {"method", "check"};
+  static const char *const numbers[] = {"growth", "growth_probability", "growth_seen", "displacements",
+                                        "energy_agreement"};
   hooke_json_open(json, "reference", '{');
   hooke_json_open(json, "methods", '[');
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
@@ -14,7 +17,9 @@ static void print_reference(struct hooke_json *json, const hooke_study *study) {
   hooke_json_close(json);
   hooke_json_number(json, "agreement", hooke_study_figure(study, "agreement"));
   hooke_json_number(json, "trusted_until", hooke_study_figure(study, "trusted_until"));
-  hooke_json_number(json, "growth", hooke_study_figure(study, "growth"));
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+    hooke_json_number(json, numbers[i], hooke_study_figure(study, numbers[i]));
+  hooke_json_text(json, "ended", hooke_study_reference(study, "ended"));
   hooke_json_close(json);
 }
 
@@ -29,6 +34,23 @@ static void print_orders(struct hooke_json *json, const struct hooke_study_resul
       hooke_json_number(json, numbers[k], hooke_study_order(results->study, method, numbers[k]));
     hooke_json_text(json, "note", hooke_study_order_note(results->study, method));
     hooke_json_close(json);
+  }
+  hooke_json_close(json);
+}
+
+static void print_margin(struct hooke_json *json, const hooke_study *study) {
+  static const char *const numbers[] = {"error_low", "error_high", "limit_share", "error_stiffness",
+                                        "error_start"};
+  static const char *const flags[] = {"holds_stiffness", "holds_start"};
+  hooke_json_open(json, "margin", '{');
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+    hooke_json_number(json, numbers[i], hooke_study_recommendation_number(study, numbers[i]));
+  for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
+    const double flag = hooke_study_recommendation_number(study, flags[i]);
+    if (isnan(flag))
+      hooke_json_text(json, flags[i], NULL);
+    else
+      hooke_json_flag(json, flags[i], flag == 1.0);
   }
   hooke_json_close(json);
 }
@@ -51,6 +73,7 @@ static void print_recommendation(struct hooke_json *json, const struct hooke_stu
   hooke_json_text(json, "note", hooke_study_recommendation_text(study, "note"));
   hooke_json_number(json, "atol", hooke_study_recommendation_number(study, "atol"));
   hooke_json_number(json, "force_evaluations", hooke_study_recommendation_number(study, "force_evaluations"));
+  print_margin(json, study);
   hooke_json_close(json);
 }
 

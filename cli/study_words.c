@@ -48,16 +48,18 @@ static void print_why_not_all(const hooke_study *study, const char *time) {
 }
 
 static void print_growth(const hooke_study *study) {
-  const double bound = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
-  const double count = hooke_study_figure(study, "displacements");
-  if (!isnan(bound)) {
+  const double most = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
+  if (isnan(seen)) return;
+  if (isnan(most)) {
+    print_fact("growth", "a displacement of the start grows %.3g times; others may grow more", seen);
+  } else if (hooke_study_figure(study, "growth_probability") == 1.0) {
+    print_fact("growth", "a small displacement of the start grows at most %.3g times", most);
+  } else {
     print_fact(
         "growth",
         "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; "
         "random ones grow %.3g times",
-        bound, count, seen);
-  } else if (!isnan(seen)) {
-    print_fact("growth", "a random displacement of the start grows %.3g times; others may grow more", seen);
+        most, hooke_study_figure(study, "displacements"), seen);
   }
 }
 
@@ -126,6 +128,32 @@ static void print_orders(const struct hooke_study_results *results, int32_t widt
 
 /* ---- the recommendation ---- */
 
+/* How the recommendation does where the scene is a little different. */
+static void print_change(const hooke_study *study, const char *change, const char *holds, const char *error) {
+  const double held = hooke_study_recommendation_number(study, holds);
+  const double off = hooke_study_recommendation_number(study, error);
+  if (isnan(held))
+    print_fact("", "%s: not known in this time", change);
+  else if (isnan(off))
+    print_fact("", "%s: no longer, a run did not come to its end or was not judged", change);
+  else
+    print_fact("", "%s: %s, its error is %.3g m then", change,
+               held == 1.0 ? "still at most that" : "no longer", off);
+}
+
+static void print_margin(const hooke_study *study) {
+  const double share = hooke_study_recommendation_number(study, "limit_share");
+  char limit[64] = "";
+  if (!isnan(share) && !isinf(share) && share > 0.0)
+    snprintf(limit, sizeof limit, "; its step is %.2g of the largest stable one at the start", share);
+  print_fact("margin", "error between %.3g and %.3g m, by the agreement of the reference%s",
+             hooke_study_recommendation_number(study, "error_low"),
+             hooke_study_recommendation_number(study, "error_high"), limit);
+  print_change(study, "stiffness 10 % more or less", "holds_stiffness", "error_stiffness");
+  print_change(study, "all started faster or slower along (1, 1, 1) by 10 % of the largest speed",
+               "holds_start", "error_start");
+}
+
 static void print_recommendation(const struct hooke_study_results *results) {
   const hooke_study *study = results->study;
   double want = hooke_study_recommendation_number(study, "want");
@@ -150,6 +178,7 @@ static void print_recommendation(const struct hooke_study_results *results) {
              hooke_study_recommendation_number(study, "error"),
              hooke_study_recommendation_number(study, "wall_seconds"),
              hooke_study_recommendation_number(study, "force_evaluations"));
+  if (met) print_margin(study);
 }
 
 /* What the columns mean, and the marks that occur. */

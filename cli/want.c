@@ -155,10 +155,8 @@ void hooke_want_print(const struct hooke_run *run) {
   warn(run);
 }
 
-void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
-  if (!run->estimate) return;
+static void print_json_error(const struct hooke_run *run, struct hooke_json *json) {
   const char *by = hooke_estimate_text(run->estimate, "by");
-  const double met = number_of(run, "met");
   hooke_json_open(json, "error", '{');
   hooke_json_number(json, "estimate", number_of(run, "estimate"));
   hooke_json_number(json, "known_from", number_of(run, "known_from"));
@@ -167,6 +165,12 @@ void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json)
   hooke_json_number(json, "energy_rise", number_of(run, "energy_rise"));
   hooke_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
   hooke_json_close(json);
+}
+
+void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
+  if (!run->estimate) return;
+  const double met = number_of(run, "met");
+  if (run->outcome == HOOKE_OK) print_json_error(run, json);
   if (!is_wanted(run)) return;
   hooke_json_open(json, "want", '{');
   hooke_json_number(json, "wanted", number_of(run, "wanted"));

@@ -29,7 +29,8 @@ MAY_BE_NULL = {
     ("system_add_altitude", "options"), ("system_add_part", "options"), ("mesh_set", "options"),
     ("integrator_create", "options"), ("integrator_create_first_order", "options"), ("comparison_create", "options"),
     ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"), ("study_create", "run"),
-    ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"), ("why_create_kept", "run"), ("mesh_read", "options"),
+    ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"),
+    ("why_create_kept", "run"), ("mesh_read", "options"),
     ("scene_options_apply", "options"), ("why_advice_apply", "run"),
 }
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}

@@ -4,7 +4,8 @@
  *                                     the status of the study
  *   /study                            attributes duration, budget_spent
  *   /study/options                    an attribute for each option of the study that is set
- *   /study/reference                  attributes methods (two), agreement, trusted_until, growth
+ *   /study/reference                  attributes methods (two), ended, agreement, energy_agreement, trusted_until,
+ *                                     growth, growth_probability, growth_seen, displacements
  *   /study/method, status             [rows], texts
  *   /study/<column>                   [rows], one array for each number of hooke_study_number(), NaN where there is none
  *   /study/series/time                [frames], those that are judged
@@ -12,7 +13,9 @@
  *   /study/orders/method, note        [methods that have rows], texts
  *   /study/orders/<figure>            [methods]: order, low, high, theory; NaN for an error-controlled method
  *   /study/recommendation             attributes method, note, met, want, step, rtol, atol, error, wall_seconds,
- *                                     force_evaluations; the group is there only if something was recommended
+ *                                     force_evaluations, error_low, error_high, limit_share, holds_stiffness,
+ *                                     error_stiffness, holds_start, error_start; the group is there only if
+ *                                     something was recommended
  *
  * Texts are padded with zeros. The file takes its place when it is complete. */
 #include "core/memory.h"
@@ -154,20 +157,35 @@ static herr_t write_number(hid_t group, const char *name, double number) {
 }
 
 static herr_t write_reference(hid_t study_group, const hooke_study *study) {
-  static const char *const names[] = {"agreement", "trusted_until", "growth"};
+  static const char *const names[] = {"agreement",          "energy_agreement", "trusted_until", "growth",
+                                      "growth_probability", "growth_seen",      "displacements"};
   const char *const methods[2] = {hooke_study_reference(study, "method"),
                                   hooke_study_reference(study, "check")};
   hid_t group = new_group(study_group, "reference");
   herr_t result = group < 0 ? -1 : hooke_h5_text_attributes(group, "methods", 2, methods);
-  for (int k = 0; result >= 0 && k < 3; k++)
+  if (result >= 0) result = hooke_h5_text_attribute(group, "ended", hooke_study_reference(study, "ended"));
+  for (size_t k = 0; result >= 0 && k < sizeof names / sizeof names[0]; k++)
     result = write_number(group, names[k], hooke_study_figure(study, names[k]));
   hooke_h5_drop(group);
   return result;
 }
 
 static herr_t write_recommendation(hid_t study_group, const hooke_study *study) {
-  static const char *const names[] = {"met",  "want",  "step",         "rtol",
-                                      "atol", "error", "wall_seconds", "force_evaluations"};
+  static const char *const names[] = {"met",
+                                      "want",
+                                      "step",
+                                      "rtol",
+                                      "atol",
+                                      "error",
+                                      "wall_seconds",
+                                      "force_evaluations",
+                                      "error_low",
+                                      "error_high",
+                                      "limit_share",
+                                      "holds_stiffness",
+                                      "error_stiffness",
+                                      "holds_start",
+                                      "error_start"};
   const char *note = hooke_study_recommendation_text(study, "note");
   const char *method = hooke_study_recommendation_text(study, "method");
   if (note == NULL) return 0;

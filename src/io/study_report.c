@@ -10,11 +10,25 @@
 /* A curve over time has this many points at most; each is the largest of the frames that it stands for. */
 enum { MOST_POINTS = 240 };
 
-static const char *const reference_numbers[] = {"agreement", "trusted_until", "growth",
-                                                "duration",  "frames",        "budget_spent"};
+static const char *const reference_numbers[] = {
+    "agreement",   "energy_agreement", "trusted_until", "growth", "growth_probability",
+    "growth_seen", "displacements",    "duration",      "frames", "budget_spent"};
 static const char *const order_numbers[] = {"order", "low", "high", "theory"};
-static const char *const recommendation_numbers[] = {"met",  "want",  "step",         "rtol",
-                                                     "atol", "error", "wall_seconds", "force_evaluations"};
+static const char *const recommendation_numbers[] = {"met",
+                                                     "want",
+                                                     "step",
+                                                     "rtol",
+                                                     "atol",
+                                                     "error",
+                                                     "wall_seconds",
+                                                     "force_evaluations",
+                                                     "error_low",
+                                                     "error_high",
+                                                     "limit_share",
+                                                     "holds_stiffness",
+                                                     "error_stiffness",
+                                                     "holds_start",
+                                                     "error_start"};
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof((list)[0])))
 
 struct request {
@@ -62,6 +76,7 @@ static void add_reference(struct hooke_text *text, const hooke_study *study) {
   hooke_text_open(text, "reference", '{');
   hooke_text_word(text, "method", hooke_study_reference(study, "method"));
   hooke_text_word(text, "check", hooke_study_reference(study, "check"));
+  hooke_text_word(text, "ended", hooke_study_reference(study, "ended"));
   for (int k = 0; k < COUNT_OF(reference_numbers); k++)
     hooke_text_number(text, reference_numbers[k], hooke_study_figure(study, reference_numbers[k]));
   hooke_text_close(text, '}');

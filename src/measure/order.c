@@ -98,8 +98,7 @@ static void explain(const hooke_study *study, int32_t method, struct hooke_study
     snprintf(causes, sizeof causes, "steps do not resolve the motion yet");
   else
     list_causes(study, method, coarsest, causes, sizeof causes);
-  hooke_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory,
-              causes);
+  hooke_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
 }
 
 /* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975), and t with

@@ -32,6 +32,7 @@ struct search {
   double largest;      /* value that may be taken */
   double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
   double error_meets, error_fails;
+  double rate; /* least seconds for an evaluation of forces or of their derivative, in any run */
   double until; /* where a run that costs too much ends, by the clock [s] */
   int32_t late;
 };
@@ -86,12 +87,16 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
+  const double work = trial.force_evaluations + fmax(0.0, trial.linear_iterations);
   for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
     looker.soundness.count = looker.soundness.capacity; /* seen already */
     const struct hooke_listener quiet = {.on_progress = on_progress, .ctx = &looker};
     status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
     result->seconds = fmin(result->seconds, trial.wall_seconds);
   }
+  /* a run's own time may have met a busy machine */
+  s->rate = fmin(s->rate, result->seconds / work);
+  result->seconds = work * s->rate;
   if (looker.soundness.time) {
     result->allowed = hooke_soundness_limit_share * looker.soundness.least_bound;
     result->gains = hooke_soundness_rise(&looker.soundness) > hooke_soundness_most_rise;
@@ -184,6 +189,7 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
                      .fails = NAN,
                      .error_meets = NAN,
                      .error_fails = NAN,
+                     .rate = INFINITY,
                      .until = INFINITY};
   s.order = s.adaptive ? 1.0 : (double)hooke_method_find(method)->order;
   find_largest(&s);

@@ -178,7 +178,8 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
                                                               .atol = NAN,
                                                               .error = NAN,
                                                               .wall_seconds = NAN,
-                                                              .force_evaluations = NAN};
+                                                              .force_evaluations = NAN,
+                                                              .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
   study->work_ahead = 0.0;
   struct hooke_study_candidate *best = NULL;
   /* what the reference took is known, what a search takes beyond the rows is not */
@@ -196,7 +197,7 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
     keep_closest(study, c);
   for (int32_t k = 0; k < study->method_count; k++)
     hooke_study_candidate_release(&c[k]);
-  return status;
+  return status == HOOKE_OK && best ? hooke_study_find_margin(study) : status;
 }
 
 int32_t hooke_study_recommend(hooke_study *study, double want) {

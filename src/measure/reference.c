@@ -202,8 +202,12 @@ int32_t hooke_reference_create(const hooke_system *system, const struct hooke_re
   struct hooke_reference_watch watch = {.request = request, .begun = hooke_clock_seconds()};
   struct hooke_trial trial = {.status = NULL};
   hooke_state *state = NULL;
-  *r = (struct hooke_reference){
-      .growth = NAN, .growth_seen = NAN, .agreement = NAN, .energy_agreement = NAN, .coarse = 1};
+  *r = (struct hooke_reference){.growth = NAN,
+                                .growth_probability = NAN,
+                                .growth_seen = NAN,
+                                .agreement = NAN,
+                                .energy_agreement = NAN,
+                                .coarse = 1};
   if (!hooke_method_is_built("cvode-adams")) {
     return hooke_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
   }

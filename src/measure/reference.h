@@ -17,14 +17,14 @@ struct hooke_reference {
   int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
   int64_t trusted;         /* of those, frames that agree to the digits, from the first on */
   int32_t coarse; /* 1: no frame agrees to the wanted digits; those trusted do to 1e-6 of the extent */
-  int32_t
-      hurried; /* 1: time was short to compare them further, or at tighter tolerances; 0: they agree, or rounding
-                    * keeps them apart at the tightest */
-  double growth; /* a bound for small displacements of the start (reference_growth.c); NaN: none is known */
-  double growth_seen;       /* largest growth of one random displacement; NaN: not measured */
-  int32_t displacements;    /* that were run */
-  int32_t growth_saturated; /* 1: they grew beyond what is small, so that there is no bound */
-  double wall_seconds;      /* of everything */
+  /* 1: time was short to compare them further, or at tighter tolerances. 0: they agree, or rounding keeps them apart */
+  int32_t hurried;
+  double growth;             /* of small displacements of the start, at most (reference_growth.c) */
+  double growth_probability; /* that it is; both NaN where nothing is known */
+  double growth_seen;        /* largest growth of one displacement; NaN: not measured */
+  int32_t displacements;     /* that were run */
+  int32_t growth_saturated;  /* 1: they grew beyond what is small, so nothing is known of the most */
+  double wall_seconds;       /* of everything */
 };
 
 /* What a reference is asked for. */
@@ -32,9 +32,9 @@ struct hooke_reference_request {
   const hooke_options *run; /* duration, every */
   int64_t frame_count;
   double digits; /* that a trusted frame is known to [m]; if NaN, 1e-6 of the extent */
-  int32_t
-      enough; /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth; 0: on to 1e-9 of the
-                   * extent, while there is time */
+  /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth. 0: on to 1e-9 of the extent, while
+   * there is time */
+  int32_t enough;
   double budget;                         /* [s], infinity for none */
   const struct hooke_listener *listener; /* told of progress with the share of the whole reference */
 };

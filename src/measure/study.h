@@ -22,10 +22,21 @@ struct hooke_study_order {
   char note[512];
 };
 
+/* What a recommendation has to spare (study_margin.c). */
+enum hooke_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
+struct hooke_study_margin {
+  double
+      limit_share; /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
+  double
+      error[HOOKE_STUDY_CHANGES]; /* the largest with the change [m]; NaN: unknown, or a run did not finish */
+  double holds[HOOKE_STUDY_CHANGES]; /* 1: the want is met with the change; 0: not; NaN: unknown */
+};
+
 struct hooke_study_recommendation {
   int32_t made, met;
   int32_t method;
   double want, value, atol, error, wall_seconds, force_evaluations;
+  struct hooke_study_margin margin;
   char note[512];
 };
 
@@ -93,6 +104,7 @@ double hooke_study_guess(const hooke_study *study, int32_t method, double value)
  * must be released. Only the first may be called from several threads at a time. */
 int32_t hooke_study_run_row(const hooke_study *study, int32_t method, double value,
                             const struct hooke_listener *listener, struct hooke_study_row *row);
+int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out);
 int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row);
@@ -102,6 +114,9 @@ int32_t hooke_study_run_ladders(hooke_study *study);
 
 /* The recommendation, until the deadline. */
 int32_t hooke_study_find_cheapest(hooke_study *study, double want);
+
+/* What the recommendation has to spare, until the deadline. */
+int32_t hooke_study_find_margin(hooke_study *study);
 
 /* Least squares of log error on log step for a method (order.c). */
 void hooke_study_fit_order(hooke_study *study, int32_t method);

@@ -57,6 +57,7 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"checked_until", made ? time_until(study, r->checked) : NAN},
       {"energy_agreement", made ? r->energy_agreement : NAN},
       {"growth", made ? r->growth : NAN},
+      {"growth_probability", made ? r->growth_probability : NAN},
       {"growth_seen", made ? r->growth_seen : NAN},
       {"displacements", made ? (double)r->displacements : NAN},
       {"duration", study->duration},
@@ -147,6 +148,13 @@ double hooke_study_recommendation_number(const hooke_study *study, const char *w
       {"error", r->error},
       {"wall_seconds", r->wall_seconds},
       {"force_evaluations", r->force_evaluations},
+      {"error_low", isnan(r->error) ? NAN : fmax(0.0, r->error - study->reference.agreement)},
+      {"error_high", r->error + study->reference.agreement},
+      {"limit_share", r->margin.limit_share},
+      {"holds_stiffness", r->margin.holds[HOOKE_STUDY_STIFFNESS]},
+      {"error_stiffness", r->margin.error[HOOKE_STUDY_STIFFNESS]},
+      {"holds_start", r->margin.holds[HOOKE_STUDY_START]},
+      {"error_start", r->margin.error[HOOKE_STUDY_START]},
   };
   return HOOKE_FIGURE(numbers, what);
 }

@@ -32,6 +32,7 @@ int32_t hooke_variant_create(const hooke_system *system, struct hooke_variant *v
   }
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] = 1.0;
+  variant->stiffness = 1.0;
   return HOOKE_OK;
 }
 
@@ -134,6 +135,27 @@ static int32_t add_forces(const struct hooke_variant_maker *maker) {
   return status;
 }
 
+static void scale(int64_t count, double *value, double factor) {
+  for (int64_t k = 0; k < count; k++)
+    value[k] *= factor;
+}
+
+static void scale_stiffness(hooke_system *made, double factor) {
+  for (int64_t g = 0; g < made->group_count; g++)
+    scale(made->group[g].count, made->group[g].kappa, factor);
+  for (int64_t g = 0; g < made->bending_group_count; g++)
+    scale(made->bending_group[g].count, made->bending_group[g].coefficient, factor);
+  for (int64_t g = 0; g < made->altitude_group_count; g++) {
+    for (int64_t k = 0; k < made->altitude_group[g].count; k++)
+      made->altitude_group[g].tetrahedron[k].stiffness *= factor;
+  }
+}
+
+static void add_velocity(hooke_system *made, const double velocity[3]) {
+  for (int64_t i = 0; i < 3 * made->particle_count; i++)
+    if (!made->held[i / 3]) made->velocity[i] += velocity[i % 3];
+}
+
 int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant *variant, hooke_system **made,
                            struct hooke_variant_map *map) {
   struct hooke_variant_maker maker = {from, variant, NULL, map};
@@ -149,7 +171,11 @@ int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant 
   if (status == HOOKE_OK) status = hooke_variant_add_bending(&maker);
   if (status == HOOKE_OK) status = hooke_variant_add_altitude(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
-  if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
+  if (status == HOOKE_OK) {
+    if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
+    add_velocity(maker.made, variant->velocity);
+    status = hooke_system_commit(maker.made);
+  }
   if (status == HOOKE_OK) {
     *made = maker.made;
   } else {

@@ -15,6 +15,8 @@ struct hooke_variant {
   uint8_t *particle;   /* one a particle; those of parts go with their part only */
   uint8_t *part;       /* one a part */
   double *scale;       /* one a part: factor on the cells along each axis */
+  double stiffness;    /* factor on all stiffness; 1 at first, and nothing to join */
+  double velocity[3];  /* added to the start of every free particle [m/s]; nothing to join either */
 };
 
 /* A variant of a committed system that changes nothing. HOOKE_NO_MEMORY. */

@@ -20,6 +20,7 @@ pytestmark = pytest.mark.everything
 KEYS = ["status", "method", "step", "time", "steps", "force_evaluations", "wall_seconds", "particles", "springs",
         "energy", "momentum", "output", "diagnosis"]
 ADAPTIVE_KEYS = KEYS[:2] + ["rtol", "atol"] + KEYS[3:]
+ERROR_KEYS = ["estimate", "known_from", "known_until", "by", "energy_rise", "note"]
 
 
 def is_number(value):
@@ -34,7 +35,7 @@ def test_json_has_exactly_the_keys_and_types(hooke, write, method, keys):
     assert [line for line in answer.err.splitlines() if "warning: " not in line] == []
     assert ("warning: " in answer.err) == (method == "forward-euler")
     value = answer.json
-    assert list(value) == keys
+    assert list(value) == keys + ["error"] and list(value["error"]) == ERROR_KEYS
     assert (value["status"], value["method"]) == ("finished", method)
     assert value["time"] == 0.5
     for key in ["steps", "force_evaluations", "particles", "springs"]:
@@ -60,7 +61,7 @@ def test_options_come_before_the_scene(hooke, write):
 def test_energy_and_momentum_are_those_of_the_last_state(hooke, write):
     """Worked out here from --final: m v, 1/2 m v^2, springs and weight."""
     value = hooke("run", write(SIX_PARTICLES), "--json", "--final").json
-    assert list(value) == KEYS + ["final"] and list(value["final"]) == ["position", "velocity"]
+    assert list(value) == KEYS + ["error", "final"] and list(value["final"]) == ["position", "velocity"]
     q, v = value["final"]["position"], value["final"]["velocity"]
     assert len(q) == len(v) == 6 and all(len(row) == 3 for row in q + v)
     assert q[5] == [3, 2, 0.2] and v[5] == [0, 0, 0]
@@ -118,10 +119,10 @@ def test_words_of_an_adaptive_method_count_the_solver(hooke, write):
     "run, words, code, wanted",
     [
         ({"duration": None}, [], 2, "no duration"),
-        ({"step": None}, [], 2, "no step"),
-        ({"step": 3e-3}, [], 3, "nearest step"),
-        ({}, ["--step", "3e-3"], 3, "nearest step"),
-        ({}, ["--every", "0.0333"], 3, "multiple"),
+        ({"step": None}, ["--strict"], 2, "no step"),
+        ({"step": 3e-3}, ["--strict"], 3, "nearest step"),
+        ({}, ["--step", "3e-3", "--strict"], 3, "nearest step"),
+        ({}, ["--every", "0.0333", "--strict"], 3, "multiple"),
         ({"method": "magic"}, [], 3, "magic"),
         ({"step": -1}, [], 3, "run.step"),
         ({}, ["-o", "scene.json"], 2, "the scene itself"),
@@ -327,6 +328,49 @@ def test_standard_output_is_json_and_nothing_else(write, tmp_path):
         done = subprocess.run(line, shell=True, cwd=tmp_path, capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, (verb, done.stderr)
         assert done.stdout.startswith("{") and "Extra data" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "run, words, step, every, duration, told",
+    [
+        ({"step": None}, [], None, 0.05, 0.5, "step is "),
+        ({"step": None}, ["--method", "backward-euler"], 5e-4, 0.05, 0.5, "step is 0.0005 s"),
+        ({}, ["--step", "1.02e-3"], 1e-3, 0.05, 0.5, "step is 0.001 s"),
+        ({}, ["--every", "0.0333"], 1e-3, 0.033, 0.5, "every is 0.033 s"),
+        ({}, ["--step", "3e-3", "--duration", "0.4", "--every", "0.1"], 3e-3, 0.099, 0.399, "duration is 0.399 s"),
+        ({}, ["--step", "1e-3"], 1e-3, 0.05, 0.5, None),
+    ],
+)
+def test_a_step_that_fits_is_chosen_and_told(hooke, write, tmp_path, run, words, step, every, duration, told):
+    scene = write(SIX_PARTICLES, **run)
+    answer = hooke("run", scene, *words, "--json", "-o", "out.h5")
+    assert answer.code == 0 and (told in answer.err if told else answer.err == "")
+    with h5py.File(tmp_path / "out.h5") as file:
+        times = file["particles/all/position/time"][:]
+    assert times[-1] == pytest.approx(duration) and times[1] - times[0] == pytest.approx(every)
+    if step is not None:
+        assert answer.json["step"] == pytest.approx(step)
+    else:  # half of what is certain to be stable, at most
+        safe = hooke("check", scene, "--json").json["step_limit"]["symplectic-euler"]
+        assert 0.25 * safe < answer.json["step"] <= 0.5 * safe
+
+
+@pytest.mark.parametrize("words", [["--step", "1e-3"], ["--rtol", "1e-4"], ["--atol", "1e-6"]])
+def test_a_want_goes_with_no_step_or_tolerance(hooke, write, words):
+    refused = hooke("run", write(SIX_PARTICLES), "--want", "1mm", *words)
+    assert refused.code == 2 and words[0] in refused.err and refused.out == ""
+
+
+def test_a_method_restricts_the_want(hooke, write):
+    value = hooke("run", write(SIX_PARTICLES), "--want", "1mm", "--method", "verlet", "--json").json
+    assert value["method"] == "verlet" and value["want"]["met"] is True
+    assert value["error"]["estimate"] <= 1e-3 and value["error"]["known_until"] == 0.5
+
+
+def test_an_estimate_can_be_left_out(hooke, write):
+    answer = hooke("run", write(SIX_PARTICLES), "--no-estimate")
+    assert answer.code == 0 and "\nerror " not in answer.out
+    assert "error" not in hooke("run", write(SIX_PARTICLES), "--no-estimate", "--json").json
 
 
 @pytest.mark.parametrize("want, metres", [("1cm", 1e-2), ("1e-3", 1e-3), ("10 um", 1e-5)])

@@ -42,8 +42,14 @@ def test_json_has_the_keys(hooke, write):
     assert first.startswith("cvode-") and second in ("rk8pd", "arkode-esdirk")
     assert 0 < value["reference"]["agreement"] < 1e-7
     assert value["reference"]["trusted_until"] == 1
-    assert 0.1 < value["reference"]["growth"] < 100
+    assert 0.1 < value["reference"]["growth_seen"] <= value["reference"]["growth"] < 1e4
+    assert 0 <= value["reference"]["energy_agreement"] < 1e-6
     assert begins_with(value["recommendation"], RECOMMENDATION)
+    margin = value["recommendation"]["margin"]
+    assert 0 < margin["error_low"] <= value["recommendation"]["error"] <= margin["error_high"] <= 1e-3
+    for change in ["stiffness", "start"]:
+        held, error = margin["holds_" + change], margin["error_" + change]
+        assert held is None or error is None or held == (error <= 1e-3), change
 
     methods = list(dict.fromkeys(row["method"] for row in value["rows"]))
     assert {"forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"} <= set(methods)
@@ -115,6 +121,8 @@ def test_csv_reads_back_to_the_same_bits(hooke, write, tmp_path):
         assert float(line["wall_median"]) >= float(line["wall_seconds"]) and int(line["repeats"]) >= 1
         near = row["error"] is not None and row["error"] <= 10 * answer.json["reference"]["agreement"]
         assert line["near_floor"] == str(int(near))
+        floor = 10 * answer.json["reference"]["energy_agreement"]
+        assert line["near_energy_floor"] == str(int(row["energy_drift"] is not None and row["energy_drift"] <= floor))
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith("rows")] == ["rows.csv"]
 
 
@@ -201,7 +209,7 @@ def test_numbers_of_no_run_are_null(hooke, write):
         assert found[key] is None, key
     assert "no run finished" in found["note"] and "forward-euler diverged" in found["note"]
     answer = hooke(*words, "--want", "1mm")
-    assert answer.code == 0 and "no run finished" in answer.out and "closest  " not in answer.out
+    assert answer.code == 7 and "no run finished" in answer.out and "closest  " not in answer.out
     assert "nan" not in answer.out
 
 
@@ -224,7 +232,7 @@ def test_what_cannot_be_had_is_said(hooke, write):
     assert found["met"] is False and found["command"] is None and found["note"]
     assert found["error"] > 1e-6
     answer = hooke(*words)
-    assert answer.code == 0
+    assert answer.code == 7
     assert "none for an error of at most 1e-06 m" in answer.out and "closest" in answer.out
     assert hooke("study", scene, *FEW, "--json").json["recommendation"] is None
 
@@ -275,7 +283,8 @@ def test_chaos_is_called_so(hooke, write):
     words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8"]
     value = hooke(*words, "--json").json
     assert 1 < value["reference"]["trusted_until"] < 12
-    assert value["reference"]["growth"] > 1e4
+    assert value["reference"]["growth_seen"] > 1e4 and value["reference"]["growth"] is None
+    assert value["reference"]["ended"] == "rounding"
     out = hooke(*words).out
     assert "chaotic" in out and "trusted until" in out
     calm = hooke("study", write(SIX_PARTICLES), *FEW).out
@@ -316,12 +325,14 @@ DAMPED_CLOTH = {
 @everything
 def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
     """What it came to is used, and said to be a part."""
-    words = ["study", write(DAMPED_CLOTH), "--methods", "backward-euler", "--budget", "4s", "--want", "1cm"]
+    scene = write(DAMPED_CLOTH, duration=10)
+    words = ["study", scene, "--methods", "backward-euler", "--budget", "4s", "--want", "1cm"]
     begun = time.monotonic()
     answer = hooke(*words, "--json")
-    assert answer.code == 0 and time.monotonic() - begun < 20
     value = answer.json
-    assert value["budget_spent"] is True and 0 < value["reference"]["trusted_until"] < 1
+    assert answer.code == (0 if value["recommendation"]["met"] else 7) and time.monotonic() - begun < 20
+    assert value["budget_spent"] is True and 0 < value["reference"]["trusted_until"] < 10
+    assert value["reference"]["ended"] == "time"
     assert 0 < value["reference"]["agreement"] < 1e-3
     assert value["reference"]["growth"] is None or value["reference"]["growth"] > 0
     out = hooke(*words).out

@@ -24,6 +24,7 @@ PUBLIC = {
     "hooke/integrator.h": "integrate",
     "hooke/measure.h": "measure",
     "hooke/study.h": "measure",
+    "hooke/estimate.h": "measure",
     "hooke/limit.h": "measure",
     "hooke/needs.h": "measure",
     "hooke/cost.h": "measure",

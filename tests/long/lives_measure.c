@@ -4,6 +4,7 @@
 #include "lives.h"
 #include "run.h"
 
+#include <math.h>
 #include <stddef.h>
 
 static hooke_integrator *diverged(hooke_scene *scene, hooke_state *state) {

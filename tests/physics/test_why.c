@@ -402,6 +402,65 @@ static int32_t explode(int64_t n, double t, const double *x, double *rate, void 
   return 0;
 }
 
+/* ---- what it may take ---- */
+
+static int32_t count_down(double done, const char *what, void *ctx) {
+  check_between(done, 0.0, 1.0);
+  assert_true(what != NULL && what[0] != '\0');
+  return --*(int *)ctx < 0;
+}
+
+/* At any call, within replays, searches and trials, and nothing is made; without one, the callback changes nothing. */
+static void test_progress_ends_it(void **unused) {
+  (void)unused;
+  needs_lapack();
+  hooke_system *system = row(1);
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  int calls = 1000000;
+  hooke_why *why = NULL;
+  check_ok(hooke_why_create(integrator, INFINITY, count_down, &calls, &why));
+  const int all = 1000000 - calls;
+  assert_true(all > 4);
+  check_text(hooke_why_text(why, "left_out"), "");
+  hooke_why_destroy(why);
+  for (int after = 0; after < all; after += 1 + all / 40) {
+    calls = after;
+    why = NULL;
+    check_status(hooke_why_create(integrator, INFINITY, count_down, &calls, &why), HOOKE_STOPPED);
+    assert_null(why);
+    check_between(calls, -1.0, -1.0); /* never asked again */
+  }
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+/* Without time nothing is claimed but what is known. */
+static void test_no_time(void **unused) {
+  (void)unused;
+  needs_lapack();
+  hooke_system *system = row(1);
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_why *why = NULL;
+  check_ok(hooke_why_create(integrator, 1e-9, NULL, NULL, &why));
+  check_text(hooke_why_text(why, "cause"), "unknown");
+  if (strstr(hooke_why_text(why, "left_out"), "time was short") == NULL)
+    check_failed("%s", hooke_why_text(why, "left_out"));
+  assert_true(isnan(hooke_why_number(why, "limit")));
+  hooke_why_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
 static void test_nothing_to_explain(void **unused) {
   (void)unused;
   hooke_why *why = NULL;
@@ -672,6 +731,8 @@ int main(void) {
       cmocka_unit_test(test_kept_state_that_is_not_finite),
       cmocka_unit_test(test_own_loop),
       cmocka_unit_test(test_trouble_that_comes_late),
+      cmocka_unit_test(test_progress_ends_it),
+      cmocka_unit_test(test_no_time),
       cmocka_unit_test(test_nothing_to_explain),
       cmocka_unit_test(test_recent_states),
       cmocka_unit_test(test_recent_states_are_few_at_scale),

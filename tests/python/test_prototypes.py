@@ -27,6 +27,7 @@ PLAIN_NUMBERS = {
     "hooke_method_is_adaptive",
     "hooke_method_is_built",
     "hooke_integrator_stop_value",
+    "hooke_estimate_see",
 }
 OUTCOMES = {
     "hooke_integrator_run",

@@ -13,7 +13,7 @@ METHODS = ["symplectic-euler", "rk4", "cvode-adams"]
 RUN = {"duration": 1.0, "every": 0.05}
 COLUMNS = (
     "method status step rtol atol error error_max error_final energy_drift force_evaluations steps "
-    "linear_iterations wall_seconds wall_median repeats near_floor timed_alone"
+    "linear_iterations wall_seconds wall_median repeats near_floor near_energy_floor timed_alone"
 ).split()
 
 
@@ -53,6 +53,8 @@ def test_errors_are_true(study):
         assert row["error_final"] == pytest.approx(abs(x - exact), rel=1e-3)
     floor = 10 * study.reference.agreement
     np.testing.assert_array_equal(study.near_floor, study.error <= floor)
+    drift = 10 * study.reference.energy_agreement
+    np.testing.assert_array_equal(study.near_energy_floor, study.energy_drift <= drift)
 
 
 def test_the_reference(study):
@@ -60,6 +62,8 @@ def test_the_reference(study):
     assert first.startswith("cvode") and second in ("rk8pd", "arkode-esdirk")
     assert 0 < study.reference.agreement < 1e-6 and study.reference.trusted_until == 1.0
     assert 0.5 < study.reference.growth < 2, "an oscillator keeps displacements as they are"
+    assert study.reference.growth_probability == 1 and study.reference.displacements == 6
+    assert 0.5 < study.reference.growth_seen <= 1.001 * study.reference.growth and study.reference.ended == "agreed"
 
 
 def test_orders(study):

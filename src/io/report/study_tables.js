@@ -14,6 +14,23 @@ function writeHead() {
   document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== 0);
 }
 
+/* How it does where the scene is a little different. */
+function change(words_of, holds, error) {
+  if (holds === null) return `${words_of}: not known in the time of the study`;
+  if (error === null) return `${words_of}: no longer, a run did not come to its end or was not judged`;
+  return `${words_of}: ${holds ? "still at most that" : "no longer"}, its error is ${words(error)} m then`;
+}
+
+function writeMargin(box) {
+  const share = recommended.limit_share;
+  box.append(element("p",
+    `Margin: the error is between ${words(recommended.error_low)} and ${words(recommended.error_high)} m` +
+    (share > 0 ? `; the step is ${words(share, 2)} of the largest stable one at the start` : "") + ". " +
+    change("Stiffness 10 % more or less", recommended.holds_stiffness, recommended.error_stiffness) + ". " +
+    change("All started faster or slower along (1, 1, 1) by 10 % of the largest speed",
+      recommended.holds_start, recommended.error_start) + "."));
+}
+
 function writeRecommendation() {
   const box = document.getElementById("recommendation");
   box.append(element("h2", !recommended || recommended.met ? "Recommendation" : "Nothing meets what is wanted"));
@@ -34,6 +51,7 @@ function writeRecommendation() {
       ? `For an error of at most ${limit} take ${choice}: it was run, ${error}`
       : `Wanted: ${limit}. The closest is ${choice}: ${error}`));
   }
+  if (recommended.met) writeMargin(box);
   if (recommended.command) box.append(element("pre", recommended.command));
 }
 
@@ -51,6 +69,7 @@ function numberCell(row, what) {
   const cell = element("td", COUNTS.has(what) ? whole(value) : name + words(value, 4));
   if (value !== null) cell.title = String(value);
   if (what === "error" && row.near_floor && value !== null) cell.textContent += " \u25cb";
+  if (what === "energy_drift" && row.near_energy_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "wall_seconds" && row.timed_alone === 0) cell.textContent += " +";
   if (what === "error" && want !== null && value !== null && value <= want) cell.className = "enough";
   return cell;
@@ -89,15 +108,21 @@ function writeOrders() {
 
 function writeReference() {
   document.getElementById("about-head").textContent = "Reference";
-  const { method, check, agreement, growth, frames } = study.reference;
+  const { method, check, agreement, growth, growth_seen: seen, growth_probability: sure, displacements, frames, ended } = study.reference;
+  const why = ended === "rounding" ? "rounding keeps the two apart after that"
+    : "the time was too short to know more";
   fact("about", "made by", method);
   fact("about", "checked by", check);
   fact("about", "agreement", agreement === null ? ""
     : `${words(agreement)} m, the floor: no error below it means anything`);
   fact("about", "trusted until", trusted === null ? "" : `${words(trusted, 6)} s, ` +
-    (wholeRun ? "the whole run" : `of ${words(duration, 6)} s: there the two part, and errors are judged up to there`));
-  fact("about", "growth", growth === null ? ""
-    : `${words(growth)} times, what a small displacement of the start grows at most`);
+    (wholeRun ? "the whole run" : `of ${words(duration, 6)} s: ${why}, and errors are judged up to there`));
+  fact("about", "energies agree to", study.reference.energy_agreement === null ? ""
+    : `${words(study.reference.energy_agreement)} J, the floor of energy drift`);
+  fact("about", "growth", seen === null ? "" : growth === null
+    ? `${words(seen)} times, what a random displacement of the start grows; others may grow more`
+    : `at most ${words(growth)} times${sure < 1 ? ` (with a probability of 1 - 1e-${displacements})` : ""}, of a small ` +
+      `displacement of the start; ${sure < 1 ? "random ones grow" : "that of one coordinate at most"} ${words(seen)} times`);
   fact("about", "frames", whole(frames));
 }
 

@@ -26,12 +26,12 @@ from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, Sol
 from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
+from .estimate import RunError
 from .first_order import FirstOrder
 from .integrator import Integrator, Method, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
-from .estimate import RunError
 from .results import Frames, Result, resume, run
 from .scene import Scene
 from .state import State

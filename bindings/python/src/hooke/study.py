@@ -23,7 +23,7 @@ from .scene import Scene, scene_text
 from .system import Force, System
 
 _TEXTS = ("method", "status")
-_FLAGS = ("near_floor", "timed_alone")
+_FLAGS = ("near_floor", "near_energy_floor", "timed_alone")
 _NUMBERS = (
     "step",
     "rtol",
@@ -49,12 +49,20 @@ _ROW = np.dtype(
 class Reference(NamedTuple):
     """What the errors are measured against: the two integrators that made it, which share only the force;
     how far they are apart at most [m], the floor of all errors; the time until which they agree [s], up to
-    which errors are judged; and the factor by which a small displacement of the start grows."""
+    which errors are judged; and how much a small displacement of the start grows at most, true with
+    `growth_probability`, both NaN where that is not known. `growth_seen` is the most that one of
+    `displacements` displacements grew. `energy_agreement` [J] is the floor of energy drift. `ended` says why it
+    was made no better: "agreed", "time" (the budget), or "rounding"."""
 
     methods: tuple[str, str]
     agreement: float
     trusted_until: float
     growth: float
+    growth_probability: float
+    growth_seen: float
+    displacements: int
+    energy_agreement: float
+    ended: str
 
 
 class Order(NamedTuple):
@@ -75,6 +83,21 @@ class Series(NamedTuple):
     energy_drift: FloatArray
 
 
+class Margin(NamedTuple):
+    """What a recommendation has to spare: its error, less and plus the agreement of the reference [m]; its step
+    over the largest stable one at the start (NaN: none, or unknown); and the error where stiffness is 10 %
+    more or less, or where all particles start with a tenth of the largest speed more or less along (1, 1, 1),
+    and whether that is still what is wanted. NaN, and None, where it is not known."""
+
+    error_low: float
+    error_high: float
+    limit_share: float
+    error_stiffness: float
+    holds_stiffness: bool | None
+    error_start: float
+    holds_start: bool | None
+
+
 class Recommendation(NamedTuple):
     """The cheapest run that was seen to meet `want` [m]; if `met` is False, the one that came closest, and
     `note` says what is in the way. Numbers that do not apply are NaN."""
@@ -89,6 +112,7 @@ class Recommendation(NamedTuple):
     wall_seconds: float
     force_evaluations: float
     note: str
+    margin: Margin
 
     @property
     def options(self) -> dict[str, Any]:
@@ -108,8 +132,8 @@ class Study(Closing):
     "failed"), step [s], rtol, atol [m], error (largest root mean square over the free particles [m]),
     error_max [m], error_final [m], energy_drift [J], force_evaluations, steps, linear_iterations,
     wall_seconds (the least of `repeats` runs) and wall_median [s]; near_floor (the error is within ten times
-    of what the reference is known to), timed_alone. NaN where a number does not apply. `rows` holds them all
-    as one structured array.
+    of what the reference is known to), near_energy_floor (likewise of energy_drift), timed_alone. NaN where a
+    number does not apply. `rows` holds them all as one structured array.
 
     `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that
     rows are missing for lack of time. `orders` has an `Order` for each fixed-step method.
@@ -138,6 +162,7 @@ class Study(Closing):
     wall_median: FloatArray
     repeats: FloatArray
     near_floor: BoolArray
+    near_energy_floor: BoolArray
     timed_alone: BoolArray
 
     def __init__(
@@ -155,7 +180,17 @@ class Study(Closing):
             setattr(self, name, self.rows[name])
         figure = {what: lib.hooke_study_figure(handle, what.encode()) for what in _FIGURES}
         names = [text(lib.hooke_study_reference(handle, what)) for what in (b"method", b"check")]
-        self.reference = Reference((names[0], names[1]), *(figure[what] for what in _FIGURES[:3]))
+        self.reference = Reference(
+            (names[0], names[1]),
+            agreement=figure["agreement"],
+            trusted_until=figure["trusted_until"],
+            growth=figure["growth"],
+            growth_probability=figure["growth_probability"],
+            growth_seen=figure["growth_seen"],
+            displacements=int(np.nan_to_num(figure["displacements"])),
+            energy_agreement=figure["energy_agreement"],
+            ended=text(lib.hooke_study_reference(handle, b"ended")),
+        )
         self.duration = figure["duration"]
         self.budget_spent = bool(figure["budget_spent"])
         self.orders = _read_orders(handle, self.methods)
@@ -177,10 +212,28 @@ class Study(Closing):
         def word(what: str) -> str:
             return text(lib.hooke_study_recommendation_text(self._handle, what.encode()))
 
+        def flag(what: str) -> bool | None:
+            value = number(what)
+            return None if np.isnan(value) else bool(value)
+
         names = ("step", "rtol", "atol", "error", "wall_seconds", "force_evaluations")
         numbers = {name: number(name) for name in names}
+        margin = Margin(
+            number("error_low"),
+            number("error_high"),
+            number("limit_share"),
+            number("error_stiffness"),
+            flag("holds_stiffness"),
+            number("error_start"),
+            flag("holds_start"),
+        )
         return Recommendation(
-            met=bool(number("met")), want=number("want"), method=word("method"), note=word("note"), **numbers
+            met=bool(number("met")),
+            want=number("want"),
+            method=word("method"),
+            note=word("note"),
+            margin=margin,
+            **numbers,
         )
 
     def recommend(self, want: float) -> Recommendation:
@@ -229,7 +282,17 @@ class Study(Closing):
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
 
 
-_FIGURES = ("agreement", "trusted_until", "growth", "duration", "budget_spent")
+_FIGURES = (
+    "agreement",
+    "trusted_until",
+    "growth",
+    "growth_probability",
+    "growth_seen",
+    "displacements",
+    "energy_agreement",
+    "duration",
+    "budget_spent",
+)
 
 
 def study(

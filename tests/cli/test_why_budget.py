@@ -1,0 +1,98 @@
+"""What an explanation may cost: time, memory, and an end by a signal, of a cloth of 256 x 256 that diverged at 1.05 times the
+limit; the outcome and the trajectory before it."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from conftest import CLI
+
+pytestmark = pytest.mark.everything
+
+SIZE, BUDGET = 256, 2.0
+LIMIT = 2.6075272e-5  # of symplectic Euler, by `hooke limit`
+STEP = 1.05 * LIMIT
+RUN = ["--step", repr(STEP), "--every", repr(10 * STEP), "--duration", repr(1000 * STEP)]
+
+
+@pytest.fixture
+def cloth(hooke, tmp_path):
+    families = [word for name in ("structural", "shear", "bend") for word in (f"--{name}.stiffness", "50")]
+    made = hooke("make", "cloth", "--edges", "1,0,0;0,0,1", "--size", f"{SIZE}x{SIZE}", "--mass", "1", "--pinned", "top-corners",
+                 *families, "--gravity", "0,-9.81,0", "--method", "symplectic-euler", "-o", "cloth.json")  # fmt: skip
+    assert made.code == 0, made.err
+    return tmp_path
+
+
+def measured(folder, *more):
+    """Words on standard error, seconds and kilobytes of a run."""
+    begun = time.monotonic()
+    process = subprocess.Popen(
+        [CLI, "run", "cloth.json", *RUN, *more], cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    out, err = process.stdout.read(), process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 4 and "time reached" in out, err
+    return err, time.monotonic() - begun, usage.ru_maxrss
+
+
+def test_an_explanation_keeps_its_budget(cloth):
+    short, run_seconds, run_size = measured(cloth, "--no-why")
+    long, seconds, size = measured(cloth)
+    assert "the run diverged" in short and "largest stable" not in short and "what to do" not in short
+    assert "is above the largest stable one of symplectic-euler" in long and "what to do: a step of" in long
+    assert seconds - run_seconds < 1.5 * BUDGET
+    assert size < 1.5 * run_size
+
+
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_ends_an_explanation_and_loses_nothing(cloth, hooke, start, stop):
+    process = start("run", "cloth.json", *RUN, "-o", "out.h5", text=True)
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if line.startswith("output"):
+            break
+    process.send_signal(stop)
+    sent = time.monotonic()
+    _, err = process.communicate(timeout=60)
+    assert time.monotonic() - sent < 1.0
+    assert process.returncode == 4 and "the run diverged" in err and "kept: the state" in err
+    assert any(line.startswith("time reached") for line in lines)
+    assert "is not looked into further" in err
+    why = hooke("why", "out.h5", "--budget", "5s", "--json")
+    assert why.code == 0 and why.json["cause"] == "step-above-limit"
+
+
+def test_why_has_a_budget_too(cloth, hooke):
+    begun = time.monotonic()
+    answer = hooke("why", "cloth.json", *RUN, "--budget", "1ms", "--json")
+    assert answer.code == 0 and time.monotonic() - begun < 3.0
+    assert answer.json["cause"] == "unknown" and "time was short" in answer.json["left_out"]
+    assert hooke("why", "cloth.json", *RUN, "--budget", "1 kg").code == 2
+
+
+def test_a_command_to_type_has_no_want_beside_a_step(hooke):
+    """Whatever --want picks."""
+    scene = Path(os.environ["HOOKE_SOURCE_DIR"]) / "examples/scenes/mesh.json"
+    answer = hooke("run", scene, "--want", "1mm", "--quiet")
+    commands = [line for line in answer.err.splitlines() if line.startswith("  hooke run ")]
+    assert commands or answer.code != 4
+    assert not any("--want" in line for line in commands if "--step" in line or "--rtol" in line)
+
+
+def test_springs_that_began_without_direction_are_told_of(hooke, write):
+    scene = {
+        "hooke": 1,
+        "gravity": [0, -9.81, 0],
+        "particles": {"position": [[0, 0, 0], [0, 0, 0], [1, 0, 0]], "mass": 1, "pinned": [0]},
+        "springs": [{"between": [[0, 1], [1, 2]], "law": "length", "stiffness": 100, "rest_length": 1}],
+        "run": {"method": "symplectic-euler", "step": 1e-3, "duration": 0.1},
+    }
+    answer = hooke("run", write(scene))
+    assert answer.code == 0 and "1 springs began with both ends at one place" in answer.err
+    assert "began" not in hooke("run", write(scene), "--quiet").err

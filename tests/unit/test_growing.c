@@ -1,0 +1,95 @@
+/* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with every force. */
+#include "measure/growing.h"
+#include "measure/top_mode.h"
+
+#include "check.h"
+#include "random_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SCENES = 20, TURNS = 400 };
+
+static struct random_scene build(uint64_t seed) {
+  struct random_scene scene;
+  random_scene_create((struct random_scene_request){.seed = seed,
+                                                    .particles = 40,
+                                                    .springs = 120,
+                                                    .triples = seed % 2 ? 20 : 0,
+                                                    .tetrahedra = seed % 3 ? 12 : 0,
+                                                    .features = SCENE_GRAVITY | SCENE_DRAG | SCENE_DAMPING |
+                                                                SCENE_PULL_ONLY | SCENE_PINNED},
+                      &scene);
+  return scene;
+}
+
+/* Of M^-1 (a K + b C). */
+static double largest(const hooke_system *system, double a, double b) {
+  struct hooke_linearised lin;
+  double value = 0.0, *mode = calloc((size_t)(3 * system->particle_count), sizeof *mode);
+  check_ok(hooke_linearised_create(system, system->position, NULL, NULL, &lin));
+  const int32_t status =
+      hooke_top_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
+  hooke_linearised_release(&lin);
+  free(mode);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_ok(status);
+  return value;
+}
+
+static void a_quotient_is_below_the_largest_eigenvalue_and_comes_near(void **unused) {
+  (void)unused;
+  for (uint64_t seed = 1; seed <= SCENES; seed++) {
+    struct random_scene scene = build(seed);
+    const hooke_system *system = scene.system;
+    double *still = calloc((size_t)(3 * system->particle_count), sizeof *still);
+    for (int with_damping = 0; with_damping <= 1; with_damping++) {
+      const double b = with_damping ? 0.02 : 0.0, most = largest(system, 1e-4, b);
+      struct hooke_growing growing;
+      check_ok(hooke_growing_create(system, still, NULL, &growing));
+      double before = hooke_growing_quotient(&growing, system->position, 1e-4, b);
+      for (int turn = 0; turn < 5; turn++) {
+        const double quotient = hooke_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, 1);
+        check_between(quotient, (1.0 - 1e-9) * before, (1.0 + 1e-9) * most);
+        before = quotient;
+      }
+      check_between(hooke_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, TURNS),
+                    0.97 * most, (1.0 + 1e-9) * most);
+      hooke_growing_release(&growing);
+    }
+    free(still);
+    random_scene_destroy(&scene);
+  }
+}
+
+/* It ends at the first turn that proves a step too large, and with patience. */
+static int32_t refuse(double done, const char *what, void *ctx) {
+  (void)done, (void)what;
+  return --*(int *)ctx < 0;
+}
+
+static void turns_end(void **unused) {
+  (void)unused;
+  struct random_scene scene = build(5);
+  const hooke_system *system = scene.system;
+  int calls = 3;
+  struct hooke_patience patience = hooke_patience_of(INFINITY, refuse, &calls);
+  struct hooke_growing growing;
+  double *still = calloc((size_t)(3 * system->particle_count), sizeof *still);
+  check_ok(hooke_growing_create(system, still, &patience, &growing));
+  hooke_growing_turn(&growing, system->position, 1e-4, 0.0, INFINITY, -1.0, 1000000);
+  assert_true(patience.stopped && calls == -1);
+  const double half = 0.5 * hooke_growing_quotient(&growing, system->position, 1e-4, 0.0);
+  assert_true(hooke_growing_turn(&growing, system->position, 1e-4, 0.0, half, -1.0, 1000000) > half);
+  hooke_growing_release(&growing);
+  free(still);
+  random_scene_destroy(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_quotient_is_below_the_largest_eigenvalue_and_comes_near),
+      cmocka_unit_test(turns_end),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
