@@ -32,7 +32,7 @@ struct search {
   double largest;      /* value that may be taken */
   double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
   double error_meets, error_fails;
-  double rate; /* least seconds for an evaluation of forces or of their derivative, in any run */
+  double rate;  /* least seconds for an evaluation of forces or of their derivative, in any run */
   double until; /* where a run that costs too much ends, by the clock [s] */
   int32_t late;
 };

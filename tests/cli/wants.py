@@ -88,6 +88,8 @@ def study_complaints(code, value, again, error, want, known=True):
     found = [] if (code == 0) == (met is True) and code in (0, 7) else [f"exit {code} with met {met}"]
     if met and again != 0:
         found.append(f"the recommended run ends with exit {again}")
+    if value["reference"]["trusted_until"] < value["duration"] * (1 - 1e-9):
+        return found  # what it recommends is for the time until then
     if met and again == 0 and not known:
         found.append("recommends what nobody can know")
     elif met and again == 0 and not error <= want:

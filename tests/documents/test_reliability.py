@@ -78,7 +78,7 @@ def test_parts_have_their_place(steps):
 
 def test_parts_took_no_longer_than_they_have(steps):
     minutes = [int(found) for found in re.findall(r"^\d+ of \d+ steps, (\d+) minutes", PAGE, re.MULTILINE)]
-    ran = json.loads((ROOT / "docs/reliability.json").read_text(encoding="utf-8"))
+    ran = [part for part in json.loads((ROOT / "docs/reliability.json").read_text(encoding="utf-8")).values() if part]
     assert len(minutes) == len(ran) >= 5 and 60 * max(minutes) < steps.LIMIT
 
 

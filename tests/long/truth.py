@@ -9,6 +9,7 @@ import math
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -102,7 +103,8 @@ def known(path: Path, times: list[float], tolerance: float, evaluations: float, 
 
 
 def truth(path: Path, times: list[float], evaluations: float = EVALUATIONS, kept: Path | None = None) -> Truth | None:
-    loose, tight = (known(path, times, tolerance, evaluations, kept) for tolerance in TOLERANCES)
+    with ThreadPoolExecutor() as pool:
+        loose, tight = pool.map(lambda tolerance: known(path, times, tolerance, evaluations, kept), TOLERANCES)
     if loose is None or tight is None:
         return None
     free = tight["free"]
