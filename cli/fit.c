@@ -8,7 +8,8 @@
 
 enum { MOST_PARTS = 10000 };
 static const double SHARE_OF_SAFE = 0.5, SHARE_OF_DURATION = 1e-3; /* of which a step is taken */
-static const double SHRINK = 0.9;     /* a step that is given may become as small as this share of it */
+static const double SHRINK = 0.9; /* a step that is given may become as small as this share of it */
+static const double MOST_COUNTED = 9e15;
 static const double MOST_STEPS = 1e8; /* that a run may mean without anyone asking for them */
 
 struct fit {
@@ -103,7 +104,9 @@ int hooke_fit_run(const struct hooke_arguments *arguments, struct hooke_setup *s
     const int code = choose_step(&fit, setup->system, hooke_state_position(setup->state), method);
     return code == HOOKE_EXIT_DONE ? move_times(&fit) : code;
   }
-  if (fits(&fit, fit.step)) return HOOKE_EXIT_DONE;
+  /* what no whole number of steps can make up is refused as it is */
+  const int countable = fit.duration / fit.step < MOST_COUNTED;
+  if (!countable || fits(&fit, fit.step)) return HOOKE_EXIT_DONE;
   const double smaller = largest_that_fits(&fit, fit.step, SHRINK * fit.step);
   return isnan(smaller) ? move_times(&fit)
                         : set(&fit, "step", &fit.step, smaller,

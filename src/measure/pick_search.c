@@ -19,6 +19,7 @@ static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* from one va
 static const double COST_POWER = 1.0 / 6.0;                       /* of a run, in its tolerance */
 static const double PATIENCE = 1.3; /* of the best row's time, for a run that might be cheaper */
 static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its time */
+static const double MOMENT = 0.05;  /* [s] that any run may take: a short one may meet a busy machine */
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_REFERENCE = 0.2; /* that a run takes of its time, about */
 
@@ -223,7 +224,7 @@ int32_t hooke_pick_search(struct hooke_pick *pick, const char *method) {
     if (pick->best.method && now + cost > pick->deadline) break;
     /* a first row is found in any case */
     s.until = pick->best.method ? fmax(pick->deadline, now + PATIENCE * pick->best.seconds) : INFINITY;
-    if (pick->met) s.until = fmin(s.until, now + SHORT + PATIENCE * pick->best.seconds);
+    if (pick->met) s.until = fmin(s.until, now + MOMENT + PATIENCE * pick->best.seconds);
     status = run_row(&s, value, &result);
     if (status == HOOKE_STOPPED && s.late) return HOOKE_OK;
     if (status == HOOKE_OK) learn(&s, &result);
