@@ -207,3 +207,31 @@ def test_what_a_first_order_problem_cannot_do(tmp_path):
     for bad in ([], [[1.0]], ["a"]):
         with pytest.raises(hooke.BadValue):
             hooke.FirstOrder(lambda t, x, rate: None, bad)
+
+
+@pytest.mark.parametrize("want", [1e-4, "0.1mm"])
+def test_a_wanted_error_is_kept(want):
+    """The end of the oscillator is known."""
+    result = hooke.run(build_oscillator(), want=want, duration=1.0, every=0.05)
+    error = result.error
+    assert result.status == "finished" and error.met is True and error.wanted == pytest.approx(1e-4)
+    exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
+    assert abs(result.state.q[1, 0] - exact) <= 1e-4 and error.estimate <= 1e-4
+    assert (error.known_from, error.known_until, error.by) == (0.0, 1.0, "reference")
+
+
+def test_an_error_is_estimated_where_that_is_asked_for():
+    options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0}
+    assert hooke.run(build_oscillator(), **options).error is None
+    result = hooke.run(build_oscillator(), estimate=True, **options)
+    exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
+    truly = abs(result.state.q[1, 0] - exact)
+    assert truly / 3 < result.error.estimate < 3 * truly and result.error.met is None
+
+
+@pytest.mark.parametrize(
+    "options, word", [({"want": "1 furlong"}, "furlong"), ({"want": "1mm", "step": 1e-3}, "step"), ({"want": -1}, "want")]
+)
+def test_a_want_that_cannot_be_kept_is_refused(options, word):
+    with pytest.raises(hooke.BadValue, match=word):
+        hooke.run(build_oscillator(), duration=1.0, **options)
