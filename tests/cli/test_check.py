@@ -96,8 +96,9 @@ def cloth(n, **more):
 
 
 def lattice(n):
-    part = {"kind": "lattice", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "size": [n] * 3}
-    part |= {"mass": 1, "structural": {"stiffness": 10}, "face": {"stiffness": 5}}
+    part = {"kind": "lattice", "origin": [0, 0, 0], "size": [n] * 3}
+    part["edges"] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    part.update(mass=1, structural={"stiffness": 10})
     return {"hooke": 1, "parts": [part], "run": {"step": 1e-6, "duration": 1e-5}}
 
 
@@ -181,7 +182,8 @@ def test_words_have_the_same_numbers(hooke, write):
     value = hooke("check", scene, "--json").json
     answer = hooke("check", scene)
     assert answer.code == 0
-    assert f"{value['memory_bytes']} bytes" in answer.out
+    memory = re.search(r"^memory +(\d+) bytes at the peak", answer.out, re.M)  # of another process
+    assert int(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
     assert repr(value["step_limit"]["symplectic-euler"]) in answer.out
     assert "warning: " + value["warnings"][0] in answer.err
     assert "warning" not in answer.out
@@ -241,7 +243,7 @@ def test_the_budget_holds_for_very_many_groups(hooke, write):
     springs = [{"name": f"g{i}", "between": [[i, i + 1]], "stiffness": 10} for i in range(count)]
     file = write({"hooke": 1, "particles": particles, "springs": springs, "run": {"step": 1e-3, "duration": 1}})
     words = ("check", file, "--cost", "--groups", "1000")
-    few = [hooke(*words, "--budget", budget, "--json").json["cost"]["rows"] for budget in ("1ms", "1s")]
+    few = [hooke(*words, "--budget", budget, "--json").json["cost"]["rows"] for budget in ("1ms", "200ms")]
     looked_at = [sum(row["memory_bytes"] is not None for row in rows) for rows in few]
     assert looked_at[0] <= 1 and looked_at[0] <= looked_at[1] < count
     assert len(few[0]) == count and few[0][-1]["nanoseconds"] is None
