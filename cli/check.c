@@ -1,6 +1,7 @@
 /* hooke check: validates a scene and tells its size, memory and step limits, without running it. */
 #include "cost_sheet.h"
 #include "derived.h"
+#include "peak.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -17,8 +18,8 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct hooke_arguments *arguments;
   struct hooke_setup setup;
-  hooke_cost *cost;
-  int64_t memory; /* of a run [bytes] */
+  hooke_cost *cost;        /* NULL: not asked for */
+  int64_t memory, counted; /* at the peak of a run; of system, state and method alone [bytes] */
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
 };
@@ -114,38 +115,21 @@ static int32_t warn_of_loose_particles(struct check *check) {
 
 /* ---- the numbers ---- */
 
-/* Memory of a run: system, state, and the scratch of its method if the scene says enough to make one. */
-static int measure_memory(struct check *check) {
-  const hooke_options *options = check->setup.options;
-  const char *method = hooke_options_text(options, "method");
-  hooke_integrator *integrator = NULL;
-  check->memory = hooke_system_memory(check->setup.system) +
-                  (2 * hooke_state_size(check->setup.state) + 1) * (int64_t)sizeof(double);
-  if (hooke_method_is_adaptive(method) >= 0 && !hooke_method_is_built(method)) return HOOKE_EXIT_DONE;
-  if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(options, "step") == 0)
-    return HOOKE_EXIT_DONE;
-  int32_t status = hooke_integrator_create(check->setup.system, options, &integrator);
-  if (status != HOOKE_OK) return hooke_report_status(check->arguments, status);
-  check->memory += hooke_integrator_count(integrator, "memory_bytes");
-  hooke_integrator_destroy(integrator);
-  return HOOKE_EXIT_DONE;
-}
-
-/* What of it goes with the number of springs, for each; and the rest, for each particle. */
+/* What of the counted memory goes with the number of springs, for each; and the rest, for each particle. */
 static double bytes_per_spring(const struct check *check) {
   return (double)hooke_system_spring_memory(check->setup.system) /
          (double)hooke_system_spring_count(check->setup.system);
 }
 
 static double bytes_per_particle(const struct check *check) {
-  return (double)(check->memory - hooke_system_spring_memory(check->setup.system)) /
+  return (double)(check->counted - hooke_system_spring_memory(check->setup.system)) /
          (double)hooke_system_particle_count(check->setup.system);
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64 " bytes", check->memory);
+  printf("memory       %" PRId64 " bytes at the peak of a run", check->memory);
   if (hooke_system_particle_count(check->setup.system) > 0)
-    printf(", %.1f a particle", bytes_per_particle(check));
+    printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_spring_count(check->setup.system) > 0)
     printf(" and %.1f a spring", bytes_per_spring(check));
   printf("\n");
@@ -183,7 +167,9 @@ static void print_json(const struct check *check) {
   for (int64_t i = 0; i < check->warning_count; i++)
     hooke_json_text(&json, NULL, check->warning[i]);
   hooke_json_close(&json);
-  hooke_cost_sheet_print_json(&json, check->cost, system);
+  hooke_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
+  hooke_json_count(&json, "idle_particles", hooke_system_idle_count(system));
+  if (check->cost) hooke_cost_sheet_print_json(&json, check->cost, system);
   hooke_json_end(&json);
 }
 
@@ -250,21 +236,23 @@ static void print_words(const struct check *check) {
   print_memory(check);
   print_cost(check);
   print_limits(check);
-  hooke_cost_sheet_print(check->cost, system);
+  hooke_cost_sheet_print_left_out(system);
+  if (check->cost) hooke_cost_sheet_print(check->cost, system);
   hooke_print_flush();
   for (int64_t i = 0; i < check->warning_count; i++) {
     hooke_report_words(check->arguments, "warning: %s", check->warning[i]);
   }
 }
 
-static int check_and_tell(struct check *check) {
-  int code = measure_memory(check);
+static int check_and_tell(struct check *check, struct hooke_peak loaded) {
+  int code = hooke_peak_of_run(check->arguments, &check->setup, loaded, &check->memory, &check->counted);
   if (code != HOOKE_EXIT_DONE) return code;
   warn_of_method(check);
   warn_of_coincident_springs(check);
   int32_t status = warn_of_loose_particles(check);
   if (status != HOOKE_OK) return hooke_report(check->arguments, hooke_exit_code(status), "out of memory");
-  code = hooke_cost_sheet_find(check->arguments, &check->setup, &check->cost);
+  if (hooke_arguments_text(check->arguments, "cost"))
+    code = hooke_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
   if (check->arguments->json) {
     print_json(check);
@@ -277,22 +265,26 @@ static int check_and_tell(struct check *check) {
 static int do_check(const struct hooke_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = hooke_setup_load(arguments, &check.setup);
-  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check);
+  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, hooke_peak_look());
   hooke_cost_destroy(check.cost);
   hooke_setup_destroy(&check.setup);
   return code;
 }
 
+static const struct hooke_verb_row rows[] = {
+    {"cost", 0, NULL, "what each ingredient costs, too: time, memory, and the largest step without it"},
+};
+
 const struct hooke_verb hooke_verb_check = {
     .name = "check",
-    .summary = "validates a scene and tells its size, its step limits and what it costs, without running it",
+    .summary = "validates a scene and tells its size, its memory and its step limits, without running it",
     .text =
-        "Validates the scene and tells its size, the memory that a run takes, for each method the "
-        "largest step "
-        "that is certain to be stable at the start, and what each ingredient costs: time of a step on this "
-        "machine, memory, and the largest stable step without it. Warns of what is allowed but seldom "
-        "meant.",
+        "Validates the scene and tells its size, the memory at the peak of a run without -o, and for each "
+        "method the largest step that is certain to be stable at the start, in the time of loading it. With "
+        "--cost also what each ingredient costs: time of a step on this machine, unless --predict leaves it "
+        "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",
     .example = "hooke check cloth.json",
+    HOOKE_VERB_ROWS(rows),
     .options = hooke_cost_options_create,
     .without = "checkpoint",
     .function = do_check,

@@ -89,7 +89,7 @@ static void print_whole(const hooke_cost *cost, const hooke_system *system, int 
   print_limit(hooke_cost_figure(cost, "step_limit"));
 }
 
-static void print_left_out(const hooke_system *system) {
+void hooke_cost_sheet_print_left_out(const hooke_system *system) {
   const int64_t dropped = hooke_system_dropped_spring_count(system), idle = hooke_system_idle_count(system);
   if (dropped > 0) {
     printf("dropped      %" PRId64 " %s neither stiffness nor damping\n", dropped,
@@ -105,7 +105,6 @@ void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) 
   char step[HOOKE_NUMBER_SIZE];
   int width = LEAST_WIDTH;
   int64_t unknown = 0;
-  print_left_out(system);
   if (isnan(hooke_cost_figure(cost, "step"))) return; /* interrupted before there was one */
   for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
     const int length = (int)strlen(name_of(cost, row));
@@ -123,7 +122,7 @@ void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) 
       unknown++;
   }
   if (unknown > 0)
-    printf("  and %" PRId64 " more that %s not looked at (--groups sets how many groups are)\n", unknown,
+    printf("  and %" PRId64 " more that %s not looked at (--budget and --groups set how much is)\n", unknown,
            unknown == 1 ? "was" : "were");
 }
 

@@ -10,8 +10,10 @@
 int hooke_cost_sheet_find(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
                           hooke_cost **cost);
 
-/* The table on standard output, and what commit has left out. */
+/* The table on standard output. */
 void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system);
+/* What commit has left out, on standard output. */
+void hooke_cost_sheet_print_left_out(const hooke_system *system);
 /* "cost": {...} */
 void hooke_cost_sheet_print_json(struct hooke_json *json, const hooke_cost *cost, const hooke_system *system);
 

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 enum { READ_SIZE = 1 << 16 };
 
@@ -34,6 +37,13 @@ static int32_t load(const struct hooke_arguments *arguments, hooke_scene **loade
              : hooke_scene_load_within(arguments->scene, arguments->limits, loaded);
 }
 
+/* What loading had in small pieces goes back to the system, so that a run does not have it beside its own. */
+static void give_back(void) {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
@@ -43,6 +53,7 @@ int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup
   status = hooke_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  give_back();
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);

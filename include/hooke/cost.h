@@ -5,8 +5,8 @@
  * blocks from the same state, of which the shortest count. Times differ from one machine and one call to the next. A cost
  * belongs to one thread at a time. Callbacks are called, at states that may not be those of a run.
  *
- * Options of a cost (hooke_cost_options_create): predict (1: leave out the timing), budget [s] of the timing, groups (how many
- * are looked at, the largest first). */
+ * Options of a cost (hooke_cost_options_create): predict (1: leave out the timing), budget [s], after which no further
+ * ingredient is looked at (one that was begun is finished), groups (how many are looked at at most, the largest). */
 #ifndef HOOKE_COST_H
 #define HOOKE_COST_H
 
@@ -50,7 +50,7 @@ HOOKE_API int64_t hooke_cost_row_count(const hooke_cost *cost);
 HOOKE_API const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what);
 /* "group" (its number, among those of its kind) and "springs" (how many); "nanoseconds" of a step and "memory_bytes" that it costs, 0 where nothing can
  * be seen; "resolution" [ns] of the first: what two like systems differed by; "step_limit_without" [s]. NaN where it does not
- * apply, and for groups beyond those that are looked at. */
+ * apply, and for ingredients that were not looked at: groups beyond the largest, and what the budget left out. */
 HOOKE_API double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what);
 
 #ifdef __cplusplus

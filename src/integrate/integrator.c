@@ -183,7 +183,7 @@ int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
 static int64_t memory_of(const hooke_integrator *it) {
   const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
   const int64_t restart = it->restart.state ? 1 + (it->system ? 2 : 1) * it->size : 0;
-  return (int64_t)sizeof *it + it->own_memory + (it->motion ? it->motion->memory : 0) +
+  return (int64_t)sizeof *it + it->own_memory + it->checker.memory + (it->motion ? it->motion->memory : 0) +
          (own + restart) * (int64_t)sizeof(double) + hooke_recent_memory(&it->recent);
 }
 

@@ -48,6 +48,7 @@ struct hooke_checker {
   int32_t (*look)(const hooke_integrator *integrator, const hooke_state *state, void *own);
   void (*release)(void *own);
   void *own;
+  int64_t memory; /* bytes that it has */
 };
 
 struct hooke_integrator {

@@ -1,6 +1,7 @@
 /* What each ingredient costs: the scene with it against the scene without it. */
 #include "measure/cost.h"
 
+#include "core/clock.h"
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
@@ -14,7 +15,8 @@
 #include <string.h>
 
 static const double ACCURACY = 1e-3;    /* of limits, relative */
-static const double MOST_SECONDS = 0.2; /* for one ingredient */
+static const double MOST_SECONDS = 0.2; /* of timing, for one ingredient */
+static const double TIMING_SHARE = 0.5; /* of the budget; scenes are made and limits found in the rest */
 static const double SOME_STEP = 1e-3;   /* [s] where nothing says which */
 
 static const struct hooke_option_row cost_rows[] = {
@@ -25,15 +27,17 @@ static const struct hooke_option_row cost_rows[] = {
      .low = 0.0,
      .above_low = 1,
      .high = 1e300,
-     .fallback = "1",
-     .doc = "time that the timing may take, at most 0.2 s an ingredient"},
+     .fallback = "2",
+     .doc = "time after which no further ingredient is looked at; half of it is for the timing, at most 0.2 "
+            "s an "
+            "ingredient"},
     {.name = "groups",
      .type = HOOKE_OPTION_NUMBER,
      .low = 0.0,
      .high = 2147483647.0,
      .whole = 1,
      .fallback = "64",
-     .doc = "how many groups are looked at, the largest first; each takes as long as the whole scene"},
+     .doc = "how many groups are looked at at most, the largest; each takes as long as the whole scene"},
 };
 
 static const struct hooke_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
@@ -139,7 +143,8 @@ static double memory_of(const hooke_system *system, const struct hooke_timed *ti
 static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke_timed *lean,
                         const hooke_state *state, struct hooke_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
-  const double share = hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
+  const double share =
+      TIMING_SHARE * hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
   const int32_t status = hooke_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
@@ -198,6 +203,7 @@ static int32_t find_row(hooke_cost *cost, struct hooke_timed *full, const hooke_
 int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   hooke_system *whole = NULL;
   struct hooke_timed full = {0};
+  const double budget = hooke_options_number(cost->options, "budget"), begun = hooke_clock_seconds();
   forget(cost);
   int32_t status = hooke_state_check(state, cost->system);
   if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
@@ -208,6 +214,7 @@ int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
   for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
     if (!cost->row[k].chosen) continue;
+    if (hooke_clock_seconds() - begun > budget) break; /* what is left stays unknown */
     status = tell(cost, (double)done++ / (double)cost->chosen_count, hooke_cost_text(cost, k, "name"));
     if (status == HOOKE_OK) status = find_row(cost, &full, state, &cost->row[k]);
   }

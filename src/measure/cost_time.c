@@ -10,7 +10,7 @@
 /* A block is long beside the clock and short beside what else goes on in the machine. Its state is taken up and checked
  * outside of what is timed, which a few steps pay for. */
 static const double BLOCK = 1e-3; /* [s] */
-enum { FEWEST_STEPS = 4, MOST_STEPS = 1000, FEWEST_ROUNDS = 2 };
+enum { FEWEST_STEPS = 4, MOST_STEPS = 1000, FEWEST_ROUNDS = 2, BLOCKS_OF_ROUND = 3 };
 
 int32_t hooke_timed_create(const hooke_system *system, const hooke_options *run, struct hooke_timed *timed) {
   *timed = (struct hooke_timed){.best = {INFINITY, INFINITY}};
@@ -50,7 +50,8 @@ int32_t hooke_timed_compare(struct hooke_timed *full, struct hooke_timed *lean, 
   const double begun = hooke_clock_seconds();
   double first;
   int32_t status = run_block(full, start, FEWEST_STEPS, &first);
-  const double wanted = ceil(BLOCK / (1e-9 * first));
+  const double block = fmin(BLOCK, seconds / (BLOCKS_OF_ROUND * FEWEST_ROUNDS));
+  const double wanted = ceil(block / (1e-9 * first));
   const int64_t steps = (int64_t)fmax(FEWEST_STEPS, fmin(MOST_STEPS, wanted));
   full->best[0] = full->best[1] = INFINITY;
   for (int64_t round = 0; status == HOOKE_OK; round++) {

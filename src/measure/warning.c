@@ -98,6 +98,7 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
   }
   watch->warning = warning;
   watch->ctx = ctx;
-  hooke_integrator_set_checker(it, (struct hooke_checker){look, release, watch});
+  const int64_t bytes = (int64_t)sizeof *watch + 12 * it->system->particle_count * (int64_t)sizeof(double);
+  hooke_integrator_set_checker(it, (struct hooke_checker){look, release, watch, bytes});
   return HOOKE_OK;
 }

@@ -223,7 +223,7 @@ contains
     call make_cloth(system)
     call state%create(system)
     call options%create_cost()
-    call options%set("budget", 0.02_hooke_real)
+    call options%set("budget", 0.5_hooke_real)
     call cost%create(system, options=options)
     call cost%find(state)
     call expect(cost%method() == "symplectic-euler" .and. cost%figure("memory_bytes") > 0, "the whole scene")

@@ -48,7 +48,7 @@ static hooke_cost *cost_of(const hooke_system *system, struct run run, int predi
   hooke_cost *cost;
   check_ok(hooke_cost_options_create(&options));
   check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 0.01));
+  check_ok(hooke_options_set_number(options, "budget", 1.0));
   check_ok(hooke_cost_create(system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);

@@ -10,7 +10,7 @@ import hooke
 
 
 def test_rows_of_a_scene():
-    found = hooke.cost(hooke.Scene.parse(SIX_PARTICLES), budget=0.02)
+    found = hooke.cost(hooke.Scene.parse(SIX_PARTICLES), budget=0.5)
     assert found.outcome == "finished" and found.method == "symplectic-euler" and found.step == 1e-3
     assert found.rows["name"].tolist() == ["edges", "damping", "gravity"]
     assert found.rows["kind"].tolist() == ["springs", "damping", "gravity"]
@@ -45,7 +45,7 @@ def test_the_largest_groups_are_looked_at():
 def test_a_callback_is_an_ingredient():
     system, calls = build_oscillator(), []
     system.set_force(lambda t, q, v, force: calls.append(t))
-    found = hooke.cost(system, budget=0.02)
+    found = hooke.cost(system, budget=0.5)
     assert found.rows["kind"].tolist() == ["springs", "callback"] and calls
     assert found["callback"]["memory_bytes"] > 0
 
@@ -55,7 +55,7 @@ def test_a_callback_is_an_ingredient():
     system = build_oscillator()
     system.set_force(fail)
     with pytest.raises(RuntimeError, match="no such force"):
-        hooke.cost(system, budget=0.02)
+        hooke.cost(system, budget=0.5)
 
 
 def test_progress_can_stop():
@@ -65,7 +65,7 @@ def test_progress_can_stop():
         seen.append((done, what))
         return len(seen) == 3
 
-    found = hooke.cost(build_six_particles(), budget=0.02, progress=stop)
+    found = hooke.cost(build_six_particles(), budget=0.5, progress=stop)
     assert found.outcome == "stopped" and len(seen) == 3 and seen[1] == (0, "edges")
     assert found["edges"]["nanoseconds"] >= 0 and np.isnan(found["damping"]["nanoseconds"])
 

@@ -15,7 +15,7 @@ WORK = {
     "compare": lambda **options: hooke.compare(hooke.Scene.parse(SIX_PARTICLES), ["verlet"], **SHORT, **options),
     "study": lambda **options: hooke.study(hooke.Scene.parse(SIX_PARTICLES), ["verlet"], points=6, **SHORT, **options),
     "limit": lambda **options: hooke.limit(hooke.Scene.parse(SIX_PARTICLES), methods="verlet", **options),
-    "cost": lambda **options: hooke.cost(build_oscillator(), budget=0.05, method="verlet", step=1e-3, **options),
+    "cost": lambda **options: hooke.cost(build_oscillator(), budget=0.5, method="verlet", step=1e-3, **options),
     "needs": lambda **options: hooke.needs(hooke.Scene.parse(SIX_PARTICLES), 0.1, duration=0.5, **options),
 }
 

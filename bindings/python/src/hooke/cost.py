@@ -92,8 +92,8 @@ def cost(
     """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene
     without the ingredient, at `state` (at the start, if None).
 
-    ``predict=True`` leaves out the timing; `budget` [s] is the time that it may take. Of many groups the
-    `groups` largest are looked at (64 unless given); the numbers of others stay NaN. ``progress(fraction, what)`` is
+    ``predict=True`` leaves out the timing; after `budget` [s] (2 unless given) no further ingredient is looked at. Of many
+    groups the `groups` largest are (64 unless given); the numbers of others stay NaN. ``progress(fraction, what)`` is
     told of progress and stops the work by returning a number other than 0. The keywords `options` are those of a run.
     """
     _, system, run = prepare("cost", problem, None, options)

@@ -1,0 +1,61 @@
+#include "peak.h"
+
+#include "report.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+/* Of /proc/self/status, which counts from the start of this program; getrusage() begins with what the caller had. */
+struct hooke_peak hooke_peak_look(void) {
+  struct hooke_peak peak = {0, 0};
+  char line[256];
+  int64_t kilobytes;
+  FILE *file = fopen("/proc/self/status", "r");
+  while (file && fgets(line, sizeof line, file)) {
+    if (sscanf(line, "VmHWM: %" SCNd64, &kilobytes) == 1) peak.most = 1024 * kilobytes;
+    if (sscanf(line, "VmRSS: %" SCNd64, &kilobytes) == 1) peak.now = 1024 * kilobytes;
+  }
+  if (file) fclose(file);
+  return peak;
+}
+
+static int32_t see_nothing(int64_t step, const hooke_state *state, void *ctx) {
+  (void)step, (void)state, (void)ctx;
+  return 0;
+}
+
+static int32_t hear_nothing(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                            int64_t particle, void *ctx) {
+  (void)kind, (void)sentence, (void)t, (void)limit, (void)spring, (void)particle, (void)ctx;
+  return 0;
+}
+
+/* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
+static int32_t count_method(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+                            int64_t *bytes) {
+  hooke_integrator *integrator = NULL;
+  int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
+  if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, 1, see_nothing, NULL);
+  if (status == HOOKE_OK && !arguments->quiet)
+    status = hooke_integrator_on_warning(integrator, hear_nothing, NULL);
+  if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");
+  hooke_integrator_destroy(integrator);
+  return status;
+}
+
+int hooke_peak_of_run(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+                      struct hooke_peak loaded, int64_t *bytes, int64_t *counted) {
+  const char *method = hooke_options_text(setup->options, "method");
+  const int32_t adaptive = hooke_method_is_adaptive(method);
+  const int32_t can_run = !(adaptive >= 0 && !hooke_method_is_built(method)) &&
+                          !(adaptive == 0 && hooke_options_number_count(setup->options, "step") == 0);
+  const int64_t model =
+      hooke_system_memory(setup->system) + (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
+  int64_t of_method = 0;
+  const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
+  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  const int64_t running = (loaded.now > 0 ? loaded.now : model) + of_method;
+  *bytes = running > loaded.most ? running : loaded.most;
+  *counted = model + of_method;
+  return HOOKE_EXIT_DONE;
+}
