@@ -37,15 +37,17 @@ HOOKE_API int32_t hooke_study_run(hooke_study *study);
 
 /* ---- the reference ---- */
 
-/* "method" and "check": the two integrators that made it, which share only the force. */
+/* "method" and "check": the two integrators that made it, which share only the force. "ended": why they were tightened no
+ * further: "agreed", "time" (the budget was short), or "rounding" (it keeps them apart at the tightest tolerances). */
 HOOKE_API const char *hooke_study_reference(const hooke_study *study, const char *what);
 
 /* "agreement": twice the largest root mean square distance between the two over the frames that are trusted [m]: they may
  * be off in the same direction. No error below it means anything, and none within ten times of it much. "trusted_until":
  * time up to which they agree to the wanted digits [s]; errors are judged up to there. "checked_until": time up to which
- * they were compared [s]; before the end where the budget was spent. "growth": the factor by which a
- * small displacement of the start grows, at most. "duration" [s], "frames" (those that are judged), "budget_spent" (0 or
- * 1). NaN for another word. */
+ * they were compared [s]; before the end where the budget was spent. "energy_agreement": twice the largest difference of
+ * their energies there [J]. "growth": the factor by which a small displacement of the start grows, at most, true with
+ * "growth_probability" (both NaN where that is not known); "growth_seen": the largest one of so many "displacements".
+ * "duration" [s], "frames" (those that are judged), "budget_spent" (0 or 1). NaN for another word. */
 HOOKE_API double hooke_study_figure(const hooke_study *study, const char *what);
 
 /* ---- rows: a method with one step or tolerance each, the coarsest first ---- */
@@ -54,8 +56,8 @@ HOOKE_API int64_t hooke_study_row_count(const hooke_study *study);
 /* "method", "status" ("finished", "diverged", "stopped", "failed"); NULL if there is no such row. */
 HOOKE_API const char *hooke_study_text(const hooke_study *study, int64_t row, const char *what);
 /* The numbers of hooke_comparison_number(), over the frames that are trusted, and "wall_median" [s] ("wall_seconds" is the
- * least of "repeats" runs), "linear_iterations", "near_floor" (1: the error is within ten times of the agreement), "timed_alone" (0: other rows ran
- * beside it, so its time may be too long). */
+ * least of "repeats" runs), "linear_iterations", "near_floor" (1: the error is within ten times of the agreement), "near_energy_floor"
+ * (likewise of the drift), "timed_alone" (0: other rows ran beside it, so its time may be too long). */
 HOOKE_API double hooke_study_number(const hooke_study *study, int64_t row, const char *what);
 /* "time", "error", "energy_drift" over frames, as hooke_comparison_series(). */
 HOOKE_API int64_t hooke_study_frame_count(const hooke_study *study);
@@ -63,8 +65,8 @@ HOOKE_API const double *hooke_study_series(const hooke_study *study, int64_t row
 
 /* ---- orders of the fixed-step methods ---- */
 
-/* "order", its 95 % interval "low" and "high" by least squares of log error on log step over the finest rows that stand
- * clear of the floor, and "theory"; NaN where there are fewer than three such rows, or for an error-controlled method. */
+/* "order" by least squares of log error on log step over the finest rows that stand clear of the floor, the 95 % confidence
+ * interval of that slope, "low" and "high", as if the points scattered about a line by chance, and "theory"; NaN where there are fewer than three such rows, or for an error-controlled method. */
 HOOKE_API double hooke_study_order(const hooke_study *study, const char *method, const char *what);
 /* Why the order may not be that of the theory on this scene; "" where it is. */
 HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const char *method);
@@ -77,7 +79,11 @@ HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
 /* "method" (that of the closest run if nothing meets the want; NULL if no run finished), "note" ("" if the want is met);
  * NULL before any. */
 HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
-/* "met" (0 or 1), "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"; NaN where it does not apply. */
+/* "met" (0 or 1), "want", "step", "rtol", "atol", "error", "wall_seconds", "force_evaluations"; and where the want is met
+ * what it has to spare: "error_low" and "error_high" (less and plus the agreement), "limit_share" (its step over the largest
+ * stable one at the start), "holds_stiffness" (0 or 1: the want is met with 10 % more stiffness, and with less) with the
+ * larger error "error_stiffness", "holds_start" (the same with 10 % of the largest speed added along (1, 1, 1) at the start,
+ * and against it) and "error_start". NaN where it does not apply or is not known. */
 HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
 
 /* Picks a method and its step or tolerance for the error `want` [m] of a run, as hooke_estimate_pick() does (estimate.h), and

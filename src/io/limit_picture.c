@@ -8,8 +8,10 @@ static const double MOVE_SCALE = 1e4; /* digits of displacements against the lar
 
 /* What is left is taken evenly by number; `moves`: of each particle, it is among the movers. */
 static void choose(struct hooke_picture *p, const hooke_limit *limit, const char *moves) {
-  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++)
-    hooke_picture_take(p, (int64_t)hooke_limit_blame_number(limit, k, "spring"));
+  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++) {
+    if (!hooke_limit_blame_text(limit, k, "force")[0])
+      hooke_picture_take(p, (int64_t)hooke_limit_blame_number(limit, k, "spring"));
+  }
   for (int64_t k = 0; k < p->spring_count && p->drawn_count < HOOKE_PICTURE_SPRINGS / 2; k++) {
     if (moves[p->ends[2 * k]] || moves[p->ends[2 * k + 1]]) hooke_picture_take(p, k);
   }

@@ -96,6 +96,7 @@ static void add_blame(struct hooke_text *data, const hooke_limit *limit) {
   static const char *const of_particle[] = {"particle", "share", "mass"};
   hooke_text_open(data, "blame", '[');
   for (int64_t place = 0; place < hooke_limit_blame_count(limit); place++) {
+    if (hooke_limit_blame_text(limit, place, "force")[0]) continue; /* the remedy tells of it */
     hooke_text_open(data, NULL, '{');
     for (int k = 0; k < COUNT_OF(of_spring); k++)
       hooke_text_number(data, of_spring[k], hooke_limit_blame_number(limit, place, of_spring[k]));

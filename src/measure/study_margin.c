@@ -13,7 +13,7 @@
 /* Stiffness is multiplied by 1 + or - this; all free particles start with this share of the largest speed that the
  * reference has, root mean square between two frames, added along (1, 1, 1) and against it. */
 static const double CHANGE = 0.1;
-static const double SHARE = 0.5;     /* of the time that the study took so far, without a budget */
+static const double SHARE = 0.5;     /* of the time that the study took so far */
 static const double SECONDS = 1.0;   /* and in any case so many */
 static const double ACCURACY = 1e-3; /* of the limit, relative */
 
@@ -125,9 +125,8 @@ static int32_t find_change(hooke_study *study, enum hooke_study_change change, d
 }
 
 int32_t hooke_study_find_margin(hooke_study *study) {
-  const double now = hooke_clock_seconds();
-  const double seconds =
-      isinf(study->budget) ? fmax(SECONDS, SHARE * (now - study->begun)) : study->begun + study->budget - now;
+  const double now = hooke_clock_seconds(), left = study->begun + study->budget - now;
+  const double seconds = fmin(left, fmax(SECONDS, SHARE * (now - study->begun)));
   study->under_way = "margin";
   int32_t status = find_limit_share(study, &study->recommendation);
   for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK && seconds > 0.0; k++)

@@ -138,10 +138,11 @@ static double as_fine_as_reference(const hooke_study *study, int32_t method) {
   return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
 }
 
-/* Where a search ends: farther than the ladder, and as fine as the reference. */
+/* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is spent. */
 static double least_value(const hooke_study *study, const struct hooke_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
-  return is_adaptive(study, c) ? least : fmin(least, farthest);
+  if (is_adaptive(study, c)) return least;
+  return isinf(study->budget) ? fmin(least, farthest) : 0.0;
 }
 
 /* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest row on. */

@@ -57,6 +57,8 @@ int32_t hooke_inquiry_gains(struct hooke_inquiry *inquiry, int32_t *gains) {
   hooke_patience_lend(&inquiry->patience, 0.5);
   for (int k = 0; k < FINER_TRIES && status == HOOKE_OK && *gains; k++)
     status = diverges_finer(&plan, k, gains);
+  *gains = *gains && !inquiry->patience.spent;
+  inquiry->cut |= inquiry->patience.spent;
   hooke_inquiry_end_part(inquiry, "whether smaller steps gain energy, too");
   hooke_plan_release(&plan);
   return status;

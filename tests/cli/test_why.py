@@ -80,7 +80,7 @@ def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tm
     gains = cause == "model-gains-energy"
     run = hooke("run", "scene.json", "--json", "--quiet", *(["--no-why"] if gains else []))
     assert run.code == 4
-    answer = hooke("why", "scene.json", "--json", *(["--budget", "4s"] if gains else []))
+    answer = hooke("why", "scene.json", "--json", *(["--budget", "10s"] if gains else []))
     assert answer.code == 0 and answer.err == ""
     why = answer.json
     assert list(why) == KEYS

@@ -33,7 +33,7 @@ def test_a_result_that_diverged(oscillator, quiet):
     assert why.sentence == result.diagnosis
     assert why.limit == pytest.approx(0.2, rel=1e-6) and why.step == 0.21
     assert why.time == result.state.t and why.noticed == result.diverged_at
-    assert why.blame == [(0, (0, 1), "spring", pytest.approx(1))]
+    assert why.blame == [(0, (0, 1), "spring", pytest.approx(1), "")]
     assert why.particle == 1
     assert "step" in why.advice[0].options
     again = hooke.run(oscillator, **{**TOO_LARGE, **why.advice[0].options})
