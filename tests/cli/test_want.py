@@ -81,6 +81,7 @@ def answer_of(met, estimate=2e-3, until=1.0, by="half-step"):
         (0, answer_of(None, 9e-4), True, 9e-4, 1),  # exit code and key differ
         (7, answer_of(True, 9e-4), True, 9e-4, 1),
         (0, answer_of(True, 9e-4), False, 9e-4, 1),  # nobody can know
+        (0, answer_of(True, 9e-4), None, math.nan, 0),  # the solution took too long
         (4, answer_of(True), True, 9e-4, 1),
         (0, {"time": 1.0}, True, 9e-4, 1),  # says nothing at all
     ],

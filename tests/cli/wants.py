@@ -51,7 +51,8 @@ ENDS = {Path(one["scene"]).stem: End(one) for one in json.loads(DATA.read_text()
 
 
 def complaints(code, value, known, error, want):
-    """Of a run with a want [m], whose error at the end is `error` where that is `known`."""
+    """Of a run with a want [m], whose error at the end is `error` where that is `known`: None if the solution took too long, False if
+    it hangs on the last digits."""
     if code not in (0, 7):
         return [f"exit {code}"]
     met, found = value.get("want", {}).get("met"), []
@@ -59,7 +60,7 @@ def complaints(code, value, known, error, want):
         found.append(f"exit {code} with met {met}")
     if code == 0 and known and not error <= want:
         found.append(f"claims {want} m, but is off by {error:.3g} m")
-    if code == 0 and not known:
+    if code == 0 and known is False:
         found.append("claims what nobody can know")
     return found + estimate_complaints(value, error if known else math.nan, largest=True)
 
@@ -90,9 +91,9 @@ def study_complaints(code, value, again, error, want, known=True):
         found.append(f"the recommended run ends with exit {again}")
     if value["reference"]["trusted_until"] < value["duration"] * (1 - 1e-9):
         return found  # what it recommends is for the time until then
-    if met and again == 0 and not known:
+    if met and again == 0 and known is False:
         found.append("recommends what nobody can know")
-    elif met and again == 0 and not error <= want:
+    elif met and again == 0 and known and not error <= want:
         found.append(f"recommends for {want} m what is off by {error:.3g} m")
     return found
 

@@ -91,8 +91,10 @@ class Judge:
         there = self.true is not None and value.get("status") == "finished" and at_end(value["time"], self.end)
         return self.true.distance(self.end, value["final"]["position"]) if self.true and there else math.nan
 
-    def known(self, asked: str, error: float) -> bool:
-        return self.true is not None and self.true.apart[self.end] <= WITHIN * WANTS[asked] and not math.isnan(error)
+    def known(self, asked: str, error: float) -> bool | None:
+        if self.true is None:
+            return None
+        return self.true.apart[self.end] <= WITHIN * WANTS[asked] and not math.isnan(error)
 
     def note(self, asked: str, code: int, met: Any, value: dict[str, Any], said: float | None, seconds: float, found: list[str]) -> None:
         self.asked += 1
