@@ -105,7 +105,8 @@ class Needs(Closing):
         self._system = system  # its callbacks have to live as long as the lean one
         self.outcome = OUTCOMES.get(status, "stopped")
         self.method = text(lib.hooke_needs_word(handle, b"method"))
-        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error", "times_less", "other_seconds"):
+        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error",
+                     "times_less", "other_seconds"):
             setattr(self, name, lib.hooke_needs_figure(handle, name.encode()))
         other = lib.hooke_needs_word(handle, b"other_method")
         self.other_method = text(other) if other else None
