@@ -6,6 +6,7 @@
 #include "hooke/build.h"
 #include "hooke/cost.h"
 #include "hooke/checkpoint.h"
+#include "hooke/estimate.h"
 #include "hooke/io.h"
 #include "hooke/verify.h"
 #include "hooke/why.h"
