@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
@@ -20,7 +21,7 @@ static const double SHORT = 2.0;                          /* [s] a run under whi
 static const double SLICE = 0.045, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7; /* of what refines */
-static const double MOST_STEPS = 1e8;
+static const double MOST_RUNS = 30.0;  /* times as long as the first run something finer may take */
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
   const int32_t status = hooke_system_require_committed(system);
@@ -31,7 +32,7 @@ int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_est
   if (e == NULL) return HOOKE_NO_MEMORY;
   e->system = system;
   e->want = want;
-  e->error = e->known_from = e->known_until = e->rise = NAN;
+  e->error = e->known_from = e->known_until = e->rise = e->first = NAN;
   *out = e;
   return HOOKE_OK;
 }
@@ -72,23 +73,34 @@ static int32_t set_value(hooke_options *run, const char *method, double value) {
   return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
 }
 
-int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options *run) {
-  int32_t status = hooke_run_options_require(run, "run");
-  if (status != HOOKE_OK) return status;
-  if (isnan(e->want)) return hooke_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+/* Picks for the error `want` of the whole run, and sets what was picked in `run`. */
+static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
+  const char *only = e->only[0] ? e->only : NULL;
   hooke_pick_release(&e->pick);
   const double begun = hooke_clock_seconds();
-  status = hooke_pick_run(&e->pick, e->system, run, e->want, method, e->progress, e->ctx);
+  int32_t status = hooke_pick_run(&e->pick, e->system, run, want, only, e->progress, e->ctx);
   e->spent += hooke_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
-    status = hooke_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here",
-                        method ? method : "no method");
+    status =
+        hooke_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", only ? only : "no method");
   if (status == HOOKE_OK) status = set_value(run, e->pick.best.method, e->pick.best.value);
   if (status != HOOKE_OK) hooke_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
-  e->refined = 0;
-  e->before = INFINITY;
   return status;
+}
+
+int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options *run) {
+  const int32_t status = hooke_run_options_require(run, "run");
+  if (status != HOOKE_OK) return status;
+  if (isnan(e->want)) return hooke_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+  if (method && !hooke_method_is_built(method))
+    return hooke_fail(hooke_method_is_adaptive(method) < 0 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "method",
+                      "this build has no method \"%s\"", method);
+  snprintf(e->only, sizeof e->only, "%s", method ? method : "");
+  e->refined = 0;
+  e->first = NAN;
+  e->before = INFINITY;
+  return pick(e, e->want, run);
 }
 
 /* ---- watching the run ---- */
@@ -198,6 +210,7 @@ int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, co
   if (e->kept.recorded == e->kept.count - 1) hooke_frames_record(&e->kept, state);
   e->seconds = hooke_integrator_wall_seconds(it);
   e->rise = hooke_soundness_rise(&e->soundness);
+  if (isnan(e->first)) e->first = e->seconds;
   if (it->outcome != HOOKE_OK || e->kept.recorded < e->kept.count) {
     hooke_print(e->note, sizeof e->note, "the run did not come to its end");
     return HOOKE_OK;
@@ -228,7 +241,7 @@ static double met(const hooke_estimate *e) {
                                                                                                    : NAN;
 }
 
-/* The next step or tolerance. */
+/* The next step or tolerance of the same method. */
 static double finer(const hooke_estimate *e) {
   const double value = hooke_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
   double factor = pow(AIM * e->want / e->error, 1.0 / order);
@@ -236,24 +249,41 @@ static double finer(const hooke_estimate *e) {
   return fmin(value * factor, hooke_soundness_limit_share * e->soundness.least_bound);
 }
 
-int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
-  if (e->options == NULL || isnan(met(e)) || e->refined == MOST_REFINED ||
-      !(e->error <= LEAST_GAIN * e->before))
-    return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
-  double value = finer(e), duration, every, unit;
+static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
   const char *method = hooke_options_text(e->options, "method");
-  if (!hooke_method_is_adaptive(method)) {
-    int32_t status = hooke_step_times(e->options, &duration, &every);
-    if (status == HOOKE_OK) status = hooke_step_unit(duration, every, &unit);
-    if (status != HOOKE_OK) return status;
-    value = unit / ceil(unit / value * (1.0 - 1e-12));
-    if (duration / value > MOST_STEPS)
-      return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would mean over 1e8 steps", value);
-  }
+  double value = finer(e), duration, every, unit;
+  if (hooke_method_is_adaptive(method)) return set_value(run, method, value);
+  int32_t status = hooke_step_times(e->options, &duration, &every);
+  if (status == HOOKE_OK) status = hooke_step_unit(duration, every, &unit);
+  if (status != HOOKE_OK) return status;
+  value = unit / ceil(unit / value * (1.0 - 1e-12));
+  const double seconds = e->seconds * hooke_estimate_value(e->options) / value;
+  if (seconds > fmax(SHORT, MOST_RUNS * e->first))
+    return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take %.3g s", value, seconds);
+  return set_value(run, method, value);
+}
+
+/* A pick from the beginning of a run was too coarse for all of it: another one, for as much less. */
+static int32_t pick_finer(hooke_estimate *e, hooke_options *run) {
+  const double want = e->pick.want * AIM * e->want / e->error;
+  const char *method = e->pick.best.method;
+  const double value = e->pick.best.value;
+  const int32_t status = pick(e, want, run);
+  if (status != HOOKE_OK) return status;
+  if (e->pick.met && (strcmp(e->pick.best.method, method) != 0 || e->pick.best.value < value)) return status;
+  return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help");
+}
+
+int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
+  const int32_t known = e->options != NULL && !isnan(met(e)) && e->error <= LEAST_GAIN * e->before;
+  if (!known || e->refined == MOST_REFINED)
+    return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
+  const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;
+  const int32_t status = again ? pick_finer(e, run) : set_finer(e, run);
   e->refined++;
   e->before = e->error;
-  e->picked = 0;
-  return set_value(run, method, value);
+  if (!again) e->picked = 0;
+  return status;
 }
 
 /* ---- queries ---- */

@@ -13,6 +13,8 @@ struct hooke_estimate {
   void *ctx;
   struct hooke_pick pick; /* with a system once it was run */
   int32_t picked;         /* 1: the run to come is the one that was picked, and not a finer one */
+  char only[64];          /* the only method that may be picked; "": any */
+  double first;           /* seconds of the first run */
   double before;          /* the error before something finer was set [m]; infinity at first */
   int32_t refined;        /* times */
 

@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double LEAST_SECONDS = 1.9; /* that a pick may take in any case */
@@ -16,7 +15,7 @@ static const double RUNS = 5.0;          /* or as many times as long as the run 
 static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of those, at most for the reference */
 static const double DIGITS = 0.1;    /* of the wanted error, to which the reference is known */
 static const double BEGINNING = 0.1; /* studied where the reference came to no frame */
-enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3, MOST_METHODS = 32 };
+enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3 };
 
 /* ---- what is studied ---- */
 
@@ -136,35 +135,6 @@ double hooke_pick_trusted(const struct hooke_pick *pick) {
   return r->trusted > 0 ? r->frames.time[r->trusted - 1] - r->frames.time[0] : 0.0;
 }
 
-struct turn {
-  const char *method;
-  double guess;
-};
-
-static int compare_turns(const void *a, const void *b) {
-  const struct turn *x = a, *y = b;
-  return (x->guess > y->guess) - (x->guess < y->guess);
-}
-
-/* The quickest first: what comes later has to be quicker still. */
-static int32_t search_all(struct hooke_pick *pick) {
-  const struct hooke_reference *r = &pick->reference;
-  struct turn turn[MOST_METHODS];
-  int32_t status = HOOKE_OK;
-  size_t count = 0;
-  if (pick->method) return hooke_pick_search(pick, pick->method);
-  for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS; m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method)) turn[count++] = (struct turn){method, hooke_pick_guess(pick, method)};
-  }
-  qsort(turn, count, sizeof turn[0], compare_turns);
-  for (size_t k = 0; k < count && status == HOOKE_OK; k++)
-    status = hooke_pick_search(pick, turn[k].method);
-  /* the reference meets any want that it can judge */
-  if (status == HOOKE_OK && !pick->met) status = hooke_pick_try(pick, r->method, r->rtol);
-  return status;
-}
-
 int32_t hooke_pick_run(struct hooke_pick *pick, const hooke_system *system, const hooke_options *run,
                        double want, const char *method, hooke_progress *progress, void *ctx) {
   double quickest = 0.0;
@@ -181,7 +151,7 @@ int32_t hooke_pick_run(struct hooke_pick *pick, const hooke_system *system, cons
   if (status == HOOKE_OK)
     status = find_reference(pick, fmax(REFERENCE_SHARE * LEAST_SECONDS, REFERENCE_RUNS * quickest));
   pick->deadline = fmax(pick->begun + LEAST_SECONDS, hooke_clock_seconds() + RUNS * quickest);
-  return status == HOOKE_OK ? search_all(pick) : status;
+  return status == HOOKE_OK ? hooke_pick_search(pick) : status;
 }
 
 void hooke_pick_release(struct hooke_pick *pick) {

@@ -39,12 +39,8 @@ void hooke_pick_release(struct hooke_pick *pick);
 /* Time up to which the reference can be trusted, from the start of the run [s]. */
 double hooke_pick_trusted(const struct hooke_pick *pick);
 
-/* Searches one method; a row that beats `best` takes its place (pick_search.c). */
-int32_t hooke_pick_search(struct hooke_pick *pick, const char *method);
-/* About what the first run of a search takes [s], for the order in which methods are tried. */
-double hooke_pick_guess(struct hooke_pick *pick, const char *method);
-/* Runs one row, for as long as it takes. */
-int32_t hooke_pick_try(struct hooke_pick *pick, const char *method, double value);
+/* Searches all methods for the cheapest row within the wanted error, and puts it into `best` (pick_search.c). */
+int32_t hooke_pick_search(struct hooke_pick *pick);
 /* Options of a run by a method with a step or tolerance. */
 int32_t hooke_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
 

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { MOST_RUNS = 12, REPEATS = 3 };
+enum { MOST_RUNS = 12, REPEATS = 3, MOST_METHODS = 32 };
 static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double AIM = 0.7, GOOD = 0.5; /* of the error that is allowed: aimed at; good enough */
 static const double CLOSE = 1.2;           /* a bracket this narrow is not searched further */
@@ -22,6 +22,13 @@ static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its 
 static const double MOMENT = 0.05;  /* [s] that any run may take: a short one may meet a busy machine */
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_REFERENCE = 0.2; /* that a run takes of its time, about */
+
+/* A run, as the search sees it. */
+struct result {
+  double value, error, seconds; /* the error NaN: it did not finish */
+  double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
+  int32_t gains;  /* energy by itself */
+};
 
 struct search {
   struct hooke_pick *pick;
@@ -35,14 +42,8 @@ struct search {
   double error_meets, error_fails;
   double rate;  /* least seconds for an evaluation of forces or of their derivative, in any run */
   double until; /* where a run that costs too much ends, by the clock [s] */
-  int32_t late;
-};
-
-/* A run, as the search sees it. */
-struct result {
-  double value, error, seconds; /* the error NaN: it did not finish */
-  double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
-  int32_t gains;  /* energy by itself */
+  int32_t late, runs, over;
+  struct result last;
 };
 
 struct looker {
@@ -197,37 +198,69 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
   return s;
 }
 
-double hooke_pick_guess(struct hooke_pick *pick, const char *method) {
-  const struct search s = begin(pick, method);
-  const double order = (double)hooke_method_find(method)->order, span = pick->share * pick->duration;
-  if (s.adaptive || isinf(s.bound)) return SHARE_OF_REFERENCE * pick->reference.wall_seconds;
-  return pick->evaluation * order * order * span / s.largest;
-}
-
-int32_t hooke_pick_try(struct hooke_pick *pick, const char *method, double value) {
-  struct search s = begin(pick, method);
-  struct result result;
-  const int32_t status = run_row(&s, value, &result);
-  if (status == HOOKE_OK) learn(&s, &result);
+/* Runs one row. */
+static int32_t try_value(struct search *s, double value) {
+  const int32_t status = run_row(s, value, &s->last);
+  if (status == HOOKE_OK) learn(s, &s->last);
+  s->runs++;
   return status;
 }
 
-int32_t hooke_pick_search(struct hooke_pick *pick, const char *method) {
-  struct search s = begin(pick, method);
-  struct result result = {.seconds = 0.0};
+/* What the next run is going to take [s], about; infinity where the search of this method is over. */
+static double promise(const struct search *s, double *value) {
+  const struct hooke_pick *pick = s->pick;
+  *value = s->over || s->runs == MOST_RUNS ? NAN : next_value(s);
+  if (isnan(*value) || (!s->adaptive && pick->duration / *value > MOST_STEPS)) return INFINITY;
+  if (s->runs > 0) return cost_of(s, &s->last, *value);
+  if (s->adaptive || isinf(s->bound)) return SHARE_OF_REFERENCE * pick->reference.wall_seconds;
+  return s->order * s->order * cost_of(s, &s->last, *value);
+}
+
+/* The next run of a method, unless it cannot become the cheapest, or there is no time. */
+static int32_t advance(struct search *s, double value) {
+  const struct hooke_pick *pick = s->pick;
+  const double now = hooke_clock_seconds(), cost = cost_of(s, &s->last, value);
+  s->over = (pick->met && cost > pick->best.seconds) || (pick->best.method && now + cost > pick->deadline);
+  if (s->over) return HOOKE_OK;
+  /* a first row is found in any case */
+  s->until = pick->best.method ? fmax(pick->deadline, now + PATIENCE * pick->best.seconds) : INFINITY;
+  if (pick->met) s->until = fmin(s->until, now + MOMENT + PATIENCE * pick->best.seconds);
+  const int32_t status = try_value(s, value);
+  s->over = status == HOOKE_STOPPED && s->late;
+  return s->over ? HOOKE_OK : status;
+}
+
+/* Of all methods the run that promises to be the quickest comes next. */
+static int32_t search_all(int32_t count, struct search *all) {
   int32_t status = HOOKE_OK;
-  for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK && s.largest > 0.0; run++) {
-    const double value = next_value(&s), now = hooke_clock_seconds();
-    if (isnan(value) || (!s.adaptive && pick->duration / value > MOST_STEPS)) break;
-    const double cost = cost_of(&s, &result, value);
-    if (pick->met && cost > pick->best.seconds) break;
-    if (pick->best.method && now + cost > pick->deadline) break;
-    /* a first row is found in any case */
-    s.until = pick->best.method ? fmax(pick->deadline, now + PATIENCE * pick->best.seconds) : INFINITY;
-    if (pick->met) s.until = fmin(s.until, now + MOMENT + PATIENCE * pick->best.seconds);
-    status = run_row(&s, value, &result);
-    if (status == HOOKE_STOPPED && s.late) return HOOKE_OK;
-    if (status == HOOKE_OK) learn(&s, &result);
+  while (status == HOOKE_OK) {
+    double least = INFINITY, value = NAN, next;
+    struct search *best = NULL;
+    for (int32_t k = 0; k < count; k++) {
+      const double seconds = promise(&all[k], &next);
+      if (!(seconds < least)) continue;
+      least = seconds;
+      value = next;
+      best = &all[k];
+    }
+    if (best == NULL) break;
+    status = advance(best, value);
   }
   return status;
+}
+
+int32_t hooke_pick_search(struct hooke_pick *pick) {
+  struct search all[MOST_METHODS];
+  int32_t count = 0;
+  for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS; m++) {
+    const char *method = hooke_method_name(m);
+    if (pick->method ? strcmp(method, pick->method) != 0 : !hooke_method_is_built(method)) continue;
+    all[count] = begin(pick, method);
+    count += all[count].largest > 0.0;
+  }
+  const int32_t status = search_all(count, all);
+  if (status != HOOKE_OK || pick->met || pick->method) return status;
+  /* the reference meets any want that it can judge */
+  struct search last = begin(pick, pick->reference.method);
+  return try_value(&last, pick->reference.rtol);
 }
