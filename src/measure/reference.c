@@ -64,6 +64,12 @@ static int32_t tight_options(const struct hooke_reference_request *request, cons
   return status;
 }
 
+int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                                hooke_options **options) {
+  const struct hooke_reference_request request = {.run = run};
+  return tight_options(&request, method, rtol, extent, options);
+}
+
 /* ---- the size of things ---- */
 
 static double diagonal(int64_t rows, const double *position) {
@@ -230,6 +236,7 @@ static void find_trust(const struct hooke_reference_request *request, struct hoo
     if (!(apart <= digits)) break;
     r->agreement = fmax(r->agreement, SAFETY * apart);
   }
+  hooke_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
 }
 
 /* One level: a run, and another to check it. */
@@ -268,6 +275,8 @@ static int32_t tighten(struct watch *watch, struct hooke_reference *r, struct ho
     struct hooke_reference next = *r;
     next.trusted = next.checked = 0;
     status = hooke_frames_create(r->frames.system, r->frames.count, &next.frames);
+    if (status == HOOKE_OK)
+      status = hooke_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
     if (status == HOOKE_OK) status = agree(watch, &next, tolerances[k], check);
     if (status != HOOKE_OK) {
       hooke_frames_release(&next.frames);
@@ -333,6 +342,8 @@ int32_t hooke_reference_create(const hooke_system *system, const struct hooke_re
   hooke_state_destroy(state);
   if (status == HOOKE_OK) status = find_extent(system, &r->extent);
   if (status == HOOKE_OK) status = hooke_frames_create(system, request->frame_count, &r->frames);
+  if (status == HOOKE_OK)
+    status = hooke_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
   if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
   if (status == HOOKE_OK) status = measure_growth(&watch, r, &trial);

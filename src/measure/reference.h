@@ -24,7 +24,9 @@ struct hooke_reference_request {
   int64_t frame_count;
   double
       digits; /* distance that the two may be apart at a trusted frame [m]; at least, and if NaN, 1e-6 of the extent */
-  double budget;                         /* [s], infinity for none */
+  double budget; /* [s], infinity for none */
+  const struct hooke_watched_list
+      *watched; /* kept at every frame, with how far the two are apart in it; NULL: nothing */
   const struct hooke_listener *listener; /* told of progress with the share of the whole reference */
 };
 
@@ -34,6 +36,10 @@ struct hooke_reference_request {
 int32_t hooke_reference_create(const hooke_system *system, const struct hooke_reference_request *request,
                                struct hooke_reference *reference);
 void hooke_reference_release(struct hooke_reference *reference);
+
+/* Options of a run by `method` with error control, the absolute tolerance by the size of the scene. */
+int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                                hooke_options **options);
 
 /* The method that makes references cheapest on this system at positions q: Adams, or BDF where damping is faster than the
  * fastest oscillation, so that fast motion dies out and an implicit method strides over it. */

@@ -12,7 +12,7 @@ static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
-static int32_t row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
+int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
   hooke_options *options = NULL;
   const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
   int32_t status = hooke_options_copy(study->run, &options);
@@ -65,7 +65,7 @@ int32_t hooke_study_run_row(const hooke_study *study, int32_t method, double val
   const struct hooke_reference *r = &study->reference;
   hooke_options *options = NULL;
   *row = (struct hooke_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
-  int32_t status = row_options(study, method, value, &options);
+  int32_t status = hooke_study_row_options(study, method, value, &options);
   if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &row->trial);
   if (status == HOOKE_OK) status = hooke_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
   row->wall_median = row->trial.wall_seconds;
@@ -78,7 +78,7 @@ int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row) {
   hooke_options *options = NULL;
   if (strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
   study->under_way = study->method[row->method];
-  int32_t status = row_options(study, row->method, row->value, &options);
+  int32_t status = hooke_study_row_options(study, row->method, row->value, &options);
   if (status == HOOKE_OK) status = repeat_for_time(study, options, &listener, row);
   hooke_options_destroy(options);
   return status;

@@ -23,7 +23,8 @@ static const struct hooke_study_row *row_at(const hooke_study *study, int64_t ro
 const char *hooke_study_reference(const hooke_study *study, const char *what) {
   if (study->reference.method == NULL) return "";
   if (strcmp(what, "method") == 0) return study->reference.method;
-  return strcmp(what, "check") == 0 ? study->reference.check : NULL;
+  if (strcmp(what, "check") == 0) return study->reference.check;
+  return hooke_study_watched_text(study, what);
 }
 
 /* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */
@@ -45,7 +46,8 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"frames", made ? (double)r->trusted : NAN},
       {"budget_spent", (double)study->budget_spent},
   };
-  return HOOKE_FIGURE(figures, what);
+  const double figure = HOOKE_FIGURE(figures, what);
+  return isnan(figure) ? hooke_study_watched_figure(study, what) : figure;
 }
 
 int64_t hooke_study_row_count(const hooke_study *study) {
@@ -66,6 +68,7 @@ double hooke_study_number(const hooke_study *study, int64_t row, const char *wha
   if (strcmp(what, "repeats") == 0) return (double)r->repeats;
   if (strcmp(what, "timed_alone") == 0) return (double)r->timed_alone;
   if (strcmp(what, "near_floor") == 0) return r->trial.error <= 10.0 * study->reference.agreement ? 1.0 : 0.0;
+  if (strncmp(what, "watched:", 8) == 0) return hooke_watched_series_figure(&r->trial.watched, what + 8);
   return hooke_trial_number(&r->trial, what);
 }
 
@@ -76,6 +79,8 @@ int64_t hooke_study_frame_count(const hooke_study *study) {
 const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what) {
   const struct hooke_study_row *r = row_at(study, row);
   if (strcmp(what, "time") == 0) return study->reference.frames.time;
+  if (strncmp(what, "watched:", 8) == 0)
+    return hooke_watched_series_find(r ? &r->trial.watched : &study->reference.frames.watched, what + 8);
   if (r == NULL) return NULL;
   if (strcmp(what, "error") == 0) return r->trial.error_at;
   return strcmp(what, "energy_drift") == 0 ? r->trial.drift_at : NULL;
