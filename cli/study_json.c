@@ -1,5 +1,6 @@
 /* The results of a study as JSON. */
 #include "study_results.h"
+#include "study_watched.h"
 
 #include <stdio.h>
 
@@ -15,6 +16,7 @@ static void print_reference(struct hooke_json *json, const hooke_study *study) {
   hooke_json_number(json, "agreement", hooke_study_figure(study, "agreement"));
   hooke_json_number(json, "trusted_until", hooke_study_figure(study, "trusted_until"));
   hooke_json_number(json, "growth", hooke_study_figure(study, "growth"));
+  hooke_study_watched_print_reference(json, study);
   hooke_json_close(json);
 }
 
@@ -64,6 +66,7 @@ void hooke_study_results_print_json(const struct hooke_study_results *results) {
   hooke_rows_print_json(&json, &rows);
   print_orders(&json, results);
   print_recommendation(&json, results);
+  hooke_study_statistics_print_json(&json, results);
   hooke_json_flag(&json, "budget_spent", hooke_study_figure(results->study, "budget_spent") == 1.0);
   hooke_json_end(&json);
 }

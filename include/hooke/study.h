@@ -97,7 +97,7 @@ HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, con
 
 /* With the option "ensemble", and a reference that is trusted for a part of the run only: so many runs by the reference's
  * method, and by each method that has a row that finished, at the recommended value, else that of its cheapest row that
- * meets the want, else of its most accurate row. Each starts with every free particle displaced by Gaussian noise of root
+ * meets the want, else of its finest row. Each starts with every free particle displaced by Gaussian noise of root
  * mean square "noise": a tenth of the want, or a millionth of the extent without one. The statistics are of each run's means
  * over the frames from "statistics_from" to "statistics_until", which follow those that are trusted; of a period, of its
  * period over these.

@@ -39,8 +39,14 @@ static int32_t add_source(const hooke_study *study, struct hooke_ensemble *ensem
   return HOOKE_OK;
 }
 
-/* Of a method's rows the one that is recommended, else the cheapest that meets the want, else the most accurate; NaN without
- * a row that finished. */
+/* 1 if `row` is to be taken rather than `other` of the same method: of those that meet the want the cheaper, else the finer. */
+static int is_better(const struct hooke_study_row *row, const struct hooke_study_row *other, double want) {
+  const int meets = row->trial.error <= want;
+  if (other == NULL || meets != (other->trial.error <= want)) return other == NULL || meets;
+  return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
+}
+
+/* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN without one. */
 static double choose_value(const hooke_study *study, int32_t method) {
   const struct hooke_study_recommendation *r = &study->recommendation;
   const double want = hooke_options_number(study->options, "want");
@@ -48,12 +54,7 @@ static double choose_value(const hooke_study *study, int32_t method) {
   if (r->made && r->met && r->method == method) return r->value;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hooke_study_row *row = &study->row[k];
-    if (row->method != method || !(row->trial.error >= 0.0)) continue;
-    const int meets = row->trial.error <= want, met = best && best->trial.error <= want;
-    const int better = meets && met                   ? row->trial.wall_seconds < best->trial.wall_seconds
-                       : meets != met || best == NULL ? meets >= met
-                                                      : row->trial.error < best->trial.error;
-    if (better) best = row;
+    if (row->method == method && row->trial.error >= 0.0 && is_better(row, best, want)) best = row;
   }
   return best ? best->value : NAN;
 }
