@@ -156,14 +156,13 @@ static void print_quantity(const struct hooke_study_results *results, int32_t me
 
 static void print_ensemble(const struct hooke_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
-  char from[HOOKE_NUMBER_SIZE], until[HOOKE_NUMBER_SIZE], text[TEXT_SIZE];
-  hooke_format_number(hooke_study_figure(study, "statistics_from"), from);
-  hooke_format_number(hooke_study_figure(study, "statistics_until"), until);
-  snprintf(
-      text, sizeof text,
-      "of means over %s s to %s s, where positions cannot be computed; of %.0f runs of each method, whose "
-      "starts differ by noise of %.3g m",
-      from, until, hooke_study_figure(study, "members"), hooke_study_figure(study, "noise"));
+  char text[TEXT_SIZE];
+  snprintf(text, sizeof text,
+           "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each method, "
+           "whose "
+           "starts differ by noise of %.3g m",
+           hooke_study_figure(study, "statistics_from"), hooke_study_figure(study, "statistics_until"),
+           hooke_study_figure(study, "members"), hooke_study_figure(study, "noise"));
   printf("\n");
   print_words("statistics", text);
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
@@ -181,15 +180,15 @@ void hooke_study_statistics_print(const struct hooke_study_results *results, int
   const double until = hooke_study_figure(study, "trusted_until");
   const int32_t whole = until >= hooke_study_figure(study, "duration") * (1.0 - 1e-9);
   const char *asked = hooke_arguments_text(results->arguments, "ensemble");
-  char text[TEXT_SIZE], time[HOOKE_NUMBER_SIZE];
+  char text[TEXT_SIZE];
   if (hooke_study_figure(study, "members") > 0.0) {
     print_ensemble(results, method_width);
   } else if (asked && whole) {
     printf("\n");
     print_words("statistics", "none are needed: errors are known over the whole run");
   } else if (!whole && !asked && hooke_study_row_count(study) > 0 && !results->arguments->quiet) {
-    snprintf(text, sizeof text, "--ensemble %d tells means and spreads beyond %s s", MEMBERS_ADVISED,
-             hooke_format_number(until, time));
+    snprintf(text, sizeof text, "--ensemble %d tells means and spreads beyond %.6g s", MEMBERS_ADVISED,
+             until);
     printf("\n");
     print_words("statistics", text);
   }

@@ -179,6 +179,7 @@ static int32_t read_quantity(const struct reading *reading, char *text, struct h
   if (strncmp(text, period, sizeof period - 1) == 0) {
     watched->is_period = 1;
     text += sizeof period - 1;
+    if (strncmp(text, period, sizeof period - 1) == 0) return refuse(reading);
   }
   if (find_word(text, &watched->kind)) return HOOKE_OK;
   char *dot = strrchr(text, '.');
