@@ -238,7 +238,7 @@ static void recommendations_hold(void **unused) {
 
 static void chaos_is_trusted_for_a_while(void **unused) {
   (void)unused;
-  hooke_system *system = small_crumpling_cloth();
+  hooke_system *system = small_crumpling_cloth(6);
   hooke_study *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
   check_ok(hooke_study_run(study));
   check_between(hooke_study_figure(study, "trusted_until"), 0.3, 3.5);
@@ -294,7 +294,7 @@ static void a_budget_binds_the_reference(void **unused) {
   (void)unused;
   const double every[] = {1e5, 0.05};
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = small_crumpling_cloth();
+    hooke_system *system = small_crumpling_cloth(6);
     hooke_study *study = NULL;
     hooke_options *run = run_options((struct run){.duration = every[k], .every = every[k]}), *options;
     check_ok(hooke_study_options_create(&options));

@@ -34,10 +34,11 @@ hooke_system *small_oscillator(double omega) {
   return system;
 }
 
-hooke_system *small_crumpling_cloth(void) {
+hooke_system *small_crumpling_cloth(int64_t side) {
   hooke_system *system;
   hooke_options *cloth;
-  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0}, size[2] = {6.0, 6.0};
+  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0},
+               size[2] = {(double)side, (double)side};
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_part_options_create("cloth", &cloth));
