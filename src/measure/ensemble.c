@@ -13,9 +13,8 @@
 
 static const double NOISE = 0.1;  /* of the wanted error, or */
 static const double SHARE = 1e-6; /* of the extent, where none is wanted */
-/* Of the reference's method: errors of the single run grow beyond all bounds whatever it is, and this is small enough for
- * what an ensemble can tell. */
-static const double TOLERANCE = 1e-8;
+/* Of the reference's method. What it does to energies has to be small beside what the noise does. */
+static const double TOLERANCE = 1e-10;
 
 /* ---- sources ---- */
 

@@ -471,21 +471,24 @@ def test_every_length_has_its_unit(hooke, write):
 
 # ---- watched quantities and statistics ----
 
-DOUBLE = json.dumps({"hooke": 1, "gravity": [0, -9.81, 0],
-                     "particles": {"position": [[0, 0, 0], [1, 0.2, 0], [2, 0.5, 0.3]], "mass": 1, "pinned": [0]},
-                     "springs": [{"name": "rods", "between": [[0, 1], [1, 2]], "stiffness": 200}]})  # fmt: skip
+DOUBLE = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "particles": {"position": [[0, 0, 0], [1, 0.2, 0], [2, 0.5, 0.3]], "mass": 1, "pinned": [0]},
+    "springs": [{"name": "rods", "between": [[0, 1], [1, 2]], "stiffness": 200}],
+}
 WATCH = ["2.y", "rods:1.tension", "energy", "period:1.x"]
 
 
 @everything
 def test_errors_of_watched_quantities(hooke, write, tmp_path):
-    words = ["--duration", 4, "--every", 0.05, "--methods", "verlet,cvode-adams", "--watch", ",".join(WATCH)]
+    words = ["--duration", 8, "--every", 0.05, "--methods", "verlet,cvode-adams", "--watch", ",".join(WATCH)]
     scene = write(DOUBLE)
     answer = hooke("study", scene, *words, "--json", "-o", "rows.csv")
     assert (answer.code, answer.err) == (0, "")
     reference = answer.json["reference"]["watched"]
     assert [(item["quantity"], item["unit"]) for item in reference] == list(zip(WATCH, ["m", "N", "J", "s"]))
-    assert all(0 < item["agreement"] < 1e-5 for item in reference)
+    assert all(0 < item["agreement"] < 1e-4 for item in reference)
     for row in answer.json["rows"]:
         assert [item["quantity"] for item in row["watched"]] == WATCH
         error = [item["error"] for item in row["watched"]]
