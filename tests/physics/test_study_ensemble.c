@@ -146,7 +146,7 @@ static void a_pendulum_has_statistics(void **unused) {
   test_ensembles(double_pendulum(),
                  (struct study){.duration = 30.0,
                                 .every = 0.1,
-                                .members = 6.0,
+                                .members = 12.0,
                                 .methods = "cvode-adams,backward-euler",
                                 .step = 0.01,
                                 .rtol = 1e-9,
@@ -159,7 +159,7 @@ static void a_crumpling_cloth_has_statistics(void **unused) {
   test_ensembles(small_crumpling_cloth(4),
                  (struct study){.duration = 5.0,
                                 .every = 0.1,
-                                .members = 6.0,
+                                .members = 12.0,
                                 .methods = "cvode-adams,backward-euler",
                                 .step = 0.01,
                                 .rtol = 1e-9,
@@ -173,7 +173,7 @@ static void the_seed_decides(void **unused) {
   double mean[3];
   for (int k = 0; k < 3; k++) {
     hooke_study *study =
-        start(system, (struct study){.duration = 40.0,
+        start(system, (struct study){.duration = 30.0,
                                      .every = 0.1,
                                      .members = 2.0,
                                      .seed = k == 2 ? 2.0 : 1.0,
