@@ -79,7 +79,7 @@ int64_t hooke_study_frame_count(const hooke_study *study) {
 const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what) {
   const struct hooke_study_row *r = row_at(study, row);
   if (strcmp(what, "time") == 0) return study->reference.frames.time;
-  if (strncmp(what, "watched:", 8) == 0)
+  if ((r || row == -1) && strncmp(what, "watched:", 8) == 0)
     return hooke_watched_series_find(r ? &r->trial.watched : &study->reference.frames.watched, what + 8);
   if (r == NULL) return NULL;
   if (strcmp(what, "error") == 0) return r->trial.error_at;
