@@ -171,7 +171,7 @@ static void print_ensemble(const struct hooke_study_results *results, int32_t me
     print_quantity(results, method_width, hooke_study_nth(study, "quantity", k));
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
          "standard errors of it;\nbelow %.0f none is seen, and where there is none, one figure in twenty is "
-         "above\n",
+         "above, more with few runs\n",
          SEEN);
 }
 

@@ -1,8 +1,10 @@
+/* The groups of what is watched. */
+#include "core/memory.h"
+
 #if HOOKE_HAVE_HDF5
 
 #include "io/study_watched_h5.h"
 
-#include "core/memory.h"
 #include "io/object_h5.h"
 #include "measure/study.h"
 

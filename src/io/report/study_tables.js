@@ -152,7 +152,7 @@ function writeStatistics() {
     `Means over ${words(found.from, 6)} s to ${words(found.until, 6)} s, where positions cannot be computed; of ` +
     `${found.members} runs of each method, whose starts differ by noise of ${words(found.noise)} m. Spread: the ` +
     "standard deviation of the runs. Bias: the difference from the mean of the reference, in standard errors of it; " +
-    "below 2 none is seen, and where there is none, one figure in twenty is above.";
+    "below 2 none is seen, and where there is none, one figure in twenty is above, more with few runs.";
   const body = element("tbody");
   for (const item of found.quantities) {
     Object.entries(item.sources).forEach(([name, source], k) => {
