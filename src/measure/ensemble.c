@@ -187,6 +187,7 @@ static int32_t run_members(struct member *member) {
   study->under_way = "ensemble";
   study->work_ahead = 0.0;
   study->late = 0;
+  study->row_deadline = study->deadline;
   for (int64_t k = 0; k < ensemble->members; k++) {
     for (int64_t s = 0; s < ensemble->source_count; s++) {
       member->source = &ensemble->source[s];
