@@ -84,6 +84,7 @@ void hooke_rows_print_json(struct hooke_json *json, const struct hooke_rows *row
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
       hooke_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
     hooke_json_text(json, "status", rows->text(rows->source, row, "status"));
+    if (rows->print_more) rows->print_more(json, rows->source, row);
     hooke_json_close(json);
   }
   hooke_json_close(json);

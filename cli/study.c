@@ -3,6 +3,7 @@
 #include "print.h"
 #include "report.h"
 #include "study_results.h"
+#include "study_watched.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -122,7 +123,8 @@ struct hooke_rows hooke_study_results_rows(const struct hooke_study_results *res
                              .text = text_of,
                              .number = number_of,
                              .grouped = 1,
-                             .mark = mark_of};
+                             .mark = mark_of,
+                             .print_more = hooke_study_watched_print_row};
 }
 
 static int32_t write_output(const struct hooke_study_results *results, const char *output) {

@@ -1,5 +1,6 @@
 /* The results of a study as JSON. */
 #include "study_results.h"
+#include "study_watched.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,6 +21,7 @@ static void print_reference(struct hooke_json *json, const hooke_study *study) {
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
     hooke_json_number(json, numbers[i], hooke_study_figure(study, numbers[i]));
   hooke_json_text(json, "ended", hooke_study_reference(study, "ended"));
+  hooke_study_watched_print_reference(json, study);
   hooke_json_close(json);
 }
 
@@ -87,6 +89,7 @@ void hooke_study_results_print_json(const struct hooke_study_results *results) {
   hooke_rows_print_json(&json, &rows);
   print_orders(&json, results);
   print_recommendation(&json, results);
+  hooke_study_statistics_print_json(&json, results);
   hooke_json_flag(&json, "budget_spent", hooke_study_figure(results->study, "budget_spent") == 1.0);
   hooke_json_end(&json);
 }

@@ -1,5 +1,6 @@
 /* The results of a study for a person. */
 #include "study_results.h"
+#include "study_watched.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -205,6 +206,7 @@ void hooke_study_results_print(const struct hooke_study_results *results) {
     printf("\n");
     hooke_rows_print(&rows, width);
     print_legend(&rows);
+    hooke_study_watched_print(results, width);
   }
   if (hooke_study_figure(results->study, "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
@@ -214,4 +216,5 @@ void hooke_study_results_print(const struct hooke_study_results *results) {
   } else if (rows.count > 0 && !arguments->quiet && !hooke_arguments_text(arguments, "want")) {
     printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
   }
+  hooke_study_statistics_print(results, width);
 }

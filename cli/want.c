@@ -98,9 +98,13 @@ int32_t hooke_want_goes_on(struct hooke_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
   if (hooke_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
-  if (!run->arguments->quiet)
-    hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted",
-                       number_of(run, "estimate"), number_of(run, "wanted"));
+  const char *note = hooke_estimate_text(run->estimate, "note");
+  const double error = number_of(run, "estimate"), wanted = number_of(run, "wanted");
+  if (!run->arguments->quiet && error > wanted)
+    hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error,
+                       wanted);
+  else if (!run->arguments->quiet)
+    hooke_report_words(run->arguments, "that run does not do: %s", note);
   tell_choice(run, "once more for", hooke_arguments_text(run->arguments, "want"));
   return 1;
 }

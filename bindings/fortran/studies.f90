@@ -28,6 +28,7 @@ module hooke_studies
     procedure :: series
     procedure :: order
     procedure :: order_note
+    procedure :: statistic
     procedure :: recommend
     procedure :: recommendation_text
     procedure :: recommendation_number
@@ -140,6 +141,13 @@ contains
     character(*), intent(in) :: method
     character(:), allocatable :: text
     text = to_text(c_study_order_note(self%address(), to_c(method)))
+  end function
+
+  ! "mean", "spread", "members", "failed", "step", "rtol" or "bias" of a quantity, by a method or the "reference".
+  real(c_double) function statistic(self, method, quantity, what)
+    class(hooke_study), intent(in) :: self
+    character(*), intent(in) :: method, quantity, what
+    statistic = c_study_statistic(self%address(), to_c(method), to_c(quantity), to_c(what))
   end function
 
   ! Finds the cheapest step or tolerance whose error is at most `want` [m].

@@ -17,6 +17,13 @@
  *                                     error_stiffness, holds_start, error_start; the group is there only if
  *                                     something was recommended
  *
+ *   /study/watched/quantity, unit     [quantities], texts, where something is watched; agreement [quantities]
+ *   /study/watched/error              [rows][quantities]
+ *   /study/statistics                 attributes members, from, until, noise; only if there was an ensemble
+ *   /study/statistics/quantity, unit  [quantities], texts
+ *   /study/statistics/method          [methods], texts, "reference" first
+ *   /study/statistics/<figure>        [methods][quantities]: step, rtol, members, failed, mean, spread, bias
+ *
  * Texts are padded with zeros. The file takes its place when it is complete. */
 #include "core/memory.h"
 #include "core/status.h"
@@ -28,6 +35,7 @@
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
 #include "io/scene.h"
+#include "io/study_watched_h5.h"
 #include "measure/study.h"
 
 #include <math.h>
@@ -212,6 +220,8 @@ static herr_t write_study(hid_t file, const hooke_study *study) {
   if (result >= 0) result = write_rows(group, study);
   if (result >= 0) result = write_orders(group, study);
   if (result >= 0) result = write_recommendation(group, study);
+  if (result >= 0) result = hooke_h5_write_watched(group, study);
+  if (result >= 0) result = hooke_h5_write_statistics(group, study);
   hooke_h5_drop(group);
   return result;
 }
@@ -219,7 +229,7 @@ static herr_t write_study(hid_t file, const hooke_study *study) {
 static double bytes_of(const hooke_study *study, const char *scene_text) {
   const double rows = (double)hooke_study_row_count(study), frames = (double)hooke_study_frame_count(study);
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
-  return text + 65536.0 + rows * (512.0 + 16.0 * frames) + 8.0 * frames;
+  return hooke_h5_watched_bytes(study) + text + 65536.0 + rows * (512.0 + 16.0 * frames) + 8.0 * frames;
 }
 
 static int32_t write_file(const hooke_study *study, const char *path, const char *scene_text,

@@ -1,6 +1,7 @@
 /* The page of a study: what it shows, as JSON. */
 #include "hooke/io.h"
 #include "io/report.h"
+#include "io/study_watched.h"
 #include "measure/study.h"
 
 #include <math.h>
@@ -91,6 +92,7 @@ static void add_rows(struct hooke_text *text, const hooke_study *study) {
     for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++)
       hooke_text_number(text, hooke_study_row_number[k],
                         hooke_study_number(study, row, hooke_study_row_number[k]));
+    hooke_study_watched_add(text, study, row);
     add_curve(text, study, row, "error");
     add_curve(text, study, row, "energy_drift");
     hooke_text_close(text, '}');
@@ -140,6 +142,8 @@ static void add_data(struct hooke_text *data, const void *ctx) {
   add_rows(data, request->study);
   add_orders(data, request->study);
   add_recommendation(data, request->study, request->command);
+  hooke_study_watched_add(data, request->study, -1);
+  hooke_study_statistics_add(data, request->study);
 }
 
 int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,

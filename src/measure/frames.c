@@ -34,6 +34,7 @@ void hooke_frames_release(struct hooke_frames *frames) {
   hooke_free(frames->energy);
   hooke_free(frames->position);
   hooke_free(frames->free_particle);
+  hooke_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
 }
 
@@ -43,6 +44,7 @@ void hooke_frames_record(struct hooke_frames *frames, const hooke_state *state) 
   const double *q = hooke_state_position(state);
   frames->time[f] = hooke_state_time(state);
   frames->energy[f] = hooke_system_energy(frames->system, q, hooke_state_velocity(state));
+  hooke_watched_series_keep(&frames->watched, f, q, hooke_state_velocity(state));
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 

@@ -3,15 +3,17 @@
 #define HOOKE_MEASURE_FRAMES_H
 
 #include "hooke/integrator.h"
+#include "measure/watched_series.h"
 
 struct hooke_frames {
   const hooke_system *system;
-  int64_t count, size;                /* frames, and numbers in a position (3n) */
-  int64_t recorded;                   /* frames recorded so far */
-  double *time;                       /* count [s] */
-  double *energy;                     /* count [J] */
-  double *position;                   /* count x size [m] */
-  int64_t *free_particle, free_count; /* errors are measured over these */
+  int64_t count, size;                 /* frames, and numbers in a position (3n) */
+  int64_t recorded;                    /* frames recorded so far */
+  double *time;                        /* count [s] */
+  double *energy;                      /* count [J] */
+  double *position;                    /* count x size [m] */
+  int64_t *free_particle, free_count;  /* errors are measured over these */
+  struct hooke_watched_series watched; /* of nothing unless it is made */
 };
 
 /* Room for `count` frames of a committed system. HOOKE_NO_MEMORY. */

@@ -2,6 +2,7 @@
 
 #include "core/clock.h"
 #include "core/memory.h"
+#include "core/random.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -78,14 +79,6 @@ static struct trend find_trend(const struct course *course) {
 
 /* ---- one run ---- */
 
-/* Uniform in [-1, 1): splitmix64 (Steele, Lea and Flood 2014). */
-static double draw(struct hooke_growth *growth) {
-  uint64_t z = growth->random += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return ldexp((double)((z ^ (z >> 31)) >> 11), -52) - 1.0;
-}
-
 static double kinetic(const hooke_system *system, const double *v) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
@@ -98,7 +91,7 @@ static double kinetic(const hooke_system *system, const double *v) {
 static void start_randomly(struct hooke_growth *growth, double *x, double *v) {
   const hooke_system *system = growth->frozen->system;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    x[k] = draw(growth) * sqrt(system->inverse_mass[k / 3]);
+    x[k] = hooke_random_uniform(&growth->random) * sqrt(system->inverse_mass[k / 3]);
   hooke_frozen_push(growth->frozen, x, v);
 }
 
@@ -206,7 +199,8 @@ static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int
   int64_t taken = 0, longest = 1;
   while (taken < most_steps) {
     const int64_t twice_the_mean = 2 * course.length / SAMPLES;
-    int64_t count = 1 + (int64_t)(0.5 * (draw(growth) + 1.0) * (double)twice_the_mean);
+    int64_t count =
+        1 + (int64_t)(0.5 * (hooke_random_uniform(&growth->random) + 1.0) * (double)twice_the_mean);
     count = count < longest ? count : longest;
     count = count < course.length - course.steps ? count : course.length - course.steps;
     int ended;

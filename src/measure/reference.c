@@ -75,6 +75,7 @@ static void find_trust(struct hooke_reference_watch *watch, struct hooke_referen
   trust(r, check, isnan(wanted) ? fallback : wanted);
   r->coarse = r->trusted < 2 && r->digits < fallback;
   if (r->coarse) trust(r, check, fallback);
+  hooke_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
 }
 
 /* ---- levels ---- */
@@ -148,6 +149,8 @@ static int32_t run_level(struct hooke_reference_watch *watch, struct hooke_refer
   struct hooke_reference next = *r;
   next.trusted = next.checked = 0;
   int32_t status = hooke_frames_create(r->frames.system, r->frames.count, &next.frames);
+  if (status == HOOKE_OK)
+    status = hooke_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
   if (status == HOOKE_OK) status = agree(watch, &next, tolerance, check);
   if (status != HOOKE_OK) {
     hooke_frames_release(&next.frames);
@@ -216,6 +219,8 @@ int32_t hooke_reference_create(const hooke_system *system, const struct hooke_re
   if (status == HOOKE_OK) status = find_extent(state, &r->extent);
   hooke_state_destroy(state);
   if (status == HOOKE_OK) status = hooke_frames_create(system, request->frame_count, &r->frames);
+  if (status == HOOKE_OK)
+    status = hooke_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
   if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
   if (status == HOOKE_OK && !request->enough) status = hooke_reference_measure_growth(&watch, r, &trial);

@@ -35,7 +35,9 @@ struct hooke_reference_request {
   /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth. 0: on to 1e-9 of the extent, while
    * there is time */
   int32_t enough;
-  double budget;                         /* [s], infinity for none */
+  double budget; /* [s], infinity for none */
+  const struct hooke_watched_list
+      *watched; /* kept at every frame, with how far the two are apart in it; NULL: nothing */
   const struct hooke_listener *listener; /* told of progress with the share of the whole reference */
 };
 
@@ -45,6 +47,10 @@ struct hooke_reference_request {
 int32_t hooke_reference_create(const hooke_system *system, const struct hooke_reference_request *request,
                                struct hooke_reference *reference);
 void hooke_reference_release(struct hooke_reference *reference);
+
+/* Options of a run by `method` at a tolerance; the absolute one follows the size of the scene. */
+int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                                hooke_options **out);
 
 /* The method that makes references cheapest on this system at positions q: Adams, or BDF where damping is faster than the
  * fastest oscillation, so that fast motion dies out and an implicit method strides over it. */

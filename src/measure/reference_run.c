@@ -14,11 +14,10 @@ static const double TIMEABLE = 2e-3;          /* [s] */
 static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
-/* Options of a run by `method` at a tolerance; the absolute one follows the size of the scene. */
-static int32_t tight_options(const struct hooke_reference_request *request, const char *method, double rtol,
-                             double extent, hooke_options **out) {
+int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                                hooke_options **out) {
   hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(request->run, &options);
+  int32_t status = hooke_options_copy(run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", rtol);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * extent);
@@ -75,7 +74,7 @@ int32_t hooke_reference_make_frames(struct hooke_reference_watch *watch, struct 
                                     double deadline, struct hooke_reference_cost *cost) {
   const struct hooke_listener listener = hooke_reference_listen(watch, deadline);
   hooke_options *options = NULL;
-  int32_t status = tight_options(watch->request, r->method, r->rtol, r->extent, &options);
+  int32_t status = hooke_reference_options(watch->request->run, r->method, r->rtol, r->extent, &options);
   if (status == HOOKE_OK)
     status = hooke_frames_run(&r->frames, options, &listener, &cost->seconds, &cost->evaluations);
   hooke_options_destroy(options);
@@ -95,7 +94,7 @@ int32_t hooke_reference_judge(struct hooke_reference_watch *watch, const struct 
                               struct hooke_trial *trial) {
   const struct hooke_frames *frames = &r->frames;
   hooke_options *options = NULL;
-  int32_t status = tight_options(watch->request, method, rtol, r->extent, &options);
+  int32_t status = hooke_reference_options(watch->request->run, method, rtol, r->extent, &options);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
@@ -117,7 +116,7 @@ static int32_t try_beginning(struct hooke_reference_watch *watch, const struct h
   hooke_options *options = NULL;
   int32_t status = hooke_frames_create(r->frames.system, 2, &frames);
   if (status != HOOKE_OK) return status;
-  status = tight_options(watch->request, method, rtol, r->extent, &options);
+  status = hooke_reference_options(watch->request->run, method, rtol, r->extent, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
   if (status == HOOKE_OK && !isinf(most_steps))

@@ -18,6 +18,8 @@
 /* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so many seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
 static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
+/* And an ensemble, where one is needed, this one. */
+static const double ENSEMBLE_SHARE = 0.3;
 
 static const struct hooke_option_row study_rows[] = {
     {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
@@ -57,6 +59,27 @@ static const struct hooke_option_row study_rows[] = {
      .above_low = 1,
      .high = 1e300,
      .doc = "time that the study may take; no limit if not given"},
+    {.name = "watch",
+     .type = HOOKE_OPTION_TEXT,
+     .example = "0.y,energy",
+     .doc = "quantities whose error is told too: 57.y (a particle), part:0.y, group:3.length, .strain or "
+            ".tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas"},
+    {.name = "ensemble",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .high = 1e6,
+     .whole = 1,
+     .fallback = "0",
+     .doc =
+         "displaced starts of which each method's means and spreads are told where the motion is too chaotic "
+         "to be judged; 0: none"},
+    {.name = "seed",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .high = 9007199254740992.0,
+     .whole = 1,
+     .fallback = "1",
+     .doc = "of the noise of those starts"},
 };
 
 static const struct hooke_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
@@ -83,6 +106,16 @@ static int32_t read_times(hooke_study *study) {
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
   return hooke_step_times(study->run, &study->duration, &study->every);
+}
+
+static int32_t read_watch(hooke_study *study) {
+  const char *text = hooke_options_text(study->options, "watch");
+  study->watched.system = study->system;
+  if (hooke_options_number(study->options, "ensemble") == 1.0) {
+    return hooke_fail(HOOKE_BAD_VALUE, "ensemble",
+                      "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
+  }
+  return text[0] ? hooke_watched_read(&study->watched, "watch", text) : HOOKE_OK;
 }
 
 int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
@@ -112,6 +145,7 @@ int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
   }
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hooke_study_check_ladder(study);
+  if (status == HOOKE_OK) status = read_watch(study);
   if (status == HOOKE_OK)
     *out = study;
   else
@@ -124,6 +158,8 @@ void hooke_study_destroy(hooke_study *study) {
   for (int64_t k = 0; k < study->row_count; k++)
     hooke_trial_release(&study->row[k].trial);
   hooke_reference_release(&study->reference);
+  hooke_ensemble_release(study->ensemble);
+  hooke_watched_release(&study->watched);
   hooke_options_destroy(study->run);
   hooke_options_destroy(study->options);
   hooke_free(study->row);
@@ -150,7 +186,8 @@ static int32_t make_reference(hooke_study *study) {
       .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
       .digits = isnan(want) ? NAN : want / 10.0,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
-      .listener = &listener};
+      .listener = &listener,
+      .watched = &study->watched};
   study->under_way = "reference";
   const int32_t status = hooke_reference_create(study->system, &request, &study->reference);
   if (status == HOOKE_OK && study->reference.hurried &&
@@ -165,6 +202,8 @@ static void forget(hooke_study *study) {
     hooke_trial_release(&study->row[k].trial);
   study->row_count = 0;
   hooke_reference_release(&study->reference);
+  hooke_ensemble_release(study->ensemble);
+  study->ensemble = NULL;
   memset(&study->recommendation, 0, sizeof study->recommendation);
   study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
   study->late = study->budget_spent = 0;
@@ -175,10 +214,13 @@ int32_t hooke_study_run(hooke_study *study) {
   if (study->reference.frames.count > 0) {
     return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
   }
+  const double budget = study->budget;
   study->begun = hooke_clock_seconds();
+  if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
   int32_t status = hooke_study_find_safe_steps(study);
   if (status == HOOKE_OK) status = hooke_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
+  if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
   if (status == HOOKE_OK) status = hooke_study_run_ladders(study);
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
   for (int32_t m = 0; m < study->method_count; m++)
@@ -186,6 +228,9 @@ int32_t hooke_study_run(hooke_study *study) {
   const double want = hooke_options_number(study->options, "want");
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hooke_study_find_cheapest(study, want);
+  study->budget = budget;
+  study->deadline = study->begun + budget;
+  if (status == HOOKE_OK) status = hooke_ensemble_run(study);
   if (status < 0) forget(study);
   return status;
 }

@@ -3,6 +3,7 @@
 #define HOOKE_MEASURE_STUDY_H
 
 #include "hooke/study.h"
+#include "measure/ensemble.h"
 #include "measure/reference.h"
 
 enum { HOOKE_STUDY_METHODS = 32 };
@@ -53,6 +54,8 @@ struct hooke_study {
   int64_t row_count, row_capacity;
   struct hooke_study_row *row;
   struct hooke_study_recommendation recommendation;
+  struct hooke_watched_list watched;
+  struct hooke_ensemble *ensemble; /* NULL: none was made */
 
   double safe_step
       [HOOKE_STUDY_METHODS]; /* where a method's ladder begins; error-controlled methods have none [s] */
@@ -108,6 +111,10 @@ int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double
 int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row);
+
+/* Words and figures of what is watched and of ensembles (study_watched.c); NULL and NaN for another word. */
+const char *hooke_study_watched_text(const hooke_study *study, const char *what);
+double hooke_study_watched_figure(const hooke_study *study, const char *what);
 
 /* All rows, level by level, until the deadline. */
 int32_t hooke_study_run_ladders(hooke_study *study);

@@ -38,7 +38,7 @@ const char *hooke_study_reference(const hooke_study *study, const char *what) {
   if (strcmp(what, "method") == 0) return study->reference.method;
   if (strcmp(what, "check") == 0) return study->reference.check;
   if (strcmp(what, "ended") == 0) return how_it_ended(&study->reference);
-  return NULL;
+  return hooke_study_watched_text(study, what);
 }
 
 /* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */
@@ -64,7 +64,8 @@ double hooke_study_figure(const hooke_study *study, const char *what) {
       {"frames", made ? (double)r->trusted : NAN},
       {"budget_spent", (double)study->budget_spent},
   };
-  return HOOKE_FIGURE(figures, what);
+  const double figure = HOOKE_FIGURE(figures, what);
+  return isnan(figure) ? hooke_study_watched_figure(study, what) : figure;
 }
 
 int64_t hooke_study_row_count(const hooke_study *study) {
@@ -91,6 +92,7 @@ double hooke_study_number(const hooke_study *study, int64_t row, const char *wha
   if (strcmp(what, "near_floor") == 0) return is_near(r->trial.error, study->reference.agreement);
   if (strcmp(what, "near_energy_floor") == 0)
     return is_near(r->trial.energy_drift, study->reference.energy_agreement);
+  if (strncmp(what, "watched:", 8) == 0) return hooke_watched_series_figure(&r->trial.watched, what + 8);
   return hooke_trial_number(&r->trial, what);
 }
 
@@ -101,6 +103,8 @@ int64_t hooke_study_frame_count(const hooke_study *study) {
 const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what) {
   const struct hooke_study_row *r = row_at(study, row);
   if (strcmp(what, "time") == 0) return study->reference.frames.time;
+  if ((r || row == -1) && strncmp(what, "watched:", 8) == 0)
+    return hooke_watched_series_find(r ? &r->trial.watched : &study->reference.frames.watched, what + 8);
   if (r == NULL) return NULL;
   if (strcmp(what, "error") == 0) return r->trial.error_at;
   return strcmp(what, "energy_drift") == 0 ? r->trial.drift_at : NULL;

@@ -12,7 +12,9 @@ int32_t hooke_trial_create(const struct hooke_frames *reference, struct hooke_tr
   *trial = (struct hooke_trial){.status = NULL};
   trial->error_at = hooke_new(reference->count, sizeof(double));
   trial->drift_at = hooke_new(reference->count, sizeof(double));
-  if (trial->error_at && trial->drift_at) return HOOKE_OK;
+  const int32_t status =
+      hooke_watched_series_create(reference->watched.list, reference->count, &trial->watched);
+  if (trial->error_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
   hooke_trial_release(trial);
   return HOOKE_NO_MEMORY;
 }
@@ -20,6 +22,7 @@ int32_t hooke_trial_create(const struct hooke_frames *reference, struct hooke_tr
 void hooke_trial_release(struct hooke_trial *trial) {
   hooke_free(trial->error_at);
   hooke_free(trial->drift_at);
+  hooke_watched_series_release(&trial->watched);
   memset(trial, 0, sizeof *trial);
 }
 
@@ -70,6 +73,7 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   trial->error_at[f] = hooke_frames_distance(run->reference, f, q, &largest);
   trial->drift_at[f] =
       hooke_system_energy(run->reference->system, q, hooke_state_velocity(state)) - run->reference->energy[f];
+  hooke_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
   trial->error_max = fmax(trial->error_max, largest);
   trial->error_final = trial->error_at[f];
@@ -137,6 +141,7 @@ int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *re
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->drift_at[f] = NAN;
+  hooke_watched_series_clear(&trial->watched);
   const int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
   keep_counts(trial, integrator);
@@ -145,7 +150,10 @@ int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *re
                   : status == HOOKE_DIVERGED ? "diverged"
                   : status == HOOKE_STOPPED  ? "stopped"
                                              : "failed";
-  if (status == HOOKE_OK) return HOOKE_OK;
+  if (status == HOOKE_OK) {
+    hooke_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
+    return HOOKE_OK;
+  }
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   const int is_result =
       status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;

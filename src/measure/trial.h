@@ -20,7 +20,8 @@ struct hooke_trial {
   double step, rtol, atol; /* NaN where the method does not take it */
   double error, error_max, error_final, energy_drift; /* NaN unless finished */
   double force_evaluations, steps, linear_iterations, wall_seconds;
-  double *error_at, *drift_at; /* one a frame of the reference, NaN where there is none */
+  double *error_at, *drift_at;         /* one a frame of the reference, NaN where there is none */
+  struct hooke_watched_series watched; /* of what the reference watches, with the errors */
 };
 
 int32_t hooke_trial_create(const struct hooke_frames *reference, struct hooke_trial *trial);

@@ -238,31 +238,9 @@ static void recommendations_hold(void **unused) {
 
 /* ---- chaos ---- */
 
-/* An undamped cloth that falls on one corner and crumples. */
-static hooke_system *crumpling_cloth(void) {
-  hooke_system *system;
-  hooke_options *cloth;
-  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0}, size[2] = {6.0, 6.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_part_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 1.0));
-  check_ok(hooke_options_set_text(cloth, "pinned", "0"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 500.0));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 300.0));
-  check_ok(hooke_options_set_number(cloth, "bend.stiffness", 20.0));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, cloth, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(cloth);
-  return system;
-}
-
 static void chaos_is_trusted_for_a_while(void **unused) {
   (void)unused;
-  hooke_system *system = crumpling_cloth();
+  hooke_system *system = small_crumpling_cloth(6);
   hooke_study *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
   check_ok(hooke_study_run(study));
   check_between(hooke_study_figure(study, "trusted_until"), 0.3, 3.5);
@@ -320,7 +298,7 @@ static void a_budget_binds_the_reference(void **unused) {
   (void)unused;
   const double every[] = {1e5, 0.05};
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = crumpling_cloth();
+    hooke_system *system = small_crumpling_cloth(6);
     hooke_study *study = NULL;
     hooke_options *run = run_options((struct run){.duration = every[k], .every = every[k]}), *options;
     check_ok(hooke_study_options_create(&options));

@@ -308,3 +308,26 @@ def test_runs_that_diverged_are_at_the_edge():
     crosses = [line for line in steps.lines if line.get_marker() == "x"]
     assert [line.get_xdata().tolist() for line in crosses] == [[0.4]]
     plt.close("all")
+
+
+def test_watched_quantities_and_statistics():
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0.2, 0], [2, 0.5, 0.3]], mass=1.0)
+    system.pin([0])
+    system.set_gravity([0, -9.81, 0])
+    system.add_springs("rods", [[0, 1], [1, 2]], stiffness=200.0)
+    made = hooke.study(
+        system, ["rk4"], steps=[2e-3], watch=["2.y", "rods:1.tension"], ensemble=3, seed=7, duration=40.0, every=0.1
+    )
+    assert list(made.watched) == list(made.agreement) == ["2.y", "rods:1.tension"]
+    assert made.watched["2.y"].shape == (1,) and made.watched["2.y"][0] > 0
+    assert 0 < made.agreement["2.y"] < 1e-4
+    assert list(made.statistics) == ["kinetic", "potential", "energy", "2.y", "rods:1.tension"]
+    for found in made.statistics.values():
+        assert list(found) == ["reference", "rk4"]
+        assert found["rk4"].members == 3 and found["rk4"].step == 2e-3 and np.isnan(found["reference"].bias)
+        errors = [one.spread / np.sqrt(one.members) for one in found.values()]
+        difference = found["rk4"].mean - found["reference"].mean
+        assert np.isclose(found["rk4"].bias, difference / np.hypot(*errors), rtol=1e-12)
+    with pytest.raises(hooke.BadValue, match="particles 0 to 2"):
+        hooke.study(system, ["rk4"], watch="3.y", duration=1.0)

@@ -33,3 +33,25 @@ hooke_system *small_oscillator(double omega) {
   check_ok(hooke_system_commit(system));
   return system;
 }
+
+hooke_system *small_crumpling_cloth(int64_t side) {
+  hooke_system *system;
+  hooke_options *cloth;
+  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0},
+               size[2] = {(double)side, (double)side};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
+  check_ok(hooke_options_set_number(cloth, "mass", 1.0));
+  check_ok(hooke_options_set_text(cloth, "pinned", "0"));
+  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 500.0));
+  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 300.0));
+  check_ok(hooke_options_set_number(cloth, "bend.stiffness", 20.0));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, cloth, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(cloth);
+  return system;
+}

@@ -21,4 +21,7 @@ void small_springs(hooke_system *system, int64_t count, const int64_t *ends, str
  * frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
 hooke_system *small_oscillator(double omega);
 
+/* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples: chaotic after a second or so. */
+hooke_system *small_crumpling_cloth(int64_t side);
+
 #endif

@@ -87,6 +87,11 @@ module hooke_c_study
       type(c_ptr), value :: study
       character(kind=c_char), intent(in), optional :: what(*)
     end function
+    real(c_double) function c_study_statistic(study, method, quantity, what) bind(c, name="hooke_study_statistic")
+      import
+      type(c_ptr), value :: study
+      character(kind=c_char), intent(in), optional :: method(*), quantity(*), what(*)
+    end function
     integer(c_int32_t) function c_study_pick(system, run, want, progress, ctx) bind(c, name="hooke_study_pick")
       import
       type(c_ptr), value :: system, run, ctx

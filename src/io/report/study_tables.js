@@ -104,6 +104,71 @@ function writeOrders() {
     ["", "95 % interval"], ["", "theory"], ["", "", "", "word"]]), body);
 }
 
+/* ---- watched quantities ---- */
+
+const inUnit = (item) => (item.unit ? `[${item.unit}]` : "");
+
+function errorCell(value, agreement) {
+  const cell = element("td", words(value, 4));
+  if (value === null) return cell;
+  cell.title = String(value);
+  if (value <= 10 * agreement) cell.textContent += " \u25cb";
+  return cell;
+}
+
+function writeWatched() {
+  document.getElementById("watched-section").hidden = study.watched.length === 0;
+  if (study.watched.length === 0) return;
+  const body = element("tbody"), first = element("tr");
+  first.append(element("td", "agreement", { className: "word" }), element("td", ""),
+    ...study.watched.map((item) => element("td", words(item.agreement, 4))));
+  body.append(first);
+  study.rows.forEach((row, k) => {
+    const line = element("tr", undefined, { className: row.status });
+    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
+    line.append(methodCell(row.method), numberCell(row, "setting"),
+      ...row.watched.map((value, q) => errorCell(value, study.watched[q].agreement)));
+    body.append(line);
+  });
+  document.getElementById("watched").append(headOf([["", "method", "", "word"], ["", "step [s]", "or rtol"],
+    ...study.watched.map((item) => ["", item.quantity, inUnit(item)])]), body);
+}
+
+/* ---- statistics ---- */
+
+/* A bias below two standard errors is one that chance makes. */
+function biasWords(name, source) {
+  if (name === "reference") return "";
+  if (source.failed > 0) return "unknown: a run did not come to its end";
+  if (source.bias === null) return "unknown";
+  return Math.abs(source.bias) < 2 ? `none seen (${source.bias.toFixed(1)})` : `${words(source.bias)} standard errors`;
+}
+
+function writeStatistics() {
+  const found = study.statistics;
+  document.getElementById("statistics-section").hidden = !found;
+  if (!found) return;
+  document.getElementById("statistics-words").textContent =
+    `Means over ${words(found.from, 6)} s to ${words(found.until, 6)} s, where positions cannot be computed; of ` +
+    `${found.members} runs of each method, whose starts differ by noise of ${words(found.noise)} m. Spread: the ` +
+    "standard deviation of the runs. Bias: the difference from the mean of the reference, in standard errors of it; " +
+    "below 2 none is seen, and where there is none, one figure in twenty is above, more with few runs.";
+  const body = element("tbody");
+  for (const item of found.quantities) {
+    Object.entries(item.sources).forEach(([name, source], k) => {
+      const line = element("tr");
+      if (k === 0) line.classList.add("first");
+      line.append(element("td", k === 0 ? `${item.quantity} ${inUnit(item)}` : "", { className: "word" }),
+        name === "reference" ? element("td", name, { className: "word" }) : methodCell(name),
+        numberCell(source, "setting"), element("td", whole(source.members)), element("td", words(source.mean, 4)),
+        element("td", words(source.spread, 4)), element("td", biasWords(name, source), { className: "word note" }));
+      body.append(line);
+    });
+  }
+  document.getElementById("statistics").append(headOf([["", "quantity", "", "word"], ["", "method", "", "word"],
+    ["", "step [s]", "or rtol"], ["", "runs"], ["", "mean"], ["", "spread"], ["", "bias", "", "word"]]), body);
+}
+
 /* ---- facts ---- */
 
 function writeReference() {
@@ -132,6 +197,8 @@ writeHead();
 writeRecommendation();
 writeRows();
 writeOrders();
+writeWatched();
+writeStatistics();
 writeReference();
 writeMachine();
 choice("cost", Object.entries(COSTS), "wall_seconds", drawCost);

@@ -226,6 +226,7 @@ PROTOTYPES = {
     "hooke_study_frame_count": (INT64, STUDY),
     "hooke_study_series": (DOUBLES, STUDY, INT64, TEXT),
     "hooke_study_order": (DOUBLE, STUDY, TEXT, TEXT),
+    "hooke_study_statistic": (DOUBLE, STUDY, TEXT, TEXT, TEXT),
     "hooke_study_order_note": (TEXT, STUDY, TEXT),
     "hooke_study_recommend": (OUTCOME, STUDY, DOUBLE),
     "hooke_study_recommendation_text": (TEXT, STUDY, TEXT),

@@ -98,6 +98,21 @@ class Margin(NamedTuple):
     holds_start: bool | None
 
 
+class Statistic(NamedTuple):
+    """What an ensemble of displaced runs by one method, or by that of the reference, has of one quantity: at
+    which step [s] or rtol it ran, how many runs have the quantity (`members`) and how many did not come to
+    their end (`failed`), the mean of the runs, their standard deviation (`spread`), and `bias`: the difference
+    from the reference's mean in standard errors of it (below 2 in size none is seen; NaN for the reference)."""
+
+    step: float
+    rtol: float
+    members: float
+    failed: float
+    mean: float
+    spread: float
+    bias: float
+
+
 class Recommendation(NamedTuple):
     """The cheapest run that was seen to meet `want` [m]; if `met` is False, the one that came closest, and
     `note` says what is in the way. Numbers that do not apply are NaN."""
@@ -137,6 +152,11 @@ class Study(Closing):
 
     `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that
     rows are missing for lack of time. `orders` has an `Order` for each fixed-step method.
+
+    `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` to
+    how much the reference is known in it. `statistics`, empty unless an ensemble was asked for and the
+    reference is not trusted to the end, has for each quantity ("kinetic", "potential", "energy" and what is
+    watched) a `Statistic` for "reference" and for each method.
     """
 
     outcome: str
@@ -145,6 +165,9 @@ class Study(Closing):
     reference: Reference
     rows: Table
     orders: dict[str, Order]
+    watched: dict[str, FloatArray]
+    agreement: dict[str, float]
+    statistics: dict[str, dict[str, Statistic]]
 
     method: StrArray
     status: StrArray
@@ -194,6 +217,13 @@ class Study(Closing):
         self.duration = figure["duration"]
         self.budget_spent = bool(figure["budget_spent"])
         self.orders = _read_orders(handle, self.methods)
+        names = _read_quantities(handle, "watched", "watched")
+        self.watched = {name: _read_errors(handle, count, name) for name in names}
+        self.agreement = {name: lib.hooke_study_figure(handle, f"agreement:{name}".encode()) for name in names}
+        self.statistics = {
+            name: _read_statistics(handle, self.methods, name)
+            for name in _read_quantities(handle, "quantities", "quantity")
+        }
 
     @property
     def methods(self) -> list[str]:
@@ -304,6 +334,9 @@ def study(
     points: int | None = None,
     steps: Any = None,
     tolerances: Any = None,
+    watch: str | Iterable[str] | None = None,
+    ensemble: int | None = None,
+    seed: int | None = None,
     output: Path | None = None,
     force: Force | None = None,
     progress: WorkProgress | bool | None = None,
@@ -314,7 +347,10 @@ def study(
     `Study`.
 
     `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want`
-    [m] asks for a recommendation, `budget` [s] limits the time. `output` is a file to write (see
+    [m] asks for a recommendation, `budget` [s] limits the time. `watch` names quantities whose errors are
+    told, too: "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy",
+    "kinetic", "potential", "period:57.y". `ensemble` is the number of displaced starts, by noise from `seed`,
+    of which means and spreads are told where the motion is too chaotic to be judged. `output` is a file to write (see
     `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress
     (``progress=True`` shows a bar, with tqdm) and stops
     the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
@@ -323,8 +359,18 @@ def study(
     scene, system, run = prepare("study", problem, force, options)
     if methods is not None and not isinstance(methods, str):
         methods = ",".join(methods)
+    if watch is not None and not isinstance(watch, str):
+        watch = ",".join(watch)
     chosen = Options.for_study().set(
-        methods=methods, want=want, budget=budget, points=points, steps=steps, tolerances=tolerances
+        methods=methods,
+        want=want,
+        budget=budget,
+        points=points,
+        steps=steps,
+        tolerances=tolerances,
+        watch=watch,
+        ensemble=ensemble,
+        seed=seed,
     )
     pointer = STUDY()
     lib.hooke_study_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
@@ -346,3 +392,23 @@ def _read_orders(handle: Handle, methods: list[str]) -> dict[str, Order]:
         numbers = {what: lib.hooke_study_order(handle, name, what.encode()) for what in Order._fields[:-1]}
         orders[method] = Order(note=text(lib.hooke_study_order_note(handle, name)), **numbers)
     return orders
+
+
+def _read_quantities(handle: Handle, count: str, what: str) -> list[str]:
+    number = int(lib.hooke_study_figure(handle, count.encode()))
+    return [text(lib.hooke_study_reference(handle, f"{what}:{k}".encode())) for k in range(number)]
+
+
+def _read_errors(handle: Handle, count: int, quantity: str) -> FloatArray:
+    word = f"watched:{quantity}".encode()
+    return np.array([lib.hooke_study_number(handle, row, word) for row in range(count)], dtype=float)
+
+
+def _read_statistics(handle: Handle, methods: list[str], quantity: str) -> dict[str, Statistic]:
+    found = {}
+    for method in ["reference", *methods]:
+        names = (method.encode(), quantity.encode())
+        numbers = [lib.hooke_study_statistic(handle, *names, what.encode()) for what in Statistic._fields]
+        if not np.isnan(numbers[2]):  # members
+            found[method] = Statistic(*numbers)
+    return found

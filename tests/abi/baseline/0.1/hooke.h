@@ -317,6 +317,8 @@ HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const cha
 HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
 HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
 HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
+HOOKE_API double hooke_study_statistic(const hooke_study *study, const char *method, const char *quantity,
+                                       const char *what);
 HOOKE_API int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
                                    hooke_progress *progress, void *ctx);
 #ifdef __cplusplus

@@ -1,0 +1,218 @@
+/* What a study says of watched quantities is true, and where motion is chaotic its ensembles agree with ones ten times as
+ * large, and see a bias that is there. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+struct study {
+  double duration, every, members, seed;
+  const char *methods, *watch;
+  double step, rtol; /* 0: ladders */
+};
+
+static hooke_study *start(const hooke_system *system, struct study s) {
+  hooke_study *study = NULL;
+  hooke_options *run = run_options((struct run){.duration = s.duration, .every = s.every}), *options;
+  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", s.methods));
+  if (s.watch) check_ok(hooke_options_set_text(options, "watch", s.watch));
+  if (s.step > 0.0) check_ok(hooke_options_set_number(options, "steps", s.step));
+  if (s.rtol > 0.0) check_ok(hooke_options_set_number(options, "tolerances", s.rtol));
+  check_ok(hooke_options_set_number(options, "ensemble", s.members));
+  if (s.seed > 0.0) check_ok(hooke_options_set_number(options, "seed", s.seed));
+  const int32_t status = hooke_study_create(system, run, options, &study);
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_system_destroy((hooke_system *)(uintptr_t)system);
+    skip();
+  }
+  check_status(status, HOOKE_OK);
+  check_ok(hooke_study_run(study));
+  return study;
+}
+
+/* ---- watched quantities ---- */
+
+/* Of the oscillator x(t) = cos(w t), by the error that verlet is known to make: its period is off by (w h)^2/24 of it. */
+static void errors_of_what_is_watched_are_true(void **unused) {
+  (void)unused;
+  const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
+  hooke_system *system = small_oscillator(omega);
+  hooke_study *study = start(system, (struct study){.duration = 10.0,
+                                                    .every = 0.02,
+                                                    .methods = "verlet",
+                                                    .step = h,
+                                                    .watch = "1.x,period:1.x,kinetic,energy"});
+  assert_string_equal(hooke_study_reference(study, "watched:1"), "period:1.x");
+  assert_null(hooke_study_reference(study, "watched:4"));
+  assert_string_equal(hooke_study_reference(study, "unit:period:1.x"), "s");
+  check_between(hooke_study_figure(study, "watched"), 4.0, 4.0);
+  const double off = period * pow(omega * h, 2.0) / 24.0;
+  check_between(hooke_study_number(study, 0, "watched:period:1.x"), 0.98 * off, 1.02 * off);
+  /* the phase is off by w t (w h)^2/24 */
+  const double phase = omega * 10.0 * pow(omega * h, 2.0) / 24.0;
+  check_between(hooke_study_number(study, 0, "watched:1.x"), 0.9 * phase, 1.1 * phase);
+  check_close(hooke_study_number(study, 0, "watched:energy"), hooke_study_number(study, 0, "energy_drift"),
+              1e-12);
+  check_between(hooke_study_figure(study, "agreement:1.x"), 1e-15, 1e-7);
+  assert_true(isnan(hooke_study_number(study, 0, "watched:1.y")));
+  assert_null(hooke_study_series(study, 1, "watched:1.x"));
+  /* the series that the error is of, and the motion itself */
+  const double *time = hooke_study_series(study, 0, "time"),
+               *exact = hooke_study_series(study, -1, "watched:1.x"),
+               *found = hooke_study_series(study, 0, "watched:1.x");
+  double largest = 0.0;
+  for (int64_t f = 0; f < hooke_study_frame_count(study); f++) {
+    check_close(exact[f], cos(omega * time[f]), 1e-7);
+    largest = fmax(largest, fabs(found[f] - exact[f]));
+  }
+  check_close(hooke_study_number(study, 0, "watched:1.x"), largest, 0.0);
+  /* all of it is trusted, so no statistics are needed */
+  check_between(hooke_study_figure(study, "members"), 0.0, 0.0);
+  assert_true(isnan(hooke_study_statistic(study, "verlet", "kinetic", "mean")));
+  hooke_study_destroy(study);
+  hooke_system_destroy(system);
+}
+
+/* ---- ensembles ---- */
+
+static hooke_system *double_pendulum(void) {
+  static const double q[] = {0, 0, 0, 1, 0.2, 0, 2, 0.5, 0.3}, down[] = {0, -9.81, 0};
+  static const int64_t ends[] = {0, 1, 1, 2};
+  hooke_system *system = small_system(3, q, NULL, 1.0, 1);
+  check_ok(hooke_system_set_gravity(system, down));
+  small_springs(system, 2, ends, (struct springs){.stiffness = 200.0, .rest_length = -1.0});
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* How many means of a quantity are within 3 standard errors of that of the large ensemble; adds how many there are. */
+static int agrees(const hooke_study *small, const hooke_study *large, const char *method,
+                  const char *quantity) {
+  const hooke_study *const from[] = {small, large};
+  const char *const by[] = {method, "reference"};
+  double mean[2], variance = 0.0;
+  for (int k = 0; k < 2; k++) {
+    const double spread = hooke_study_statistic(from[k], by[k], quantity, "spread");
+    const double members = hooke_study_statistic(from[k], by[k], quantity, "members");
+    mean[k] = hooke_study_statistic(from[k], by[k], quantity, "mean");
+    variance += spread * spread / members;
+    check_between(members, 2.0, hooke_study_figure(from[k], "members"));
+    assert_true(spread > 0.0);
+  }
+  if (fabs(mean[0] - mean[1]) <= 3.0 * sqrt(variance)) return 1;
+  print_message("%s of %s: %g, in the large ensemble %g, %.1f standard errors apart\n", quantity, method,
+                mean[0], mean[1], fabs(mean[0] - mean[1]) / sqrt(variance));
+  return 0;
+}
+
+static void check_agreement(const hooke_study *small, const hooke_study *large, const char *method) {
+  const int64_t count = (int64_t)hooke_study_figure(small, "quantities");
+  int64_t agreeing = 0;
+  for (int64_t k = 0; k < 2 * count; k++) {
+    char word[32];
+    snprintf(word, sizeof word, "quantity:%d", (int)(k / 2));
+    agreeing += agrees(small, large, k % 2 ? method : "reference", hooke_study_reference(small, word));
+  }
+  assert_true((double)agreeing >= 0.95 * 2.0 * (double)count - 1e-9);
+}
+
+/* `planted` loses energy at its step, of which `method` loses nothing that is seen. */
+static void test_ensembles(hooke_system *system, struct study s, const char *method, const char *planted) {
+  hooke_study *small = start(system, s);
+  s.members *= 10.0;
+  s.seed = 2.0;
+  s.methods = "symplectic-euler"; /* of which nothing is asked here, and which takes the least time */
+  hooke_study *large = start(system, s);
+  check_between(hooke_study_figure(small, "trusted_until"), 0.05 * s.duration, 0.95 * s.duration);
+  check_between(hooke_study_figure(small, "statistics_from"), hooke_study_figure(small, "trusted_until"),
+                hooke_study_figure(small, "trusted_until") + 1.001 * s.every);
+  check_close(hooke_study_figure(small, "statistics_until"), s.duration, 1e-9);
+  check_agreement(small, large, method);
+  check_between(hooke_study_statistic(small, planted, "energy", "bias"), -INFINITY, -5.0);
+  check_between(hooke_study_statistic(small, planted, "kinetic", "bias"), -INFINITY, -5.0);
+  hooke_study_destroy(large);
+  hooke_study_destroy(small);
+  hooke_system_destroy(system);
+}
+
+static void a_pendulum_has_statistics(void **unused) {
+  (void)unused;
+  test_ensembles(double_pendulum(),
+                 (struct study){.duration = 30.0,
+                                .every = 0.1,
+                                .members = 10.0,
+                                .methods = "cvode-adams,backward-euler",
+                                .step = 0.01,
+                                .rtol = 1e-9,
+                                .watch = "1.y,2.y,2.z,potential"},
+                 "cvode-adams", "backward-euler");
+}
+
+static void a_crumpling_cloth_has_statistics(void **unused) {
+  (void)unused;
+  test_ensembles(small_crumpling_cloth(4),
+                 (struct study){.duration = 5.0,
+                                .every = 0.1,
+                                .members = 10.0,
+                                .methods = "cvode-adams,backward-euler",
+                                .step = 0.01,
+                                .rtol = 1e-9,
+                                .watch = "cloth0:15.y,cloth0.structural:0.tension,cloth0.bend:3.length"},
+                 "cvode-adams", "backward-euler");
+}
+
+static void the_seed_decides(void **unused) {
+  (void)unused;
+  hooke_system *system = double_pendulum();
+  double mean[3];
+  for (int k = 0; k < 3; k++) {
+    hooke_study *study =
+        start(system, (struct study){.duration = 30.0,
+                                     .every = 0.1,
+                                     .members = 2.0,
+                                     .seed = k == 2 ? 2.0 : 1.0,
+                                     .methods = k == 1 ? "symplectic-euler,verlet" : "verlet",
+                                     .step = 0.01});
+    mean[k] = hooke_study_statistic(study, "verlet", "kinetic", "mean");
+    hooke_study_destroy(study);
+  }
+  check_same_bits(1, &mean[0], &mean[1]);
+  assert_true(mean[0] != mean[2]);
+  hooke_system_destroy(system);
+}
+
+static void one_start_is_refused(void **unused) {
+  (void)unused;
+  hooke_system *system = double_pendulum();
+  hooke_options *run = run_options((struct run){.duration = 1.0}), *options;
+  hooke_study *study = NULL;
+  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_set_number(options, "ensemble", 1.0));
+  int32_t status = hooke_study_create(system, run, options, &study);
+  if (status != HOOKE_NOT_BUILT) {
+    check_status(status, HOOKE_BAD_VALUE);
+    check_message("at least 2");
+    check_ok(hooke_options_set_number(options, "ensemble", 2.0));
+    check_ok(hooke_options_set_text(options, "watch", "3.y"));
+    check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+    check_message("particles 0 to 2");
+  }
+  hooke_options_destroy(run);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(errors_of_what_is_watched_are_true), cmocka_unit_test(a_pendulum_has_statistics),
+      cmocka_unit_test(a_crumpling_cloth_has_statistics), cmocka_unit_test(the_seed_decides),
+      cmocka_unit_test(one_start_is_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
