@@ -30,6 +30,12 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
   return 0;
 }
 
+/* What the estimate of the error has besides: three states, and another run whose ends are kept. */
+static int64_t count_estimate(const struct hooke_setup *setup, int64_t of_method) {
+  const int64_t positions = hooke_state_size(setup->state) * (int64_t)sizeof(double);
+  return 8 * positions + of_method;
+}
+
 /* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
 static int32_t count_method(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
                             int64_t *bytes) {
@@ -54,7 +60,8 @@ int hooke_peak_of_run(const struct hooke_arguments *arguments, const struct hook
   int64_t of_method = 0;
   const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
   if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  const int64_t running = (loaded.now > 0 ? loaded.now : model) + of_method;
+  const int64_t running =
+      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup, of_method) : 0);
   *bytes = running > loaded.most ? running : loaded.most;
   *counted = model + of_method;
   return HOOKE_EXIT_DONE;

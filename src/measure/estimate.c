@@ -137,7 +137,8 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
     status = hooke_soundness_begin(&e->soundness, e->system, it->method->name,
-                                   it->method->adaptive ? NAN : it->schedule.step, state, MOST_SEEN + 2);
+                                   it->method->adaptive || isnan(e->want) ? NAN : it->schedule.step, state,
+                                   MOST_SEEN + 2);
   return status;
 }
 

@@ -45,7 +45,7 @@ FENCES = [
     (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
     (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
     (r"execinfo\.h", r"tests/fault/(process_faults|places)\.c"),  # of glibc
-    (r"malloc\.h", r"tests/physics/test_scale\.c|tests/long/\w+\.c"),  # of glibc
+    (r"malloc\.h", r"cli/setup\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),  # of glibc
     (r"sys/syscall\.h", r"tests/crash/crash\.c"),  # of Linux
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest|fault)/\w+\.[ch]"),
 ]
