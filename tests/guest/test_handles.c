@@ -30,6 +30,7 @@ struct alive {
   hooke_cost *cost;
   hooke_limit *limit;
   hooke_why *why;
+  hooke_estimate *estimate;
   hooke_trajectory *trajectory;
   hooke_record *record;
 };
@@ -44,6 +45,7 @@ static void bring_to_life(void) {
   alive.integrator = start_run(alive.system, run);
   check_status(hooke_integrator_run(alive.integrator, alive.state), HOOKE_DIVERGED);
   check_ok(hooke_cost_create(alive.system, NULL, NULL, &alive.cost));
+  check_ok(hooke_estimate_create(alive.system, NAN, &alive.estimate));
 #if HOOKE_HAVE_LAPACK
   check_ok(hooke_limit_create(alive.system, NULL, NULL, &alive.limit));
   check_ok(hooke_why_create(alive.integrator, INFINITY, NULL, NULL, &alive.why));
@@ -62,6 +64,7 @@ static void end_life(void) {
   hooke_trajectory_close(alive.trajectory, HOOKE_OK);
   remove(path);
   hooke_why_destroy(alive.why);
+  hooke_estimate_destroy(alive.estimate);
   hooke_limit_destroy(alive.limit);
   hooke_cost_destroy(alive.cost);
   hooke_integrator_destroy(alive.integrator);
@@ -75,10 +78,15 @@ static void *good(const char *type) {
   const struct {
     const char *type;
     void *object;
-  } objects[] = {{"hooke_system", alive.system}, {"hooke_options", alive.options},
-                 {"hooke_state", alive.state},   {"hooke_integrator", alive.integrator},
-                 {"hooke_cost", alive.cost},     {"hooke_limit", alive.limit},
-                 {"hooke_why", alive.why},       {"hooke_trajectory", alive.trajectory},
+  } objects[] = {{"hooke_system", alive.system},
+                 {"hooke_options", alive.options},
+                 {"hooke_state", alive.state},
+                 {"hooke_integrator", alive.integrator},
+                 {"hooke_cost", alive.cost},
+                 {"hooke_limit", alive.limit},
+                 {"hooke_why", alive.why},
+                 {"hooke_estimate", alive.estimate},
+                 {"hooke_trajectory", alive.trajectory},
                  {"hooke_record", alive.record}};
   for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
     if (strcmp(type, objects[k].type) == 0) return objects[k].object;
