@@ -62,17 +62,11 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
 }
 
-/* Of springs, bending and altitude springs, which is never below 0. */
-static double elastic_energy(const hooke_system *system, const double *q) {
-  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q) +
-         hooke_system_altitude_energy(system, q);
-}
-
 int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   if (has_energy_bound(it)) {
     const double kinetic = hooke_system_kinetic_energy(it->system, state->v);
-    const double elastic = elastic_energy(it->system, state->q);
+    const double elastic = hooke_elastic_energy(it->system, state->q);
     it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
     it->gravity_swing = 0.0;
     it->scale0 = kinetic + elastic + least_energy(it, state);
@@ -86,7 +80,7 @@ int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
   const double gravity = hooke_system_gravity_energy(it->system, state->q), risen = gravity - it->gravity0;
   const double rest =
-      hooke_system_kinetic_energy(it->system, state->v) + elastic_energy(it->system, state->q);
+      hooke_system_kinetic_energy(it->system, state->v) + hooke_elastic_energy(it->system, state->q);
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits to spare for the others */

@@ -63,16 +63,6 @@ void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, voi
 
 /* ---- picking ---- */
 
-static int32_t set_value(hooke_options *run, const char *method, double value) {
-  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
-  int32_t status = hooke_options_set_text(run, "method", method);
-  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
-    return hooke_options_set_number(run, "step", value);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * share);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
-}
-
 /* Picks for the error `want` of the whole run, and sets what was picked in `run`. */
 static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
   const char *only = e->only[0] ? e->only : NULL;
@@ -83,7 +73,7 @@ static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
   if (status == HOOKE_OK && e->pick.best.method == NULL)
     status =
         hooke_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", only ? only : "no method");
-  if (status == HOOKE_OK) status = set_value(run, e->pick.best.method, e->pick.best.value);
+  if (status == HOOKE_OK) status = hooke_trial_set_value(run, e->pick.best.method, e->pick.best.value);
   if (status != HOOKE_OK) hooke_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
   return status;
@@ -106,14 +96,14 @@ int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options
 /* ---- watching the run ---- */
 
 /* Frames that are kept with a want, to hold a finer run against: whole parts of the run, as far as memory is at hand. */
-static void choose_kept(hooke_estimate *e, double every, int64_t *count) {
-  const double frames = e->duration / every;
+static void choose_kept(hooke_estimate *e, int64_t *count) {
+  const double frames = e->duration / e->every;
   const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);
   double apart = fmax(1.0, ceil(round(frames) / MOST_KEPT));
   while (fmod(round(frames), apart) != 0.0)
     apart++;
   *count = 1 + (int64_t)(round(frames) / apart);
-  e->apart = apart * every;
+  e->apart = apart * e->every;
   if (!isnan(e->want) && hooke_step_is_whole(frames) && *count * bytes <= KEPT_BYTES) return;
   *count = 2;
   e->apart = e->duration;
@@ -129,10 +119,11 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   const int64_t frames = hooke_integrator_frame_count(it);
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
+  e->every = it->schedule.every;
   e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
-  choose_kept(e, it->schedule.every, &count);
+  choose_kept(e, &count);
   status = hooke_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
@@ -156,8 +147,7 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   (void)step;
   if (e->options == NULL) return 0;
   keep(e, state);
-  const double every = hooke_options_number(e->options, "every");
-  const double frame = (hooke_state_time(state) - e->begin) / every;
+  const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
     hooke_soundness_see(&e->soundness, state);
     e->frames_seen += e->frames_apart;
@@ -253,7 +243,7 @@ static double finer(const hooke_estimate *e) {
 static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
   const char *method = hooke_options_text(e->options, "method");
   double value = finer(e), duration, every, unit;
-  if (hooke_method_is_adaptive(method)) return set_value(run, method, value);
+  if (hooke_method_is_adaptive(method)) return hooke_trial_set_value(run, method, value);
   int32_t status = hooke_step_times(e->options, &duration, &every);
   if (status == HOOKE_OK) status = hooke_step_unit(duration, every, &unit);
   if (status != HOOKE_OK) return status;
@@ -261,7 +251,7 @@ static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
   const double seconds = e->seconds * hooke_estimate_value(e->options) / value;
   if (seconds > fmax(SHORT, MOST_RUNS * e->first))
     return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take %.3g s", value, seconds);
-  return set_value(run, method, value);
+  return hooke_trial_set_value(run, method, value);
 }
 
 /* A pick from the beginning of a run was too coarse for all of it: another one, for as much less. */

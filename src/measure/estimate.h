@@ -20,7 +20,7 @@ struct hooke_estimate {
 
   /* the run */
   hooke_options *options; /* the integrator's */
-  double begin, duration, seconds;
+  double begin, duration, every, seconds;
   struct hooke_frames kept; /* of the run: the start, and frames that are `apart` [s], up to the end */
   double apart;
   struct hooke_soundness soundness;

@@ -112,16 +112,8 @@ static int32_t find_reference(struct hooke_pick *pick, double budget) {
 
 int32_t hooke_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out) {
   hooke_options *options = NULL;
-  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
   int32_t status = hooke_options_copy(run, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
-  if (status == HOOKE_OK && hooke_method_is_adaptive(method)) {
-    status = hooke_options_set_number(options, "rtol", value);
-    if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", value * share);
-    if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
-  } else if (status == HOOKE_OK) {
-    status = hooke_options_set_number(options, "step", value);
-  }
+  if (status == HOOKE_OK) status = hooke_trial_set_value(options, method, value);
   if (status == HOOKE_OK)
     *out = options;
   else

@@ -15,11 +15,6 @@ static int is_driven(const hooke_system *system) {
   return system->force != NULL || system->drive_count > 0;
 }
 
-static double elastic_energy(const hooke_system *system, const double *q) {
-  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q) +
-         hooke_system_altitude_energy(system, q);
-}
-
 int32_t hooke_soundness_begin(struct hooke_soundness *s, const hooke_system *system, const char *method,
                               double step, const hooke_state *state, int64_t capacity) {
   const double *q = hooke_state_position(state);
@@ -29,7 +24,8 @@ int32_t hooke_soundness_begin(struct hooke_soundness *s, const hooke_system *sys
   if (s->time == NULL) return HOOKE_NO_MEMORY;
   s->energy = s->time + capacity;
   s->gravity0 = hooke_system_gravity_energy(system, q);
-  s->scale = hooke_system_kinetic_energy(system, hooke_state_velocity(state)) + elastic_energy(system, q);
+  s->scale =
+      hooke_system_kinetic_energy(system, hooke_state_velocity(state)) + hooke_elastic_energy(system, q);
   return hooke_step_is_bounded(method) && step > 0.0 ? hooke_node_blocks_create(system, q, &s->blocks)
                                                      : HOOKE_OK;
 }
@@ -41,7 +37,7 @@ void hooke_soundness_see(struct hooke_soundness *s, const hooke_state *state) {
   s->swing = fmax(s->swing, fabs(gravity - s->gravity0));
   s->time[s->count] = hooke_state_time(state);
   s->energy[s->count++] = hooke_system_kinetic_energy(s->system, hooke_state_velocity(state)) +
-                          elastic_energy(s->system, q) + (gravity - s->gravity0);
+                          hooke_elastic_energy(s->system, q) + (gravity - s->gravity0);
   if (s->blocks.system == NULL) return;
   int64_t particle;
   hooke_node_blocks_fill(&s->blocks, q);

@@ -14,18 +14,10 @@ enum { MOST_REPEATS = 9 };
 
 int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
   hooke_options *options = NULL;
-  const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
   int32_t status = hooke_options_copy(study->run, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", study->method[method]);
+  if (status == HOOKE_OK) status = hooke_trial_set_value(options, study->method[method], value);
   /* rows side by side, each on a thread of its own */
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
-  if (status == HOOKE_OK && hooke_study_is_adaptive(study, method)) {
-    status = hooke_options_set_number(options, "rtol", value);
-    if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", value * share);
-    if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
-  } else if (status == HOOKE_OK) {
-    status = hooke_options_set_number(options, "step", value);
-  }
   if (status == HOOKE_OK)
     *out = options;
   else

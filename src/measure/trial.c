@@ -174,3 +174,13 @@ int32_t hooke_frames_run(struct hooke_frames *frames, const hooke_options *optio
   hooke_integrator_destroy(integrator);
   return status;
 }
+
+int32_t hooke_trial_set_value(hooke_options *run, const char *method, double value) {
+  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  int32_t status = hooke_options_set_text(run, "method", method);
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
+    return hooke_options_set_number(run, "step", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * share);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}

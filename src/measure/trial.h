@@ -42,4 +42,7 @@ int32_t hooke_frames_run(struct hooke_frames *frames, const hooke_options *optio
                          const struct hooke_listener *listener, double *wall_seconds,
                          double *force_evaluations);
 
+/* Sets a method and its step or rtol in options of a run; atol keeps its share of rtol, and atol_velocity follows it. */
+int32_t hooke_trial_set_value(hooke_options *run, const char *method, double value);
+
 #endif

@@ -83,3 +83,8 @@ void hooke_system_angular_momentum(const hooke_system *system, const double *q, 
   for (int a = 0; a < 3; a++)
     angular_momentum[a] = hooke_sum_value(&sum[a]);
 }
+
+double hooke_elastic_energy(const hooke_system *system, const double *q) {
+  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q) +
+         hooke_system_altitude_energy(system, q);
+}

@@ -119,4 +119,7 @@ struct hooke_system_mark {
 struct hooke_system_mark hooke_system_mark(const hooke_system *system);
 void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark);
 
+/* Energy of springs, bending and altitude springs [J], which is never below 0. */
+double hooke_elastic_energy(const hooke_system *system, const double *q);
+
 #endif
