@@ -80,8 +80,9 @@ static int32_t prepare(struct hooke_run *run) {
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
-  if (status == HOOKE_OK && !run->arguments->quiet)
-    status = hooke_integrator_on_warning(run->integrator, see_warning, run);
+  /* a pick has looked at the limits themselves */
+  const int warns = !run->arguments->quiet && !hooke_arguments_text(run->arguments, "want");
+  if (status == HOOKE_OK && warns) status = hooke_integrator_on_warning(run->integrator, see_warning, run);
   if (status != HOOKE_OK || !run->output) return status;
   status = run->resumed ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator,
                                                   run->setup.state, &run->trajectory)

@@ -152,7 +152,8 @@ void hooke_want_print(const struct hooke_run *run) {
   else if (is_wanted(run))
     printf("%.3g m at most until t = %.6g s, %s", number_of(run, "estimate"), until, source_of(run, by));
   else
-    printf("about %.2g m at the end, %s", number_of(run, "estimate"), source_of(run, by));
+    printf("%sabout %.2g m at the end, %s", strcmp(by, "tolerance") == 0 ? "at most " : "",
+           number_of(run, "estimate"), source_of(run, by));
   print_verdict(run);
   printf("\n");
   hooke_print_flush();

@@ -109,6 +109,15 @@ static void choose_kept(hooke_estimate *e, int64_t *count) {
   e->apart = e->duration;
 }
 
+static int is_whole_reference(const hooke_estimate *e) {
+  return e->pick.system != NULL && e->pick.share == 1.0;
+}
+
+/* No limit to look at: it has none, nothing is asked of it, or the pick looked at the same frames. */
+static int is_checked(const hooke_estimate *e, const hooke_integrator *it) {
+  return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
+}
+
 int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
   if (it->system != e->system)
     return hooke_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
@@ -128,8 +137,7 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
     status = hooke_soundness_begin(&e->soundness, e->system, it->method->name,
-                                   it->method->adaptive || isnan(e->want) ? NAN : it->schedule.step, state,
-                                   MOST_SEEN + 2);
+                                   is_checked(e, it) ? NAN : it->schedule.step, SHORT, state, MOST_SEEN + 2);
   return status;
 }
 
@@ -157,10 +165,6 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* ---- measuring ---- */
 
-static int is_whole_reference(const hooke_estimate *e) {
-  return e->pick.system != NULL && e->pick.share == 1.0;
-}
-
 /* The run is the pick's, which was held against the reference at its frames; its end is measured itself. */
 static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
   const struct hooke_reference *r = &e->pick.reference;
@@ -179,7 +183,7 @@ static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
 }
 
 static int is_sound(const hooke_estimate *e) {
-  return isinf(e->soundness.least_bound) && !(e->rise > hooke_soundness_most_rise);
+  return isinf(e->soundness.least_limit) && !(e->rise > hooke_soundness_most_rise);
 }
 
 static int32_t measure_alone(hooke_estimate *e) {
@@ -217,7 +221,7 @@ int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, co
     hooke_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
   if (status == HOOKE_OK && !isnan(e->want) && !is_sound(e))
     hooke_print(e->note, sizeof e->note,
-                isinf(e->soundness.least_bound) ? "its energy grows by itself"
+                isinf(e->soundness.least_limit) ? "its energy grows by itself"
                                                 : "its step is above 0.9 of the stable one");
   return status;
 }
@@ -237,7 +241,7 @@ static double finer(const hooke_estimate *e) {
   const double value = hooke_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
   double factor = pow(AIM * e->want / e->error, 1.0 / order);
   factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
-  return fmin(value * factor, hooke_soundness_limit_share * e->soundness.least_bound);
+  return fmin(value * factor, hooke_soundness_limit_share * e->soundness.least_limit);
 }
 
 static int32_t set_finer(hooke_estimate *e, hooke_options *run) {

@@ -1,4 +1,4 @@
-/* Estimates of a run's error from other runs of its method: Richardson's, with the order as it is seen or as it is known. */
+/* Estimates of a run's error from other runs of its method: Richardson's, where the order that is seen is that of the method. */
 #include "measure/estimate.h"
 
 #include "integrate/method.h"
@@ -9,8 +9,8 @@
 
 enum { LEAST_STEPS = 16 };
 static const double COARSER_TOLERANCE = 10.0, FINER_TOLERANCE = 0.01, LOOSEST = 0.1, TIGHTEST = 1e-14;
-/* Orders that are believed: of a step, at least and above the method's at most; of a tolerance. */
-static const double LEAST_ORDER = 0.6, ABOVE_ORDER = 1.2, LEAST_POWER = 0.5, MOST_POWER = 1.3;
+/* Orders that are believed: of a step, this over the method's own apart from that; of a tolerance. */
+static const double ORDERS_APART = 0.4, LEAST_POWER = 0.5, MOST_POWER = 1.3;
 static const double CAUTIOUS_POWER = 0.7; /* errors do not follow tolerances evenly */
 static const double ROUNDING = 1e-13;     /* of the largest coordinate: below it differences say nothing */
 
@@ -91,10 +91,10 @@ static double coarser(const struct hooke_estimate *e, int32_t adaptive, double v
 static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double near, double far) {
   const double factor = adaptive ? COARSER_TOLERANCE : 2.0, order = (double)method_of(e)->order;
   const double seen = log(far / near) / log(factor);
-  const double least = adaptive ? LEAST_POWER : LEAST_ORDER;
-  const double most = adaptive ? MOST_POWER : order + ABOVE_ORDER;
-  if (!(seen >= least && seen <= most)) return NAN;
-  e->order = fmin(seen, adaptive ? CAUTIOUS_POWER : order);
+  const int believed =
+      adaptive ? seen >= LEAST_POWER && seen <= MOST_POWER : fabs(seen - order) <= ORDERS_APART / order;
+  if (!believed) return NAN;
+  e->order = adaptive ? fmin(seen, CAUTIOUS_POWER) : order;
   return near / (pow(factor, e->order) - 1.0);
 }
 

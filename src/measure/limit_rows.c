@@ -62,8 +62,8 @@ static int32_t find_rows(hooke_limit *limit, struct hooke_linearised *linearised
   double *mode = hooke_new(linearised->size, sizeof(double));
   if (mode == NULL) return HOOKE_NO_MEMORY;
   const double accuracy = hooke_options_number(limit->options, "accuracy");
-  int32_t status =
-      hooke_spectrum_create(linearised, accuracy, 0, limit->has_stiffest ? limit->stiffest : NULL, &spectrum);
+  int32_t status = hooke_spectrum_create(linearised, accuracy, HOOKE_SPECTRUM_ALL,
+                                         limit->has_stiffest ? limit->stiffest : NULL, &spectrum);
   if (status == HOOKE_OK) {
     status = keep_modes(limit, &spectrum);
     for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++)

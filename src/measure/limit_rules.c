@@ -110,10 +110,11 @@ static double step_of_roots(double k, double c, double (*step)(double real, doub
   return h;
 }
 
+static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 all is stable */
+
 static double rk4_step(double real, double imaginary, double best) {
   const double size = hypot(real, imaginary);
-  /* within the half disc that is all stable */
-  if (best * size <= 2.6) return INFINITY;
+  if (best * size <= HALF_DISC) return INFINITY;
   return hooke_rk4_reach(real, imaginary) / size;
 }
 
@@ -121,8 +122,10 @@ static double rk4_mode(double k, double c) {
   return step_of_roots(k, c, rk4_step);
 }
 
+/* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
 static int32_t rk4(struct hooke_spectrum *s, struct hooke_prediction *out) {
   smallest(s, rk4_step, out);
+  if (!out->exact) out->sure = HALF_DISC / fmax(sqrt(s->stiffest), s->fastest_decay);
   return HOOKE_OK;
 }
 
@@ -218,6 +221,7 @@ int32_t hooke_limit_rule(struct hooke_spectrum *s, const char *method, struct ho
   if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   out->limit = adaptive ? INFINITY : NAN;
   out->exact = 1;
+  out->sure = NAN;
   out->never_stable = out->has_mode = 0;
   out->note = adaptive ? "chooses its steps; error control limits them" : "no rule is known for this method";
   const struct rule *rule = rule_of(method);
@@ -226,6 +230,7 @@ int32_t hooke_limit_rule(struct hooke_spectrum *s, const char *method, struct ho
   const int32_t status = rule->find(s, out);
   if (status != HOOKE_OK) return status;
   out->limit /= s->linearised->rate;
+  out->sure = out->exact ? out->limit : out->sure / s->linearised->rate;
   if (out->limit == INFINITY && rule->find != unlimited) {
     out->has_mode = 0;
     out->note = "nothing limits the step: there is no stiffness, and no damping that is explicit";

@@ -7,6 +7,8 @@
 struct hooke_prediction {
   double
       limit; /* [s]: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known */
+  double
+      sure; /* [s]: stable for certain up to here, by the extreme eigenvalues; not above `limit`, NaN where they do not tell */
   int32_t exact, never_stable;
   const char *note;
   int32_t has_mode; /* `mode` was written */

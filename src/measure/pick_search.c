@@ -1,4 +1,5 @@
-/* The cheapest row of one method within the wanted error, by as few runs as its order allows. */
+/* The cheapest row of each method within the wanted error, by as few runs as its order allows. */
+#include "measure/limit_predict.h"
 #include "measure/pick.h"
 #include "measure/soundness.h"
 #include "measure/step_bound.h"
@@ -16,11 +17,13 @@ static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double AIM = 0.7, GOOD = 0.5; /* of the error that is allowed: aimed at; good enough */
 static const double CLOSE = 1.2;           /* a bracket this narrow is not searched further */
 static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* from one value to the next */
-static const double COST_POWER = 1.0 / 6.0;                       /* of a run, in its tolerance */
+static const double LOOSER = 10.0;                                /* than a tolerance that took too long */
+static const double COST_POWER = 1.0 / 2.0;                       /* of a run, in its tolerance, at most */
 static const double PATIENCE = 1.3; /* of the best row's time, for a run that might be cheaper */
 static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its time */
 static const double MOMENT = 0.05;  /* [s] that any run may take: a short one may meet a busy machine */
 static const double MOST_STEPS = 1e8;
+static const double SHARE_OF_LIMITS = 0.5;    /* of the time that is left, for those of one row at most */
 static const double SHARE_OF_REFERENCE = 0.2; /* that a run takes of its time, about */
 
 /* A run, as the search sees it. */
@@ -38,6 +41,8 @@ struct search {
   double most;         /* error that is allowed [m] */
   double bound;        /* of a step at the start [s]; infinity if none limits it */
   double largest;      /* value that may be taken */
+  double first;        /* value to begin with */
+  int32_t raised;      /* that is by the limit at the start, no longer by the bound */
   double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
   double error_meets, error_fails;
   double rate;  /* least seconds for an evaluation of forces or of their derivative, in any run */
@@ -65,16 +70,23 @@ static int32_t on_progress(double share, void *ctx) {
   return s->late;
 }
 
+/* Seconds that the limits of one row may take. */
+static double time_for_limits(const struct hooke_pick *pick) {
+  return SHARE_OF_LIMITS * (pick->deadline - hooke_clock_seconds());
+}
+
 static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct looker *looker = ctx;
-  const struct search *s = looker->search;
+  struct search *s = looker->search;
   const struct hooke_frames *frames = &s->pick->reference.frames;
   (void)step;
   if (frame == 0)
-    looker->status = hooke_soundness_begin(&looker->soundness, frames->system, s->method, looker->step, state,
-                                           frames->count);
+    looker->status = hooke_soundness_begin(&looker->soundness, frames->system, s->method, looker->step,
+                                           time_for_limits(s->pick), state, frames->count);
   if (looker->status != HOOKE_OK) return 1;
+  const double patience = looker->soundness.patience;
   hooke_soundness_see(&looker->soundness, state);
+  s->until += patience - looker->soundness.patience; /* limits are no part of the run */
   return 0;
 }
 
@@ -99,8 +111,9 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   /* a run's own time may have met a busy machine */
   s->rate = fmin(s->rate, result->seconds / work);
   result->seconds = work * s->rate;
+  s->pick->evaluation = fmin(s->pick->evaluation, s->rate);
   if (looker.soundness.time) {
-    result->allowed = hooke_soundness_limit_share * looker.soundness.least_bound;
+    result->allowed = hooke_soundness_limit_share * looker.soundness.least_limit;
     result->gains = hooke_soundness_rise(&looker.soundness) > hooke_soundness_most_rise;
   }
   hooke_soundness_release(&looker.soundness);
@@ -147,7 +160,7 @@ static double aim(const struct search *s) {
   const double from = isnan(s->meets) ? s->fails : s->meets;
   const double error = isnan(s->meets) ? s->error_fails : s->error_meets;
   double slope = s->order;
-  if (isnan(error)) return 0.5 * from;
+  if (isnan(error)) return s->largest < from ? s->largest : 0.5 * from;
   if (!isnan(s->meets) && s->error_fails > s->error_meets && s->error_meets > 0.0)
     slope = log(s->error_fails / s->error_meets) / log(s->fails / s->meets);
   const double factor = pow(AIM * s->most / error, 1.0 / fmax(slope, 0.3));
@@ -156,8 +169,7 @@ static double aim(const struct search *s) {
 
 /* The next value to run; NaN where the search is over. */
 static double next_value(const struct search *s) {
-  if (isnan(s->meets) && isnan(s->fails))
-    return fit(s, s->adaptive ? s->most / s->pick->reference.extent : s->largest);
+  if (isnan(s->meets) && isnan(s->fails)) return fit(s, s->first);
   if (!isnan(s->meets) && (s->error_meets >= GOOD * s->most || s->fails / s->meets <= CLOSE)) return NAN;
   double value = aim(s);
   if (!isnan(s->meets) && !isnan(s->fails)) /* within the bracket, and clear of its ends */
@@ -171,6 +183,19 @@ static double next_value(const struct search *s) {
 static double cost_of(const struct search *s, const struct result *last, double value) {
   if (last->seconds > 0.0) return last->seconds * pow(last->value / value, s->adaptive ? COST_POWER : 1.0);
   return s->adaptive ? 0.0 : s->pick->evaluation * s->pick->share * s->pick->duration / value;
+}
+
+/* Where the bound keeps the step finer than the error asks for, the limit at the start takes its place. */
+static void raise_largest(struct search *s) {
+  const double *q = s->pick->reference.frames.position;
+  const double seconds = time_for_limits(s->pick);
+  double limit = s->bound;
+  if (s->adaptive || s->raised || !(seconds > 0.0) || s->largest < hooke_soundness_limit_share * s->bound)
+    return;
+  s->raised = 1;
+  struct hooke_patience patience = hooke_patience_of(seconds, NULL, NULL);
+  if (hooke_limit_sure(s->pick->system, q, s->method, &patience, &limit) == HOOKE_OK)
+    s->largest = fmin(s->pick->unit, hooke_soundness_limit_share * limit);
 }
 
 /* The bound on the step at the start, and the largest value that may be taken. */
@@ -195,6 +220,7 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
                      .until = INFINITY};
   s.order = s.adaptive ? 1.0 : (double)hooke_method_find(method)->order;
   find_largest(&s);
+  s.first = s.adaptive ? s.most / pick->reference.extent : s.largest;
   return s;
 }
 
@@ -202,6 +228,7 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
 static int32_t try_value(struct search *s, double value) {
   const int32_t status = run_row(s, value, &s->last);
   if (status == HOOKE_OK) learn(s, &s->last);
+  if (s->error_meets < GOOD * s->most && isnan(s->fails)) raise_largest(s);
   s->runs++;
   return status;
 }
@@ -216,6 +243,13 @@ static double promise(const struct search *s, double *value) {
   return s->order * s->order * cost_of(s, &s->last, *value);
 }
 
+/* 1 if a looser tolerance may still be quick enough, where the first one was not. */
+static int32_t loosen(struct search *s, double value) {
+  if (!s->adaptive || !isnan(s->meets) || !isnan(s->fails) || value >= LOOSEST) return 0;
+  s->first = LOOSER * value;
+  return 1;
+}
+
 /* The next run of a method, unless it cannot become the cheapest, or there is no time. */
 static int32_t advance(struct search *s, double value) {
   const struct hooke_pick *pick = s->pick;
@@ -226,8 +260,9 @@ static int32_t advance(struct search *s, double value) {
   s->until = pick->best.method ? fmax(pick->deadline, now + PATIENCE * pick->best.seconds) : INFINITY;
   if (pick->met) s->until = fmin(s->until, now + MOMENT + PATIENCE * pick->best.seconds);
   const int32_t status = try_value(s, value);
-  s->over = status == HOOKE_STOPPED && s->late;
-  return s->over ? HOOKE_OK : status;
+  if (status != HOOKE_STOPPED || !s->late) return status;
+  s->over = !loosen(s, value);
+  return HOOKE_OK;
 }
 
 /* Of all methods the run that promises to be the quickest comes next. */

@@ -1,6 +1,8 @@
 #include "measure/soundness.h"
 
+#include "core/clock.h"
 #include "core/memory.h"
+#include "measure/limit_predict.h"
 #include "measure/step_bound.h"
 
 #include <math.h>
@@ -16,10 +18,14 @@ static int is_driven(const hooke_system *system) {
 }
 
 int32_t hooke_soundness_begin(struct hooke_soundness *s, const hooke_system *system, const char *method,
-                              double step, const hooke_state *state, int64_t capacity) {
+                              double step, double patience, const hooke_state *state, int64_t capacity) {
   const double *q = hooke_state_position(state);
-  *s = (struct hooke_soundness){
-      .system = system, .method = method, .step = step, .least_bound = INFINITY, .capacity = capacity};
+  *s = (struct hooke_soundness){.system = system,
+                                .method = method,
+                                .step = step,
+                                .least_limit = INFINITY,
+                                .patience = patience,
+                                .capacity = capacity};
   s->time = hooke_new(2 * capacity, sizeof(double));
   if (s->time == NULL) return HOOKE_NO_MEMORY;
   s->energy = s->time + capacity;
@@ -30,6 +36,24 @@ int32_t hooke_soundness_begin(struct hooke_soundness *s, const hooke_system *sys
                                                      : HOOKE_OK;
 }
 
+/* The limit itself is asked for only where the step is not clear of the bound, until it is not clear of a limit; from there on
+ * the limit is taken to follow the bound, which tells what step to try next. */
+static void see_step(struct hooke_soundness *s, const double *q) {
+  int64_t particle;
+  hooke_node_blocks_fill(&s->blocks, q);
+  if (hooke_step_is_safe(&s->blocks, s->method, s->step / hooke_soundness_limit_share, &particle)) return;
+  const double bound = hooke_step_bound_of(&s->blocks, s->method);
+  double limit = s->limit_over_bound * bound;
+  if (s->patience > 0.0 && isinf(s->least_limit)) {
+    const double begun = hooke_clock_seconds();
+    struct hooke_patience patience = hooke_patience_of(s->patience, NULL, NULL);
+    (void)hooke_limit_sure(s->system, q, s->method, &patience, &limit);
+    s->patience -= hooke_clock_seconds() - begun;
+    s->limit_over_bound = limit > 0.0 && s->patience > 0.0 ? limit / bound : 1.0;
+  }
+  if (s->step > hooke_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
+}
+
 void hooke_soundness_see(struct hooke_soundness *s, const hooke_state *state) {
   if (s->count == s->capacity) return;
   const double *q = hooke_state_position(state);
@@ -38,11 +62,7 @@ void hooke_soundness_see(struct hooke_soundness *s, const hooke_state *state) {
   s->time[s->count] = hooke_state_time(state);
   s->energy[s->count++] = hooke_system_kinetic_energy(s->system, hooke_state_velocity(state)) +
                           hooke_elastic_energy(s->system, q) + (gravity - s->gravity0);
-  if (s->blocks.system == NULL) return;
-  int64_t particle;
-  hooke_node_blocks_fill(&s->blocks, q);
-  if (hooke_step_is_safe(&s->blocks, s->method, s->step / hooke_soundness_limit_share, &particle)) return;
-  s->least_bound = fmin(s->least_bound, hooke_step_bound_of(&s->blocks, s->method));
+  if (s->blocks.system) see_step(s, q);
 }
 
 void hooke_soundness_release(struct hooke_soundness *s) {

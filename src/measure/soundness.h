@@ -12,15 +12,20 @@ struct hooke_soundness {
   double step;                     /* NaN for an error-controlled method [s] */
   struct hooke_node_blocks blocks; /* without memory for a method that has no limit */
   double
-      least_bound; /* smallest bound on the step at a state where the step is not clear of it [s]; else infinity */
+      least_limit; /* smallest stable step at a state where the step is not clear of it [s]; else infinity */
+  double
+      limit_over_bound; /* at the last state whose limit was asked for; 1 before and after patience ended */
+  double patience; /* left for limits, where the step is not clear of the bound [s]; after it bounds decide */
   double scale, gravity0, swing; /* energies of the scene, as in the definition of "diverged" [J] */
   int64_t count, capacity;
   double *time, *energy; /* of the states seen */
 };
 
-/* Begins at `state`, with memory for `capacity` states; to be released in either case. HOOKE_NO_MEMORY. */
+/* Begins at `state`, with memory for `capacity` states and `patience` [s] for limits; to be released in either case.
+ * HOOKE_NO_MEMORY. */
 int32_t hooke_soundness_begin(struct hooke_soundness *soundness, const hooke_system *system,
-                              const char *method, double step, const hooke_state *state, int64_t capacity);
+                              const char *method, double step, double patience, const hooke_state *state,
+                              int64_t capacity);
 /* Takes another state, such as a frame; those beyond the capacity are left out. */
 void hooke_soundness_see(struct hooke_soundness *soundness, const hooke_state *state);
 void hooke_soundness_release(struct hooke_soundness *soundness);

@@ -341,23 +341,33 @@ static int32_t has_time_for_all(const struct hooke_spectrum *s) {
                             (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n);
 }
 
-static int32_t solve(struct hooke_spectrum *s, double *decaying) {
+static int32_t find_fastest_decay(struct hooke_spectrum *s, double *decaying) {
   struct hooke_linearised *lin = s->linearised;
-  if (!has_time_for_all(s)) return HOOKE_STOPPED;
-  if (s->proportional) {
-    s->fastest_decay = s->beta * s->stiffest + s->delta;
-    return lin->unknowns <= HOOKE_SPECTRUM_PROPORTIONAL ? solve_proportional(s) : solve_stiffest(s);
-  }
+  s->fastest_decay = s->beta * s->stiffest + s->delta;
+  if (s->proportional) return HOOKE_OK;
   /* in large scenes only a figure, and a part of a part of the spectrum */
   const double accuracy = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
-  const int32_t status =
-      hooke_top_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
-  if (status != HOOKE_OK) return status;
-  return lin->unknowns <= HOOKE_SPECTRUM_DAMPED ? solve_damped(s) : solve_part(s, decaying);
+  return hooke_top_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }
 
-int32_t hooke_spectrum_create(struct hooke_linearised *lin, double accuracy, int32_t extremes,
-                              const double *start, struct hooke_spectrum *s) {
+static int32_t solve(struct hooke_spectrum *s, double *decaying) {
+  const int64_t unknowns = s->linearised->unknowns;
+  if (!has_time_for_all(s)) return HOOKE_STOPPED;
+  const int32_t status = find_fastest_decay(s, decaying);
+  if (status != HOOKE_OK) return status;
+  if (s->proportional)
+    return unknowns <= HOOKE_SPECTRUM_PROPORTIONAL ? solve_proportional(s) : solve_stiffest(s);
+  return unknowns <= HOOKE_SPECTRUM_DAMPED ? solve_damped(s) : solve_part(s, decaying);
+}
+
+static int32_t solve_extremes(struct hooke_spectrum *s, double *decaying) {
+  const int32_t status = find_fastest_decay(s, decaying);
+  return status == HOOKE_OK && s->proportional && s->delta == 0.0 ? solve_stiffest(s) : status;
+}
+
+int32_t hooke_spectrum_create(struct hooke_linearised *lin, double accuracy,
+                              enum hooke_spectrum_extent extent, const double *start,
+                              struct hooke_spectrum *s) {
   *s = (struct hooke_spectrum){.linearised = lin, .accuracy = accuracy, .decisive = lin->unknowns == 0};
   s->stiffest_mode = hooke_new(lin->size, sizeof(double));
   double *decaying = hooke_new(lin->size, sizeof(double));
@@ -365,7 +375,9 @@ int32_t hooke_spectrum_create(struct hooke_linearised *lin, double accuracy, int
   if (status == HOOKE_OK)
     status = hooke_top_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
   if (status == HOOKE_OK) compare_damping(s);
-  if (status == HOOKE_OK && lin->unknowns > 0 && !extremes) status = solve(s, decaying);
+  if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_ALL) status = solve(s, decaying);
+  if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_EXTREMES)
+    status = solve_extremes(s, decaying);
   if (status == HOOKE_OK) status = sort(s);
   hooke_free(decaying);
   if (status != HOOKE_OK) hooke_spectrum_release(s);

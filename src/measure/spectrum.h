@@ -24,10 +24,14 @@ struct hooke_spectrum {
   double *block;       /* where they are */
 };
 
-/* `start`: the stiffest mode of a state near by, or NULL. `extremes`: the stiffest mode alone, and whether damping is in
- * proportion. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
-int32_t hooke_spectrum_create(struct hooke_linearised *linearised, double accuracy, int32_t extremes,
-                              const double *start, struct hooke_spectrum *spectrum);
+/* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay, and what else decides
+ * where C = beta K; as many modes as can be had. */
+enum hooke_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
+
+/* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+int32_t hooke_spectrum_create(struct hooke_linearised *linearised, double accuracy,
+                              enum hooke_spectrum_extent extent, const double *start,
+                              struct hooke_spectrum *spectrum);
 void hooke_spectrum_release(struct hooke_spectrum *spectrum);
 
 /* The roots of lambda^2 + c lambda + k, the larger one first, the imaginary part of conjugates positive. */

@@ -143,6 +143,68 @@ static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* A soft block of 3 x 3 x 3 particles, held at one side, that sags: its bound lies far below its limit. */
+static hooke_system *sagging_block(void) {
+  hooke_options *options;
+  hooke_system *system;
+  check_ok(hooke_part_options_create("lattice", &options));
+  check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}));
+  check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){3, 3, 3}));
+  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  check_ok(hooke_options_set_text(options, "pinned", "bottom"));
+  check_ok(hooke_options_set_number(options, "structural.stiffness", 500.0));
+  check_ok(hooke_options_set_number(options, "shear.stiffness", 500.0));
+  check_ok(hooke_options_set_number(options, "structural.damping", 0.2));
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_set_gravity(system, (double[]){0, -1, 0}));
+  check_ok(hooke_system_add_part(system, "lattice", "block", options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+/* The smallest limit of its method at the frames of a run. */
+static double least_limit_along(const hooke_system *system, const hooke_options *run) {
+  hooke_options *options;
+  hooke_limit *limit;
+  hooke_state *state = start_state(system);
+  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_set_text(options, "methods", hooke_options_text(run, "method")));
+  check_ok(hooke_limit_create(system, run, options, &limit));
+  check_ok(hooke_limit_along(limit, state));
+  const double least = hooke_limit_number(limit, 0, "smallest");
+  hooke_limit_destroy(limit);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  return least;
+}
+
+/* How many times the bound at the start the picked step is, which is at most 0.9 of the limit at every frame. */
+static double picked_over_bound(const hooke_system *system, const char *method) {
+  hooke_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
+  hooke_state *state = start_state(system);
+  hooke_estimate *estimate;
+  double bound = NAN;
+  check_ok(hooke_estimate_create(system, 0.05, &estimate));
+  check_ok(hooke_estimate_pick(estimate, method, options));
+  check_ok(hooke_step_bound(system, method, hooke_state_position(state), &bound));
+  const double step = hooke_options_number(options, "step"), limit = least_limit_along(system, options);
+  if (!(step <= 0.9 * limit)) check_failed("%s is picked with %g s, of a limit of %g s", method, step, limit);
+  hooke_estimate_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  return step / bound;
+}
+
+static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(void **unused) {
+  (void)unused;
+  if (!hooke_method_is_built("cvode-adams") || !hooke_build_fact("lapack")[0]) skip();
+  hooke_system *system = sagging_block();
+  check_between(picked_over_bound(system, "symplectic-euler"), 0.95, 2.0);
+  check_between(picked_over_bound(system, "rk4"), 0.95, 2.0);
+  hooke_system_destroy(system);
+}
+
 static void test_what_cannot_be_asked_for(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
@@ -173,6 +235,7 @@ int main(void) {
       cmocka_unit_test(test_a_coarse_run_is_judged_in_a_last_piece),
       cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
       cmocka_unit_test(test_what_is_picked_keeps_to_the_wanted_error),
+      cmocka_unit_test(test_a_picked_step_may_pass_the_bound_but_not_the_limit),
       cmocka_unit_test(test_what_cannot_be_asked_for),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
