@@ -35,9 +35,17 @@ def kept(text: str) -> dict[str, Any]:
     return {"asked": int(found[1]), "met": int(found[2]), "refused": int(found[3])}
 
 
+def agreement(text: str) -> dict[str, Any]:
+    found = re.findall(r"^(\d+) of (\d+) means agree$", text, re.MULTILINE)
+    return {"means": sum(int(of) for _, of in found), "agreeing": sum(int(number) for number, _ in found)}
+
+
 def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
     if not figures:
         return []
+    if "means" in figures:
+        return [(f"means of ensembles within 3 standard errors of those of ensembles ten times as large: {step}",
+                 f"{figures['agreeing']} of {figures['means']}")]  # fmt: skip
     return [(f"wants of 1 cm, 1 mm and 10 um of runs and studies{', estimates of plain runs' * ('example' in step)}: {step}",
              f"{figures['asked']} answers, all true: {figures['met']} wants met, {figures['refused']} said not to be")]  # fmt: skip
 
@@ -53,6 +61,8 @@ PART = Part(
         hold("large example scenes", examples([name for name in EXAMPLES if name in LARGE]), 1200),
         hold("the largest example scene", examples([LARGEST]), 4000),
         hold("the cloth of the README", "cloth.md", 600),
+        Step("twenty ensembles", f"cmake --build {BUILD} --target tests/physics_study_ensemble && "
+                                 f"{BUILD}/tests/physics_study_ensemble 2>&1", 150, agreement),
     ],
     rows,
 )  # fmt: skip
