@@ -290,7 +290,7 @@ static int copy_all(const hooke_comparison_file *file, const struct hooke_h5_cop
 static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file,
                        struct hooke_recording *recording) {
   const char *what = "shorten the file to the frames it has";
-  struct hooke_h5_copy copy = {0};
+  struct hooke_h5_copy copy = {.guard = guard};
   struct hooke_h5_file shorter;
   hid_t old;
   double bytes = hooke_h5_file_bytes(&file->file);

@@ -64,9 +64,12 @@ void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
     guard->handler = (void (*)(void))handler;
   }
   H5Eset_auto2(H5E_DEFAULT, on_error, guard);
+  H5PLget_loading_state(&guard->plugins);
+  H5PLset_loading_state(0);
 }
 
 void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
+  H5PLset_loading_state(guard->plugins);
   H5Eclear2(H5E_DEFAULT);
   if (guard->second_version) {
     H5Eset_auto2(H5E_DEFAULT, (H5E_auto2_t)guard->handler, guard->data);

@@ -9,7 +9,8 @@
 
 #include <hdf5.h>
 
-/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. HDF5 takes one thread
+/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. No file makes HDF5 load
+ * code meanwhile. HDF5 takes one thread
  * at a time: between begin and end no other thread of hooke is in it. Guards are not nested. */
 struct hooke_h5_guard {
   char reason[256];
@@ -18,7 +19,8 @@ struct hooke_h5_guard {
   unsigned second_version;
   void (*handler)(void);
   void *data;
-  int error; /* errno before */
+  unsigned plugins; /* kinds that HDF5 may load, before */
+  int error;        /* errno before */
 };
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard);
 void hooke_h5_guard_end(const struct hooke_h5_guard *guard);

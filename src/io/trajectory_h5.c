@@ -203,7 +203,7 @@ int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajec
   const char *path = trajectory->file.place.path, *what = "make it again for another number of frames";
   const double bytes = hooke_h5_file_bytes(&trajectory->file) -
                        hooke_recording_bytes_after(&trajectory->recording, frame_count);
-  struct hooke_h5_copy copy = {0};
+  struct hooke_h5_copy copy = {.guard = guard};
   hid_t old;
   int32_t status = hooke_h5_file_open(guard, &trajectory->file, &old);
   if (status != HOOKE_OK) return status;
