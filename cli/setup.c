@@ -111,8 +111,7 @@ int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char 
 static int is_written(const char *file) {
   struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
   const int descriptor = open(file, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const int written =
-      descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
+  const int written = descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
   if (descriptor >= 0) close(descriptor);
   return written;
 }
