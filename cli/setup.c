@@ -1,10 +1,13 @@
+#define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
 #include "report.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -104,8 +107,21 @@ int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char 
   return HOOKE_EXIT_DONE;
 }
 
+/* The library refuses such a file, too, but only when it comes to write it. */
+static int is_written(const char *file) {
+  struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
+  const int descriptor = open(file, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const int written = descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
+  if (descriptor >= 0) close(descriptor);
+  return written;
+}
+
 int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output) {
-  return hooke_setup_check_apart(arguments, arguments->scene, "the scene", output);
+  const int code = hooke_setup_check_apart(arguments, arguments->scene, "the scene", output);
+  if (code != HOOKE_EXIT_DONE || !output || !is_written(output)) return code;
+  return hooke_report(arguments, HOOKE_EXIT_IO,
+                      "%s: another run is writing this file; wait for it to end, or name another file",
+                      output);
 }
 
 int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {

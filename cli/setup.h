@@ -25,8 +25,8 @@ int hooke_setup_require(const struct hooke_arguments *arguments, const struct ho
 /* `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
 int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char *input, const char *what,
                             const char *output);
-/* Before any work: FILE of -o (NULL: none) is not the scene itself, and for the second function this build can write it
- * as HDF5. */
+/* Before any work: FILE of -o (NULL: none) is not the scene itself, no run is writing it, and for the second function this
+ * build can write it as HDF5. */
 int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output);
 int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output);
 

@@ -41,8 +41,8 @@ HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
  * on: hooke_integrator_resume() is next, with hooke_trajectory_write() for each frame. That is at the checkpoint beside the
  * file; if there is none of this run, at the last whole frame with a fixed step, whose counts then begin there (but for
  * "steps"), and at the first frame with error control. `trajectory` is NULL if the run has finished: nothing is to do.
- * HOOKE_BAD_VALUE for another system, other options, or a file that is no trajectory of one run; HOOKE_IO_FAILED,
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY; the state then stays as it is. */
+ * HOOKE_BAD_VALUE for another system, other options, or a file that is no trajectory of one run; HOOKE_IO_FAILED, also if
+ * another run is writing the file; HOOKE_NOT_BUILT, HOOKE_NO_MEMORY; the state then stays as it is. */
 HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
                                           hooke_integrator *integrator, hooke_state *state,
                                           hooke_trajectory **trajectory);

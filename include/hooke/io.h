@@ -97,7 +97,9 @@ typedef struct hooke_trajectory hooke_trajectory;
  * so that every frame written survives even if the process is killed. An existing file is replaced only when
  * the new one is ready to take frames. `scene_text` may be NULL; of a scene that names files the numbers of `system` are
  * kept in their place, so that the file needs no other (unless the system has callbacks, which no scene can hold).
- * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * Until it is closed no other run can have the file, here or in another process, and a process that is forked from this one can
+ * only close it, which leaves the file alone: HOOKE_BAD_CALL. HOOKE_IO_FAILED, also if another run is writing `path`;
+ * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);

@@ -77,16 +77,6 @@ static int write_all(int descriptor, const struct hooke_checkpoint_header *heade
   return error ? error : write_some(&sink, end, sizeof end);
 }
 
-static int32_t write_file(const char *path, const char *temporary,
-                          const struct hooke_checkpoint_header *header, const hooke_state *state) {
-  unlink(temporary);
-  const int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
-  int error = write_all(descriptor, header, state);
-  if (close(descriptor) != 0 && error == 0) error = errno;
-  return error ? hooke_place_fail(path, "write", error) : HOOKE_OK;
-}
-
 int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, const hooke_state *state,
                                const char *run) {
   HOOKE_KEEP_ERRNO;
@@ -98,15 +88,15 @@ int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, con
   if (status != HOOKE_OK) return status;
   struct hooke_checkpoint_header header;
   hooke_checkpoint_describe(it, &standing, run, &header);
-  char *place = NULL, *temporary = NULL, *previous = NULL;
-  status = hooke_place_find(path, &place, &temporary);
-  if (status == HOOKE_OK) status = hooke_place_beside(place, ".previous", &previous);
-  if (status == HOOKE_OK) status = write_file(path, temporary, &header, from);
-  if (status == HOOKE_OK) status = hooke_place_take_and_keep(place, previous, &temporary);
-  if (temporary) unlink(temporary);
-  hooke_free(temporary);
+  struct hooke_place place;
+  char *previous = NULL;
+  status = hooke_place_make(path, &place);
+  if (status == HOOKE_OK) status = hooke_place_beside(place.path, ".previous", &previous);
+  const int error = status == HOOKE_OK ? write_all(place.descriptor, &header, from) : 0;
+  if (error) status = hooke_place_fail(path, "write", error);
+  if (status == HOOKE_OK) status = hooke_place_take(&place, previous);
   hooke_free(previous);
-  hooke_free(place);
+  hooke_place_release(&place);
   return status;
 }
 

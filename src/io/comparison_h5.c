@@ -111,7 +111,7 @@ static herr_t make_recordings(hooke_comparison_file *file, const hooke_system *s
 static int write_text(const hooke_comparison_file *file, int64_t at, int64_t k, const char *text) {
   char padded[TEXT_LENGTH] = {0};
   if (text) memcpy(padded, text, strnlen(text, TEXT_LENGTH));
-  return hooke_bytes_write(file->file.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
+  return hooke_bytes_write(file->file.place.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
 }
 
 static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
@@ -119,7 +119,7 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   const double runs = (double)(file->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
   const double table = runs * (256.0 + 16.0 * (double)file->frame_count);
   const double bytes = text + table + runs * hooke_recording_bytes(system, file->frame_count);
-  int32_t status = hooke_h5_file_create(guard, path, bytes, &file->file);
+  int32_t status = hooke_h5_file_create_held(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
   herr_t result = hooke_h5md_describe(file->file.id, NULL, file->comparison->options, scene_text);
   if (result >= 0) result = make_recordings(file, system);
@@ -129,7 +129,7 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");
   status = hooke_h5_file_settle(guard, &file->file);
   for (int64_t k = 0; k <= file->row_count; k++)
-    file->recording[k].file.descriptor = file->file.descriptor;
+    file->recording[k].file.descriptor = file->file.place.descriptor;
   int error = 0;
   for (int64_t k = 0; status == HOOKE_OK && error == 0 && k < file->row_count; k++)
     error = write_text(file, file->at.method, k, method_of(file, k));
@@ -158,9 +158,10 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
                            void *ctx) {
   hooke_comparison_file *file = ctx;
   struct hooke_recording *recording = find_run(file, run);
+  if (hooke_place_require_own(&file->file.place) != HOOKE_OK) return 1;
   if (file->failure[0] || recording == NULL || recording->written == recording->frame_count) {
     if (file->failure[0] == '\0') {
-      snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.path,
+      snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.place.path,
                (long long)frame, run);
     }
     return 1;
@@ -169,7 +170,7 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
   if (error == 0) return 0;
   char what[96];
   snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
-  hooke_place_fail(file->file.path, what, error);
+  hooke_place_fail(file->file.place.path, what, error);
   snprintf(file->failure, sizeof file->failure, "%s", hooke_last_error());
   return 1;
 }
@@ -178,7 +179,7 @@ static int32_t create(const char *path, const hooke_system *system, hooke_compar
                       const char *scene_text, hooke_comparison_file **file) {
   hooke_comparison_file *made = hooke_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  made->file.id = made->file.list = made->file.descriptor = -1;
+  made->file = HOOKE_NO_H5_FILE;
   made->comparison = comparison;
   made->row_count = hooke_comparison_row_count(comparison);
   made->frame_count = hooke_comparison_frame_count(comparison);
@@ -214,7 +215,7 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
 static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
                          const double *value) {
   const int64_t size = (int64_t)sizeof *value;
-  return hooke_bytes_write(file->file.descriptor, at + size * first, size * count, value);
+  return hooke_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
 }
 
 static int write_table_row(const hooke_comparison_file *file, int64_t row) {
@@ -277,7 +278,7 @@ static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t s
 
 static int copy_all(const hooke_comparison_file *file, const struct hooke_h5_copy *copy, int descriptor,
                     struct hooke_recording *recording) {
-  int error = hooke_h5_copy_bytes(copy, file->file.descriptor, descriptor);
+  int error = hooke_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
   for (int64_t k = 0; error == 0 && k <= file->row_count; k++) {
     recording[k].file.descriptor = descriptor;
     error = hooke_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
@@ -289,7 +290,7 @@ static int copy_all(const hooke_comparison_file *file, const struct hooke_h5_cop
 static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file,
                        struct hooke_recording *recording) {
   const char *what = "shorten the file to the frames it has";
-  struct hooke_h5_copy copy = {0};
+  struct hooke_h5_copy copy = {.guard = guard};
   struct hooke_h5_file shorter;
   hid_t old;
   double bytes = hooke_h5_file_bytes(&file->file);
@@ -297,14 +298,14 @@ static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file
     bytes -= hooke_recording_bytes_after(&file->recording[k], file->recording[k].written);
   int32_t status = hooke_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hooke_h5_file_create(guard, file->file.path, bytes, &shorter);
+  status = hooke_h5_file_create_held(guard, file->file.place.path, bytes, 1, &shorter);
   if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording, &copy) < 0)
-    status = hooke_h5_fail(guard, file->file.path, what);
+    status = hooke_h5_fail(guard, file->file.place.path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = hooke_h5_file_settle(guard, &shorter);
-  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.descriptor, recording) : 0;
+  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.place.descriptor, recording) : 0;
   hooke_h5_copy_release(&copy);
-  if (error) status = hooke_place_fail(file->file.path, what, error);
+  if (error) status = hooke_place_fail(file->file.place.path, what, error);
   if (status == HOOKE_OK) status = hooke_h5_file_publish(&shorter);
   if (status == HOOKE_OK) status = hooke_h5_file_close(&shorter);
   hooke_h5_file_release(&shorter);
@@ -323,13 +324,16 @@ static int32_t shorten(const hooke_comparison_file *file) {
 }
 
 static int32_t finish(hooke_comparison_file *file) {
+  const int32_t own = hooke_place_require_own(&file->file.place);
+  if (own != HOOKE_OK) return own;
   if (file->failure[0]) {
-    hooke_h5md_write_status(file->file.descriptor, file->status_at, HOOKE_IO_FAILED);
+    hooke_h5md_write_status(file->file.place.descriptor, file->status_at, HOOKE_IO_FAILED);
     return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
   }
   int error = write_table(file);
-  if (error == 0) error = hooke_h5md_write_status(file->file.descriptor, file->status_at, outcome_of(file));
-  if (error) return hooke_place_fail(file->file.path, "write the table of the comparison", error);
+  if (error == 0)
+    error = hooke_h5md_write_status(file->file.place.descriptor, file->status_at, outcome_of(file));
+  if (error) return hooke_place_fail(file->file.place.path, "write the table of the comparison", error);
   return is_short(file) ? shorten(file) : hooke_h5_file_close(&file->file);
 }
 

@@ -64,6 +64,11 @@ static herr_t add_piece(struct hooke_h5_copy *copy, hid_t from, hid_t to) {
 }
 
 static herr_t copy_array(hid_t from, hid_t where, const char *path, struct hooke_h5_copy *copy) {
+  const char *foreign = hooke_h5_foreign(from);
+  if (foreign) {
+    snprintf(copy->guard->reason, sizeof copy->guard->reason, "dataset %.100s %s", path, foreign);
+    return -1;
+  }
   hid_t type = H5Dget_type(from), space = H5Dget_space(from), list = H5Dget_create_plist(from), to = -1;
   herr_t result = type < 0 || space < 0 || list < 0 ? -1 : H5Pset_obj_track_times(list, 0);
   if (result >= 0) to = H5Dcreate2(where, path, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
@@ -95,7 +100,7 @@ static herr_t copy_members(hid_t from_file, hid_t to_file, hid_t group, const ch
 }
 
 herr_t hooke_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hooke_h5_copy *copy) {
-  hid_t object = H5Oopen(from, path, H5P_DEFAULT);
+  hid_t list = hooke_h5_own_links(copy->guard), object = list < 0 ? -1 : H5Oopen(from, path, list);
   herr_t result = object < 0 ? -1 : 0;
   if (result >= 0 && H5Iget_type(object) == H5I_DATASET) {
     result = copy_array(object, to, path, copy);
@@ -106,6 +111,7 @@ herr_t hooke_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, s
     if (result >= 0) result = copy_members(from, to, object, path, skip, copy);
   }
   hooke_h5_drop(object);
+  hooke_h5_drop(list);
   return result;
 }
 

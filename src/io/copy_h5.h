@@ -4,12 +4,15 @@
 #ifndef HOOKE_IO_COPY_H5_H
 #define HOOKE_IO_COPY_H5_H
 
+#include "io/file_h5.h"
+
 #include <stdint.h>
 
 #include <hdf5.h>
 
-/* Bytes that are still to be copied. */
+/* Bytes that are still to be copied, and who is told why they are not. */
 struct hooke_h5_copy {
+  struct hooke_h5_guard *guard;
   int64_t count;
   struct {
     int64_t from, to, bytes;
@@ -17,7 +20,7 @@ struct hooke_h5_copy {
 };
 
 /* Makes the object `path` and all that is in it, except what is called `skip` (NULL: nothing) and attributes that are
- * references. Whatever comes back, hooke_h5_copy_release() has to follow at last. Negative on failure. */
+ * references; what is not in this very file is refused. Whatever comes back, hooke_h5_copy_release() has to follow at last. Negative on failure. */
 herr_t hooke_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hooke_h5_copy *copy);
 
 /* 0, or the number of the system's error. */

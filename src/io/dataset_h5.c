@@ -42,12 +42,6 @@ int32_t hooke_dataset_file(struct hooke_h5_guard *guard, const char *path, hid_t
   return status;
 }
 
-static herr_t refuse_link(const char *from_file, const char *from, const char *to_file, const char *to,
-                          unsigned *flags, hid_t access, void *ctx) {
-  (void)from_file, (void)from, (void)to_file, (void)to, (void)flags, (void)access, (void)ctx;
-  return -1;
-}
-
 /* An array may claim more bytes than its file has. */
 static double stored_bytes(hid_t data) {
   hid_t file = H5Iget_file_id(data);
@@ -58,20 +52,15 @@ static double stored_bytes(hid_t data) {
   return stored < (double)whole ? stored : (double)whole;
 }
 
-/* Numbers that are stored in this very file, and no more than it can hold. */
+/* Numbers, and no more than the file can hold. */
 static int32_t check_storage(const char *path, const char *name, hid_t data, double count) {
   hid_t list = H5Dget_create_plist(data), type = H5Dget_type(data);
   const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
   const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
-  const int external = list < 0 ? 0 : H5Pget_external_count(list);
   const double bytes = type < 0 ? 0.0 : count * (double)H5Tget_size(type);
   hooke_h5_drop(type);
   hooke_h5_drop(list);
   if (class != H5T_FLOAT && class != H5T_INTEGER) return hooke_dataset_refuse(path, name, not_numbers);
-  if (layout == H5D_VIRTUAL || external != 0) {
-    return hooke_dataset_refuse(path, name,
-                                "keeps its numbers in another file; allowed: numbers in the file itself");
-  }
   const double stored = stored_bytes(data);
   /* HDF5 reads beyond numbers that are in one piece */
   const int beyond = layout != H5D_CHUNKED && bytes > (double)H5Dget_storage_size(data);
@@ -98,15 +87,7 @@ double hooke_dataset_read_bytes(const struct hooke_dataset *data, const hsize_t 
   return rank > 0 ? bytes + chunks * BYTES_OF_CHUNK : 0.0;
 }
 
-/* An access list, of links as of datasets, that refuses links to other files; negative without memory. */
-static hid_t own_links(void) {
-  hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
-  if (list >= 0 && H5Pset_elink_cb(list, refuse_link, NULL) >= 0) return list;
-  hooke_h5_drop(list);
-  return -1;
-}
-
-/* `list`: of own_links(), or negative. */
+/* `list`: of hooke_h5_own_links(), or negative. */
 static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, const char *path,
                        const char *name, struct hooke_dataset *data) {
   *data = (struct hooke_dataset){.id = -1};
@@ -117,6 +98,8 @@ static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, con
     return hooke_h5_fail(guard, path, what);
   }
   if (H5Iget_type(data->id) != H5I_DATASET) return hooke_dataset_refuse(path, name, not_numbers);
+  const char *foreign = hooke_h5_foreign(data->id);
+  if (foreign) return hooke_dataset_refuse(path, name, foreign);
   hid_t space = H5Dget_space(data->id);
   data->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
   const int fits = data->rank >= 1 && data->rank <= 3;
@@ -135,7 +118,7 @@ static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, con
 
 int32_t hooke_dataset_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
-  hid_t list = own_links();
+  hid_t list = hooke_h5_own_links(guard);
   const int32_t status = open_by(list, guard, file, path, name, data);
   hooke_h5_drop(list);
   return status;
@@ -156,7 +139,7 @@ static htri_t is_there(hid_t list, hid_t file, const char *name) {
 
 int32_t hooke_dataset_find(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *name,
                            struct hooke_dataset *data) {
-  hid_t list = own_links();
+  hid_t list = hooke_h5_own_links(guard);
   const htri_t there = list < 0 ? -1 : is_there(list, file, name);
   int32_t status = HOOKE_OK;
   *data = (struct hooke_dataset){.id = -1};

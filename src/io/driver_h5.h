@@ -6,8 +6,10 @@
 
 #include <hdf5.h>
 
-/* An access list for a new file, by this driver; the first error, as errno has it, comes to be in `error`, which has to stay
- * until the file is closed. So has the list: with the last of its lists the driver goes, which H5Fclose() still looks at. Give it any number to have nothing written any more. Negative on failure. */
-hid_t hooke_h5_access_list(int *error);
+/* An access list for the new, empty file of `descriptor`, by this driver, whatever name HDF5 is told. The descriptor stays the
+ * caller's; the first error, as errno has it, comes to be in `error`; both have to stay until the file is closed. So has the
+ * list: with the last of its lists the driver goes, which H5Fclose() still looks at. Give `error` any number to have nothing
+ * written any more. Negative on failure. */
+hid_t hooke_h5_access_list(int descriptor, int *error);
 
 #endif

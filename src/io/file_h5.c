@@ -64,9 +64,12 @@ void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
     guard->handler = (void (*)(void))handler;
   }
   H5Eset_auto2(H5E_DEFAULT, on_error, guard);
+  H5PLget_loading_state(&guard->plugins);
+  H5PLset_loading_state(0);
 }
 
 void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
+  H5PLset_loading_state(guard->plugins);
   H5Eclear2(H5E_DEFAULT);
   if (guard->second_version) {
     H5Eset_auto2(H5E_DEFAULT, (H5E_auto2_t)guard->handler, guard->data);
@@ -91,44 +94,47 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 /* ---- a file ---- */
 
 /* Whether `bytes` fit is found out before anything is written. */
-static int32_t try_room(const char *path, const char *temporary, double bytes) {
+static int32_t try_room(const char *path, int descriptor, double bytes) {
   char what[64];
   hooke_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
-  unlink(temporary);
-  int descriptor = open(temporary, O_CREAT | O_EXCL | O_WRONLY, 0666);
-  if (descriptor < 0) return hooke_place_fail(path, "create the file", errno);
   int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
   if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
-  close(descriptor);
-  unlink(temporary);
+  if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
   return error ? hooke_place_fail(path, what, error) : HOOKE_OK;
+}
+
+static int32_t create(struct hooke_h5_guard *guard, const char *path, double bytes,
+                      struct hooke_h5_file *file) {
+  const int32_t status = try_room(path, file->place.descriptor, bytes);
+  if (status != HOOKE_OK) return status;
+  file->list = hooke_h5_access_list(file->place.descriptor, &file->error);
+  if (file->list >= 0) file->id = H5Fcreate(file->place.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
+  if (file->id >= 0) return HOOKE_OK;
+  return file->error && !was_without_memory(guard) ? hooke_place_fail(path, "create the file", file->error)
+                                                   : hooke_h5_fail(guard, path, "create the file");
 }
 
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file) {
-  *file = (struct hooke_h5_file){.id = -1, .list = -1, .descriptor = -1};
-  int32_t status = hooke_place_find(path, &file->path, &file->temporary);
-  if (status != HOOKE_OK) return status;
-  status = try_room(path, file->temporary, bytes);
-  if (status != HOOKE_OK) return status;
-  file->list = hooke_h5_access_list(&file->error);
-  file->id = file->list < 0 ? -1 : H5Fcreate(file->temporary, H5F_ACC_EXCL, H5P_DEFAULT, file->list);
-  if (file->id < 0) /* looking whether the file is there leaves an error, too */
-    status = file->error && !was_without_memory(guard)
-                 ? hooke_place_fail(path, "create the file", file->error)
-                 : hooke_h5_fail(guard, path, "create the file");
-  return status;
+  *file = HOOKE_NO_H5_FILE;
+  const int32_t status = hooke_place_make(path, &file->place);
+  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
+}
+
+int32_t hooke_h5_file_create_held(struct hooke_h5_guard *guard, const char *path, double bytes, int32_t again,
+                                  struct hooke_h5_file *file) {
+  *file = HOOKE_NO_H5_FILE;
+  const int32_t status = hooke_place_make_held(path, again, &file->place);
+  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
 /* Room on the disk for all of it, and not only in the numbering of its bytes. */
 static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_file *file) {
-  void *handle = NULL;
   hsize_t bytes = 0;
-  if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, &handle) < 0 || H5Fget_filesize(file->id, &bytes) < 0)
-    return hooke_h5_fail(guard, file->path, "write");
-  const int error = posix_fallocate(*(const int *)handle, 0, (off_t)bytes);
+  if (H5Fget_filesize(file->id, &bytes) < 0) return hooke_h5_fail(guard, file->place.path, "write");
+  const int error = posix_fallocate(file->place.descriptor, 0, (off_t)bytes);
   if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
-  return hooke_place_fail(file->path, "make room for all frames", error);
+  return hooke_place_fail(file->place.path, "make room for all frames", error);
 }
 
 /* Whatever comes of it, HDF5 has no part in the file afterwards. */
@@ -138,45 +144,39 @@ static int32_t let_go(struct hooke_h5_guard *guard, struct hooke_h5_file *file) 
   const herr_t result = H5Fclose(id);
   hooke_h5_drop(file->list);
   file->list = -1;
-  if (file->error) return hooke_place_fail(file->path, "write", file->error);
-  return result < 0 ? hooke_h5_fail(guard, file->path, "close the file") : HOOKE_OK;
+  if (file->error) return hooke_place_fail(file->place.path, "write", file->error);
+  return result < 0 ? hooke_h5_fail(guard, file->place.path, "close the file") : HOOKE_OK;
 }
 
 int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
-  int32_t status = take_room(guard, file);
-  if (status != HOOKE_OK) return status;
-  status = let_go(guard, file);
-  if (status != HOOKE_OK) return status;
-  file->descriptor = open(file->temporary, O_RDWR | O_CLOEXEC);
-  return file->descriptor < 0 ? hooke_place_fail(file->path, "open the file again", errno) : HOOKE_OK;
+  const int32_t status = take_room(guard, file);
+  return status == HOOKE_OK ? let_go(guard, file) : status;
 }
 
 int32_t hooke_h5_file_publish(struct hooke_h5_file *file) {
-  return hooke_place_take(file->path, &file->temporary);
+  return hooke_place_take(&file->place, NULL);
 }
 
 int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
-  int32_t status = hooke_place_is(file->path, file->descriptor);
-  if (status == HOOKE_OK && fsync(file->descriptor) != 0)
-    status = hooke_place_fail(file->path, "bring the data to the disk", errno);
-  if (close(file->descriptor) != 0 && status == HOOKE_OK)
-    status = hooke_place_fail(file->path, "close the file", errno);
-  file->descriptor = -1;
-  return status;
+  int32_t status = hooke_place_is(file->place.path, file->place.descriptor);
+  if (status == HOOKE_OK && fsync(file->place.descriptor) != 0)
+    status = hooke_place_fail(file->place.path, "bring the data to the disk", errno);
+  const int32_t closed = hooke_place_close(&file->place);
+  return status == HOOKE_OK ? closed : status;
 }
 
 int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
   const int32_t status = let_go(guard, file);
-  return status == HOOKE_OK ? hooke_place_take(file->path, &file->temporary) : status;
+  return status == HOOKE_OK ? hooke_place_take(&file->place, NULL) : status;
 }
 
 int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {
   void *handle = NULL;
-  *id = H5Fopen(file->path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (*id < 0) return hooke_h5_fail(guard, file->path, "open the file as HDF5");
+  *id = H5Fopen(file->place.path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (*id < 0) return hooke_h5_fail(guard, file->place.path, "open the file as HDF5");
   int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
-                       ? hooke_h5_fail(guard, file->path, "open the file as HDF5")
-                       : hooke_place_same(file->path, *(const int *)handle, file->descriptor);
+                       ? hooke_h5_fail(guard, file->place.path, "open the file as HDF5")
+                       : hooke_place_same(file->place.path, *(const int *)handle, file->place.descriptor);
   if (status == HOOKE_OK) return status;
   H5Fclose(*id);
   *id = -1;
@@ -185,7 +185,7 @@ int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_f
 
 double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
   struct stat now;
-  return fstat(file->descriptor, &now) == 0 ? (double)now.st_size : 0.0;
+  return fstat(file->place.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
 }
 
 void hooke_h5_file_release(struct hooke_h5_file *file) {
@@ -194,11 +194,8 @@ void hooke_h5_file_release(struct hooke_h5_file *file) {
     H5Fclose(file->id);
   }
   hooke_h5_drop(file->list);
-  if (file->descriptor >= 0) close(file->descriptor);
-  if (file->temporary) unlink(file->temporary);
-  hooke_free(file->temporary);
-  hooke_free(file->path);
-  *file = (struct hooke_h5_file){.id = -1, .list = -1, .descriptor = -1};
+  hooke_place_release(&file->place);
+  *file = HOOKE_NO_H5_FILE;
 }
 
 #endif

@@ -5,9 +5,12 @@
 
 #include "hooke/base.h"
 
+#include "io/place.h"
+
 #include <hdf5.h>
 
-/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. HDF5 takes one thread
+/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. No file makes HDF5 load
+ * code meanwhile. HDF5 takes one thread
  * at a time: between begin and end no other thread of hooke is in it. Guards are not nested. */
 struct hooke_h5_guard {
   char reason[256];
@@ -16,7 +19,8 @@ struct hooke_h5_guard {
   unsigned second_version;
   void (*handler)(void);
   void *data;
-  int error; /* errno before */
+  unsigned plugins; /* kinds that HDF5 may load, before */
+  int error;        /* errno before */
 };
 void hooke_h5_guard_begin(struct hooke_h5_guard *guard);
 void hooke_h5_guard_end(const struct hooke_h5_guard *guard);
@@ -26,22 +30,26 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 
 struct hooke_h5_file {
   hid_t id;
-  hid_t list;      /* its access list, which holds the driver: HDF5 looks at that until the file is closed */
-  int error;       /* of the first write that failed while HDF5 had the file, as errno has it */
-  int descriptor;  /* ours, once HDF5 is done with the file; -1: none */
-  char *path;      /* where it is going to be; links followed */
-  char *temporary; /* where it is until then; NULL once published */
+  hid_t list; /* its access list, which holds the driver: HDF5 looks at that until the file is closed */
+  int error;  /* of the first write that failed while HDF5 had the file, as errno has it */
+  struct hooke_place place; /* bytes may be written by its descriptor once HDF5 is done with the file */
 };
 
-/* Creates a file that is going to have up to `bytes` under a temporary name beside `path`: default format, no
- * raw data held back in memory, everything aligned to 16 bytes so that no number lies across two pages.
- * HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hooke_h5_file_release() has to follow in any case. */
+/* A file that nothing is of yet, which may be released. */
+#define HOOKE_NO_H5_FILE ((struct hooke_h5_file){.id = -1, .list = -1, .place = HOOKE_NO_PLACE})
+
+/* Creates a file that is going to have up to `bytes`, as hooke_place_make() does: default format, no raw data held back in
+ * memory, everything aligned to 16 bytes so that no number lies across two pages. HOOKE_IO_FAILED, HOOKE_NO_MEMORY;
+ * hooke_h5_file_release() has to follow in any case. */
 int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
                              struct hooke_h5_file *file);
 
-/* Gives it room on the disk for all of it and closes it for HDF5, whose locks go with that; from here on there is the
- * descriptor, by which bytes in it may be written. It is opened by name: a lock belongs to what a call of open() made, and
- * so to its copies. HOOKE_IO_FAILED. */
+/* The same for the output of a run, as hooke_place_make_held() does. */
+int32_t hooke_h5_file_create_held(struct hooke_h5_guard *guard, const char *path, double bytes, int32_t again,
+                                  struct hooke_h5_file *file);
+
+/* Gives it room on the disk for all of it and closes it for HDF5; from here on bytes in it may be written by the descriptor.
+ * HOOKE_IO_FAILED. */
 int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file);
 
 /* Brings everything to the disk and takes the place of an older file; the descriptor stays. HOOKE_IO_FAILED. */

@@ -5,6 +5,7 @@
 
 #include "io/object_h5.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void hooke_h5_drop(hid_t id) {
@@ -16,6 +17,47 @@ hid_t hooke_h5_open_own(hid_t where, const char *name) {
   const int is_own = where >= 0 && H5Lexists(where, name, H5P_DEFAULT) > 0 &&
                      H5Lget_info(where, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
   return is_own ? H5Oopen(where, name, H5P_DEFAULT) : -1;
+}
+
+static herr_t refuse_link(const char *from_file, const char *from, const char *to_file, const char *to,
+                          unsigned *flags, hid_t access, void *ctx) {
+  struct hooke_h5_guard *guard = ctx;
+  (void)from_file, (void)from, (void)to_file, (void)to, (void)flags, (void)access;
+  snprintf(guard->reason, sizeof guard->reason,
+           "a link in it leads to another file; allowed: what is in the file itself");
+  return -1;
+}
+
+hid_t hooke_h5_own_links(struct hooke_h5_guard *guard) {
+  hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
+  if (list >= 0 && H5Pset_elink_cb(list, refuse_link, guard) >= 0) return list;
+  hooke_h5_drop(list);
+  return -1;
+}
+
+/* Filters that HDF5 would have to load: it may not, while a guard is there. */
+static int needs_code(hid_t list) {
+  int needs = 0;
+  for (int k = 0; !needs && k < H5Pget_nfilters(list); k++) {
+    unsigned flags;
+    size_t none = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(list, (unsigned)k, &flags, &none, NULL, 0, NULL, NULL);
+    needs = filter < 0 || H5Zfilter_avail(filter) <= 0;
+  }
+  return needs;
+}
+
+const char *hooke_h5_foreign(hid_t dataset) {
+  hid_t list = H5Dget_create_plist(dataset);
+  const char *what = NULL;
+  if (list < 0)
+    what = "cannot be read";
+  else if (H5Pget_layout(list) == H5D_VIRTUAL || H5Pget_external_count(list) != 0)
+    what = "keeps its numbers in another file; allowed: numbers in the file itself";
+  else if (H5Pget_layout(list) == H5D_CHUNKED && needs_code(list))
+    what = "is packed by a filter that HDF5 would have to load; allowed: its own, such as gzip and shuffle";
+  hooke_h5_drop(list);
+  return what;
 }
 
 /* Creates and writes an attribute; takes over `type` and `space`. */

@@ -77,10 +77,10 @@ int32_t hooke_record_numbers(hooke_record *record, const char *what, double *val
 /* ---- places ---- */
 
 static int is_plain(hid_t data) {
+  if (H5Iget_type(data) != H5I_DATASET || hooke_h5_foreign(data)) return 0;
   hid_t type = H5Dget_type(data), list = H5Dget_create_plist(data), space = H5Dget_space(data);
   const int plain = type >= 0 && list >= 0 && space >= 0 && H5Tequal(type, H5T_NATIVE_DOUBLE) > 0 &&
-                    H5Pget_layout(list) == H5D_CONTIGUOUS && H5Pget_external_count(list) == 0 &&
-                    H5Sget_simple_extent_ndims(space) == 3;
+                    H5Pget_layout(list) == H5D_CONTIGUOUS && H5Sget_simple_extent_ndims(space) == 3;
   hooke_h5_drop(space);
   hooke_h5_drop(list);
   hooke_h5_drop(type);

@@ -24,11 +24,12 @@ static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 
 /* 1 for one text of fixed length, whose bytes are in this very file. */
 static int is_text_here(hid_t data) {
+  if (H5Iget_type(data) != H5I_DATASET || hooke_h5_foreign(data)) return 0;
   hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
   const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
   const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
                    H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
-                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT) && H5Pget_external_count(list) == 0;
+                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
   hooke_h5_drop(list);
   hooke_h5_drop(space);
   hooke_h5_drop(type);

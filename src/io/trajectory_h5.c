@@ -30,8 +30,8 @@ static const int64_t LEAST_BYTES = 65536;
 hooke_trajectory *hooke_trajectory_new(void) {
   hooke_trajectory *trajectory = hooke_handle_new("hooke_trajectory", sizeof *trajectory);
   if (trajectory == NULL) return NULL;
-  trajectory->file.id = trajectory->file.list = trajectory->file.descriptor =
-      trajectory->recording.file.descriptor = -1;
+  trajectory->file = HOOKE_NO_H5_FILE;
+  trajectory->recording.file.descriptor = -1;
   return trajectory;
 }
 
@@ -43,9 +43,9 @@ void hooke_trajectory_release(hooke_trajectory *trajectory) {
 /* Lets HDF5 go; from here on the file is bytes. */
 static int32_t settle(struct hooke_h5_guard *guard, hooke_trajectory *made) {
   if (hooke_h5md_find_status(made->file.id, &made->status_at) < 0)
-    return hooke_h5_fail(guard, made->file.path, "make room for all frames");
+    return hooke_h5_fail(guard, made->file.place.path, "make room for all frames");
   const int32_t status = hooke_h5_file_settle(guard, &made->file);
-  made->recording.file.descriptor = made->file.descriptor;
+  made->recording.file.descriptor = made->file.place.descriptor;
   return status;
 }
 
@@ -56,7 +56,8 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
   int32_t status = hooke_h5md_new_run(made->run);
   if (status == HOOKE_OK)
-    status = hooke_h5_file_create(guard, path, text + hooke_recording_bytes(system, frames), &made->file);
+    status =
+        hooke_h5_file_create_held(guard, path, text + hooke_recording_bytes(system, frames), 0, &made->file);
   if (status != HOOKE_OK) return status;
   herr_t result =
       hooke_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
@@ -109,7 +110,7 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
 
 /* The file is bad from here on. */
 static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
-  const int32_t status = hooke_place_fail(trajectory->file.path, what, error);
+  const int32_t status = hooke_place_fail(trajectory->file.place.path, what, error);
   snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
   return status;
 }
@@ -123,6 +124,8 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   HOOKE_KEEP_ERRNO;
   struct hooke_recording *recording = &trajectory->recording;
+  const int32_t own = hooke_place_require_own(&trajectory->file.place);
+  if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (hooke_state_size(state) != 3 * recording->file.particle_count) {
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
@@ -165,12 +168,15 @@ const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
+  const int32_t own = hooke_place_require_own(&trajectory->file.place);
+  if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   const int error = trajectory->thread ? hooke_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* what a failed one did not bring to the disk a second one does not tell of */
-  return fsync(trajectory->file.descriptor) == 0 ? HOOKE_OK
-                                                 : fail(trajectory, "bring the data to the disk", errno);
+  return fsync(trajectory->file.place.descriptor) == 0
+             ? HOOKE_OK
+             : fail(trajectory, "bring the data to the disk", errno);
 }
 
 /* ---- closing ---- */
@@ -186,22 +192,22 @@ static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t 
 
 static int copy_all(const hooke_trajectory *trajectory, const struct hooke_h5_copy *copy, int64_t frames,
                     int32_t outcome, const hooke_trajectory *made) {
-  int error = hooke_h5_copy_bytes(copy, trajectory->file.descriptor, made->file.descriptor);
+  int error = hooke_h5_copy_bytes(copy, trajectory->file.place.descriptor, made->file.place.descriptor);
   if (error == 0) error = hooke_frame_copy(&trajectory->recording.file, &made->recording.file, frames);
-  return error ? error : hooke_h5md_write_status(made->file.descriptor, made->status_at, outcome);
+  return error ? error : hooke_h5md_write_status(made->file.place.descriptor, made->status_at, outcome);
 }
 
 int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory,
                                 int64_t frame_count, int64_t copied, int32_t outcome,
                                 hooke_trajectory *made) {
-  const char *path = trajectory->file.path, *what = "make it again for another number of frames";
+  const char *path = trajectory->file.place.path, *what = "make it again for another number of frames";
   const double bytes = hooke_h5_file_bytes(&trajectory->file) -
                        hooke_recording_bytes_after(&trajectory->recording, frame_count);
-  struct hooke_h5_copy copy = {0};
+  struct hooke_h5_copy copy = {.guard = guard};
   hid_t old;
   int32_t status = hooke_h5_file_open(guard, &trajectory->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hooke_h5_file_create(guard, path, bytes, &made->file);
+  status = hooke_h5_file_create_held(guard, path, bytes, 1, &made->file);
   if (status == HOOKE_OK && make_again(trajectory, old, frame_count, made, &copy) < 0)
     status = hooke_h5_fail(guard, path, what);
   H5Fclose(old);
@@ -230,25 +236,29 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   const int64_t frames = recording->written > trajectory->there ? recording->written : trajectory->there;
   if (trajectory->failure[0]) {
     /* whoever finds the file may be told, too */
-    hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
+    hooke_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
   if (frames < recording->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is told when what it is of has come to the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
-  const int error = hooke_h5md_write_status(trajectory->file.descriptor, trajectory->status_at,
+  const int error = hooke_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at,
                                             synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
   if (synced != HOOKE_OK) return refuse_bad(trajectory);
-  return error ? hooke_place_fail(trajectory->file.path, "write the outcome", error)
+  return error ? hooke_place_fail(trajectory->file.place.path, "write the outcome", error)
                : hooke_h5_file_close(&trajectory->file);
 }
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   HOOKE_KEEP_ERRNO;
-  end_thread(trajectory);
-  const int32_t status = finish(trajectory, outcome);
-  if (status == HOOKE_OK && outcome == HOOKE_OK) hooke_trajectory_drop_checkpoint(trajectory->file.path);
+  int32_t status = hooke_place_require_own(&trajectory->file.place);
+  if (status == HOOKE_OK) { /* a fork has no such thread, and leaves the file alone */
+    end_thread(trajectory);
+    status = finish(trajectory, outcome);
+  }
+  if (status == HOOKE_OK && outcome == HOOKE_OK)
+    hooke_trajectory_drop_checkpoint(trajectory->file.place.path);
   hooke_trajectory_release(trajectory);
   return status;
 }

@@ -20,13 +20,14 @@
 /* ---- what is there ---- */
 
 static int32_t refuse(const hooke_trajectory *old, const char *what) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.path, what);
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.place.path, what);
 }
 
 /* Without memory HDF5 does not see what is there. */
 static int32_t refuse_seen(const struct hooke_h5_guard *guard, const hooke_trajectory *old,
                            const char *what) {
-  return guard->no_memory ? hooke_h5_fail(guard, old->file.path, "look at what it has") : refuse(old, what);
+  return guard->no_memory ? hooke_h5_fail(guard, old->file.place.path, "look at what it has")
+                          : refuse(old, what);
 }
 
 /* One block of bytes of the type, within the file. */
@@ -58,7 +59,7 @@ static int32_t find_array(struct hooke_h5_guard *guard, hid_t file, hooke_trajec
                : array == HOOKE_FRAME_CHECK ? H5T_NATIVE_UINT32
                                             : H5T_NATIVE_DOUBLE;
   hooke_recording_path("all", array, name);
-  int32_t status = hooke_dataset_find(guard, file, old->file.path, name, &data);
+  int32_t status = hooke_dataset_find(guard, file, old->file.place.path, name, &data);
   if (status == HOOKE_OK) {
     if (array == 0 && data.id >= 0) recording->frame_count = (int64_t)data.size[0];
     const int fits = data.id >= 0 && is_plain(&data, type, hooke_h5_file_bytes(&old->file)) &&
@@ -75,7 +76,7 @@ static int32_t find_array(struct hooke_h5_guard *guard, hid_t file, hooke_trajec
 
 static int32_t find_springs(struct hooke_h5_guard *guard, hid_t file, const hooke_trajectory *old) {
   struct hooke_dataset data;
-  int32_t status = hooke_dataset_find(guard, file, old->file.path, "/connectivity/springs", &data);
+  int32_t status = hooke_dataset_find(guard, file, old->file.place.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
       (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->recording.system)))
     status = refuse_seen(guard, old, "its springs are not those of this system");
@@ -97,8 +98,10 @@ static int32_t find_all(struct hooke_h5_guard *guard, hid_t file, hooke_trajecto
 static int32_t read_description(struct hooke_h5_guard *guard, hooke_trajectory *old) {
   hooke_record *record;
   hid_t file;
-  int32_t status = hooke_record_open(old->file.path, &record);
+  int32_t status = hooke_record_open(old->file.place.path, &record);
   if (status == HOOKE_OK) snprintf(old->run, sizeof old->run, "%s", hooke_record_text(record, "run"));
+  if (status == HOOKE_OK && strcmp(hooke_record_text(record, "status"), "finished") == 0)
+    status = refuse(old, "another run has just finished it");
   hooke_record_close(record);
   if (status == HOOKE_OK) status = hooke_h5_file_open(guard, &old->file, &file);
   if (status != HOOKE_OK) return status;
@@ -115,7 +118,7 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
   if (frames < frames_kept) return refuse(old, "it has fewer frames than the run had written");
   while (whole && old->there < frames) {
     const int error = hooke_frame_look(&old->recording.file, old->there, &whole);
-    if (error) return hooke_place_fail(old->file.path, "read its frames", error);
+    if (error) return hooke_place_fail(old->file.place.path, "read its frames", error);
     old->there += whole;
   }
   if (old->there >= frames_kept) return HOOKE_OK;
@@ -123,29 +126,25 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
       HOOKE_BAD_VALUE, NULL,
       "frame %lld of %s is damaged or not there, and the run had written %lld; it cannot go on in "
       "this file",
-      (long long)old->there, old->file.path, (long long)frames_kept);
+      (long long)old->there, old->file.place.path, (long long)frames_kept);
 }
 
 /* ---- going on ---- */
 
 static int32_t begin(const char *path, const hooke_system *system, hooke_trajectory *old) {
   struct hooke_recording *recording = &old->recording;
-  int32_t status = hooke_place_find(path, &old->file.path, &old->file.temporary);
-  hooke_free(old->file.temporary); /* only what is made anew has one */
-  old->file.temporary = NULL;
+  const int32_t status = hooke_place_hold(path, &old->file.place);
   if (status != HOOKE_OK) return status;
-  old->file.descriptor = open(old->file.path, O_RDWR | O_CLOEXEC);
-  if (old->file.descriptor < 0) return hooke_place_fail(old->file.path, "open the file", errno);
   recording->system = recording->file.system = system;
   snprintf(recording->group, sizeof recording->group, "all");
   recording->file.particle_count = hooke_system_particle_count(system);
-  recording->file.descriptor = old->file.descriptor;
+  recording->file.descriptor = old->file.place.descriptor;
   return HOOKE_OK;
 }
 
 static int32_t set_running(hooke_trajectory *old) {
-  const int error = hooke_h5md_write_status(old->file.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
-  return error ? hooke_place_fail(old->file.path, "write that it is running again", error) : HOOKE_OK;
+  const int error = hooke_h5md_write_status(old->file.place.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
+  return error ? hooke_place_fail(old->file.place.path, "write that it is running again", error) : HOOKE_OK;
 }
 
 static int32_t go_on(struct hooke_h5_guard *guard, hooke_trajectory **trajectory, int64_t planned,
@@ -199,7 +198,7 @@ void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
 }
 
 const char *hooke_trajectory_path(const hooke_trajectory *trajectory) {
-  return trajectory->file.path;
+  return trajectory->file.place.path;
 }
 
 void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {

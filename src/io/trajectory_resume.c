@@ -177,14 +177,13 @@ static int32_t read_first(struct going *going) {
 }
 
 static int32_t resume(struct going *going) {
-  char *place = NULL, *temporary = NULL, *checkpoint = NULL;
+  char *place = NULL, *checkpoint = NULL;
   int32_t status = check_fit(going);
   if (status == HOOKE_OK) status = read_first(going);
-  if (status == HOOKE_OK) status = hooke_place_find(going->path, &place, &temporary);
+  if (status == HOOKE_OK) status = hooke_place_find(going->path, &place);
   if (status == HOOKE_OK) status = hooke_place_beside(place, ENDING, &checkpoint);
   if (status == HOOKE_OK) status = go_on(going, checkpoint);
   hooke_free(checkpoint);
-  hooke_free(temporary);
   hooke_free(place);
   return status;
 }

@@ -155,8 +155,8 @@ static int32_t find_name(struct companion *c, const char *path) {
   return status;
 }
 
-/* The name beside the trajectory. */
-static char *name_beside(const char *there) {
+/* The name beside the trajectory, for the caller to free. */
+static int32_t name_beside(const char *there, char **name) {
   static const char *const endings[] = {".h5", ".hdf5", ".h5md"};
   const size_t length = strlen(there);
   size_t stem = length;
@@ -164,9 +164,13 @@ static char *name_beside(const char *there) {
     const size_t ending = strlen(endings[k]);
     if (length > ending && strcmp(there + length - ending, endings[k]) == 0) stem = length - ending;
   }
-  char *name = hooke_new((int64_t)stem + 6, 1);
-  if (name) snprintf(name, stem + 6, "%.*s.xdmf", (int)stem, there);
-  return name;
+  char *begin = hooke_copy_text(there);
+  *name = NULL;
+  if (begin == NULL) return HOOKE_NO_MEMORY;
+  begin[stem] = '\0';
+  const int32_t status = hooke_place_beside(begin, ".xdmf", name);
+  hooke_free(begin);
+  return status;
 }
 
 /* A name that nobody gave takes the place of nothing but an older companion. */
@@ -218,9 +222,9 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   if (there == NULL) return hooke_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
   if (hooke_record_frame_count(record) == 0)
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
-  char *beside = path ? NULL : name_beside(there);
+  char *beside = NULL;
+  int32_t status = path ? HOOKE_OK : name_beside(there, &beside);
   const char *name = path ? path : beside;
-  int32_t status = name ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && !path) status = check_replaced(name);
   if (status == HOOKE_OK) status = find_name(&c, name);
   if (status == HOOKE_OK) status = read_sizes(&c);

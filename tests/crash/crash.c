@@ -147,6 +147,10 @@ int rename(const char *from, const char *to) {
   CALL(1, syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
 }
 
+int renameat2(int from_folder, const char *from, int to_folder, const char *to, unsigned flags) {
+  CALL(1, syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+}
+
 int unlink(const char *path) {
   CALL(1, syscall(SYS_unlinkat, AT_FDCWD, path, 0));
 }

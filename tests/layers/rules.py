@@ -58,7 +58,7 @@ STANDARD = set(
     "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic "
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl langinfo libgen pthread sched strings termios unistd "
-    "sys/inotify sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
+    "sys/file sys/inotify sys/ioctl sys/mman sys/random sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
     "getopt immintrin".split()
 )
 

@@ -151,6 +151,27 @@ def test_a_run_of_a_system_has_no_scene(tmp_path, system):
         out.strain()
 
 
+def test_a_fork_that_ends_leaves_the_file_to_the_run(tmp_path):
+    ends, owner = [], os.getpid()
+
+    def fork(step, state):
+        if step == 100:
+            child = os.fork()
+            if child == 0:
+                raise SystemExit(7)
+            ends.append(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+
+    try:
+        hooke.run(hooke.Scene.parse(SIX_PARTICLES), output=tmp_path / "out.h5", on_frame=fork)
+    except BaseException as exception:
+        if os.getpid() != owner:  # the fork has to end here
+            os._exit(getattr(exception, "code", 1))
+        raise
+    assert ends == [7] and sorted(os.listdir(tmp_path)) == ["out.h5", "out.xdmf"]
+    with hooke.open(tmp_path / "out.h5") as out:
+        assert out.status == "finished" and len(out.t) == 11
+
+
 def test_a_run_that_diverged(tmp_path):
     scene = hooke.Scene().particles([[0, 0, 0], [2, 0, 0]], mass=1, pinned=0)
     scene.springs(between=[[0, 1]], stiffness=100, rest_length=1)

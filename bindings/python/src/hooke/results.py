@@ -350,7 +350,8 @@ def _run_to_file(
         outcome = getattr(exception, "status", None)
         with contextlib.suppress(Error):  # it is the exception that matters
             _keep_place(keep, state)
-        lib.hooke_trajectory_close(file, outcome if isinstance(outcome, int) else _STOPPED)
+        with contextlib.suppress(BadCall):  # in a fork
+            lib.hooke_trajectory_close(file, outcome if isinstance(outcome, int) else _STOPPED)
         raise
     lib.hooke_trajectory_close(file, integrator.outcome)
     write_companion(path)
