@@ -78,8 +78,8 @@ def test_json_has_the_true_characters(call, scene):
 
 
 def test_a_scene_that_is_made_escapes_them(call):
-    code, out, err = call(*"make rope --from 0,0,0 --to 1,0,0 --segments 2 --stretch.stiffness 1 --density 1 --name".split(),
-                          "rope" + EVIL, "--title", "title" + EVIL)
+    out = call(*"make rope --from 0,0,0 --to 1,0,0 --segments 2 --stretch.stiffness 1 --density 1 --name".split(),
+               "rope" + EVIL, "--title", "title" + EVIL)[1]
     scene = json.loads(out)
     assert (scene["title"], scene["parts"][0]["name"]) == ("title" + EVIL, "rope" + EVIL)
 
