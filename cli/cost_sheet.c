@@ -64,8 +64,7 @@ static void print_limit(double limit) {
 
 static void print_name(int width, const char *name) {
   printf("  ");
-  hooke_print_text(stdout, name);
-  printf("%*s", width - (int)strlen(name), "");
+  hooke_print_padded(stdout, width, name);
 }
 
 /* Of a group that was not looked at, or not yet when it was interrupted, nothing is known. */

@@ -37,7 +37,7 @@ static void print_costs(double evaluations, double per_step, double wall, double
 static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
   const char *note = hooke_needs_text(needs, row, "note");
   const double wall = hooke_needs_number(needs, row, "wall_seconds");
-  printf("%-*s", width, hooke_needs_text(needs, row, "without"));
+  hooke_print_padded(stdout, width, hooke_needs_text(needs, row, "without"));
   if (isnan(hooke_needs_number(needs, row, "error"))) {
     printf("  needed: ");
     hooke_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
@@ -49,7 +49,9 @@ static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
               hooke_needs_number(needs, row, "step_limit"));
   const double needed = hooke_needs_number(needs, row, "needed");
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
-  printf("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
+  printf("  %s%s", verdict, note[0] ? "; " : "");
+  hooke_print_text(stdout, note);
+  printf("\n");
 }
 
 static void print_table(const hooke_needs *needs) {
@@ -106,8 +108,9 @@ static void print_lean(const struct hooke_needs_results *results) {
   int32_t left_out = 0;
   for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
     if (hooke_needs_number(needs, row, "left_out") != 1.0) continue;
-    printf("%s%-*s%s\n", left_out ? "" : "\n", LABEL, left_out ? "" : "lean",
-           hooke_needs_text(needs, row, "without"));
+    printf("%s%-*s", left_out ? "" : "\n", LABEL, left_out ? "" : "lean");
+    hooke_print_text(stdout, hooke_needs_text(needs, row, "without"));
+    printf("\n");
     left_out++;
   }
   if (!left_out) {
@@ -154,7 +157,7 @@ static void print_parts(const hooke_needs *needs) {
          "order", "left [m]", "want asks for");
   for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
     const char *note = hooke_needs_part_text(needs, part, "note");
-    printf("%-*s", width, hooke_needs_part_text(needs, part, "part"));
+    hooke_print_padded(stdout, width, hooke_needs_part_text(needs, part, "part"));
     print_cells(needs, part, has);
     for (int k = 0; k < 4; k++)
       hooke_rows_print_cell(k == 2 ? 8 : 12, hooke_needs_part_number(needs, part, numbers[k]));

@@ -16,29 +16,98 @@ const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
   return text;
 }
 
-void hooke_print_text(FILE *file, const char *text) {
-  for (; *text; text++) {
-    unsigned char byte = (unsigned char)*text;
-    fputc((byte < 0x20 && byte != '\n') || byte == 0x7f ? '?' : byte, file);
+/* ---- text from outside ---- */
+
+/* Length of the UTF-8 character at `text` (1 to 4), 0 if the bytes are none. */
+static int32_t utf8_length(const unsigned char *text) {
+  if (text[0] < 0x80) return 1;
+  int32_t length = text[0] >= 0xf0 ? 4 : text[0] >= 0xe0 ? 3 : 2;
+  if (text[0] < 0xc2 || text[0] > 0xf4) return 0;
+  for (int32_t i = 1; i < length; i++) {
+    if ((text[i] & 0xc0) != 0x80) return 0;
   }
+  /* overlong forms, surrogates, and what lies past U+10FFFF */
+  if (text[0] == 0xe0 && text[1] < 0xa0) return 0;
+  if (text[0] == 0xed && text[1] > 0x9f) return 0;
+  if (text[0] == 0xf0 && text[1] < 0x90) return 0;
+  if (text[0] == 0xf4 && text[1] > 0x8f) return 0;
+  return length;
 }
 
-void hooke_print_quoted(FILE *file, const char *text) {
-  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%";
-  if (text[0] && strspn(text, plain) == strlen(text)) {
-    hooke_print_text(file, text);
-    return;
+/* The character at `text`, of `length` bytes, if it commands a terminal, ends a line or turns the direction of writing; 0 if
+ * not. */
+static uint32_t control(const unsigned char *text, int32_t length) {
+  static const struct {
+    uint32_t first, last;
+  } table[] = {{0, 0x1f}, {0x7f, 0x9f}, {0x61c, 0x61c}, {0x200e, 0x200f}, {0x2028, 0x202e}, {0x2066, 0x2069}};
+  uint32_t point = text[0];
+  if (length == 2) point = (text[0] & 0x1fu) << 6 | (text[1] & 0x3fu);
+  if (length == 3) point = (text[0] & 0xfu) << 12 | (text[1] & 0x3fu) << 6 | (text[2] & 0x3fu);
+  for (size_t i = 0; length <= 3 && i < sizeof table / sizeof table[0]; i++) {
+    if (point >= table[i].first && point <= table[i].last) return point;
   }
-  fputc('\'', file);
-  for (; *text; text++) {
-    char one[2] = {*text, '\0'};
-    if (*text == '\'') {
-      fputs("'\\''", file);
+  return 0;
+}
+
+/* Prints what `text` begins with, one character or a byte that is of none, '?' in place of what may not be; its length. */
+static int32_t print_character(FILE *file, const char *text) {
+  const int32_t length = utf8_length((const unsigned char *)text);
+  const int plain = length > 0 && control((const unsigned char *)text, length) == 0;
+  fwrite(plain ? text : "?", 1, plain ? (size_t)length : 1, file);
+  return length > 0 ? length : 1;
+}
+
+static int32_t is_plain(const char *text) {
+  for (int32_t length; *text; text += length) {
+    length = utf8_length((const unsigned char *)text);
+    if (length == 0 || control((const unsigned char *)text, length)) return 0;
+  }
+  return 1;
+}
+
+int32_t hooke_print_text(FILE *file, const char *text) {
+  int32_t count = 0;
+  for (; *text; count++)
+    text += print_character(file, text);
+  return count;
+}
+
+void hooke_print_padded(FILE *file, int32_t width, const char *text) {
+  for (int32_t count = hooke_print_text(file, text); count < width; count++)
+    fputc(' ', file);
+}
+
+/* $'...', with bytes by number where they are no plain character. */
+static void print_escaped(FILE *file, const char *text) {
+  fputs("$'", file);
+  for (int32_t length; *text; text += length) {
+    length = utf8_length((const unsigned char *)text);
+    const int plain = length > 0 && control((const unsigned char *)text, length) == 0;
+    if (length == 0) length = 1;
+    if (*text == '\n') {
+      fputs("\\n", file);
+    } else if (plain) {
+      fprintf(file, "%s%.*s", *text == '\'' || *text == '\\' ? "\\" : "", length, text);
     } else {
-      hooke_print_text(file, one);
+      for (int32_t i = 0; i < length; i++)
+        fprintf(file, "\\%03o", (unsigned)(unsigned char)text[i]);
     }
   }
   fputc('\'', file);
+}
+
+void hooke_print_quoted(FILE *file, const char *text) {
+  static const char bare[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%";
+  if (!is_plain(text)) {
+    print_escaped(file, text);
+  } else if (text[0] && strspn(text, bare) == strlen(text)) {
+    fputs(text, file);
+  } else {
+    fputc('\'', file);
+    for (; *text; text++)
+      *text == '\'' ? fputs("'\\''", file) : fputc(*text, file);
+    fputc('\'', file);
+  }
 }
 
 int hooke_print_flush(void) {
@@ -67,7 +136,9 @@ void hooke_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t wid
       column = indent;
       fresh = 1;
     }
-    fprintf(file, "%s%.*s", fresh ? "" : " ", length, text);
+    if (!fresh) fputc(' ', file);
+    for (const char *word = text; word < text + length;)
+      word += print_character(file, word);
     column += length + (fresh ? 0 : 1);
     fresh = 0;
     text += length;
@@ -76,22 +147,6 @@ void hooke_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t wid
 }
 
 /* ---- JSON ---- */
-
-/* Length of the UTF-8 character at `text` (1 to 4), 0 if the bytes are none. */
-static int32_t utf8_length(const unsigned char *text) {
-  if (text[0] < 0x80) return 1;
-  int32_t length = text[0] >= 0xf0 ? 4 : text[0] >= 0xe0 ? 3 : 2;
-  if (text[0] < 0xc2 || text[0] > 0xf4) return 0;
-  for (int32_t i = 1; i < length; i++) {
-    if ((text[i] & 0xc0) != 0x80) return 0;
-  }
-  /* overlong forms, surrogates, and what lies past U+10FFFF */
-  if (text[0] == 0xe0 && text[1] < 0xa0) return 0;
-  if (text[0] == 0xed && text[1] > 0x9f) return 0;
-  if (text[0] == 0xf0 && text[1] < 0x90) return 0;
-  if (text[0] == 0xf4 && text[1] > 0x8f) return 0;
-  return length;
-}
 
 static void write_string(FILE *file, const char *text) {
   const unsigned char *at = (const unsigned char *)text;
@@ -107,8 +162,8 @@ static void write_string(FILE *file, const char *text) {
       fputs("\\n", file);
     } else if (*at == '\t') {
       fputs("\\t", file);
-    } else if (*at < 0x20 || *at == 0x7f) {
-      fprintf(file, "\\u%04x", *at);
+    } else if (control(at, length)) {
+      fprintf(file, "\\u%04x", (unsigned)control(at, length));
     } else {
       fwrite(at, 1, (size_t)length, file);
     }

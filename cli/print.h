@@ -10,8 +10,13 @@ enum { HOOKE_NUMBER_SIZE = 32, HOOKE_JSON_DEPTH = 8 };
 /* Writes the shortest of 15, 16 or 17 digits that read back to the same double into `text` and returns it. */
 const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
 
-/* Text with control characters replaced, so that a title or a file name cannot steer a terminal. */
-void hooke_print_text(FILE *file, const char *text);
+/* Text from outside, a title, a name or a file name, on one line: '?' for each character by which it could steer a terminal,
+ * end a line or turn the direction of writing, and for bytes that are not UTF-8. All such text is printed here, by what
+ * follows or as JSON. The number of characters printed. */
+int32_t hooke_print_text(FILE *file, const char *text);
+
+/* The same, and blanks up to `width` characters. */
+void hooke_print_padded(FILE *file, int32_t width, const char *text);
 
 /* Writes what is held back of standard output, so that words on standard error come after it. 0, or the number of the system's
  * error: the first one there was. */
@@ -20,7 +25,7 @@ int hooke_print_flush(void);
 /* Closes a stream of open_memstream(), which may be NULL. HOOKE_NO_MEMORY, and `text` is NULL, unless it holds all. */
 int32_t hooke_print_end(FILE *stream, char **text);
 
-/* Text as one word of a shell command, quoted if it has to be. */
+/* Text as one word of a shell command, quoted if it has to be; as $'...' where hooke_print_text() would change it. */
 void hooke_print_quoted(FILE *file, const char *text);
 
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
@@ -43,7 +48,7 @@ void hooke_json_close(struct hooke_json *json);
 void hooke_json_number(struct hooke_json *json, const char *key, double value);
 void hooke_json_flag(struct hooke_json *json, const char *key, int32_t value); /* true or false */
 void hooke_json_count(struct hooke_json *json, const char *key, int64_t value);
-/* null if `text` is NULL; bytes that are not UTF-8 become U+FFFD */
+/* null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and what hooke_print_text() replaces is escaped */
 void hooke_json_text(struct hooke_json *json, const char *key, const char *text);
 /* `rows` rows of x y z as an array of arrays */
 void hooke_json_vectors(struct hooke_json *json, const char *key, int64_t rows, const double *xyz);

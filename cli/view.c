@@ -57,8 +57,7 @@ static int write_page(const struct hooke_arguments *arguments, const hooke_recor
 static int do_view(const struct hooke_arguments *arguments) {
   const char *output = hooke_arguments_text(arguments, "output");
   if (!output) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no page named; such as hooke view %s -o page.html",
-                        arguments->scene);
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no page named; give one, such as -o page.html");
   }
   int code = hooke_output_file_check(arguments, "-o", output);
   if (code != HOOKE_EXIT_DONE) return code;

@@ -1,5 +1,7 @@
 #include "watch.h"
 
+#include "print.h"
+
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -53,7 +55,9 @@ static void show(struct hooke_watch *watch, double done, const char *what, doubl
   for (int i = 0; i < BAR; i++)
     bar[i] = (double)i < done * BAR ? '#' : '.';
   bar[BAR] = '\0';
-  fprintf(stderr, "\r\033[K%s%s%s %3d %%  ", what ? what : "", what ? " " : "", bar, (int)(100.0 * done));
+  fputs("\r\033[K", stderr);
+  if (what && hooke_print_text(stderr, what) > 0) fputc(' ', stderr);
+  fprintf(stderr, "%s %3d %%  ", bar, (int)(100.0 * done));
   if (done > 0.0 && elapsed * (1.0 - done) / done < 1e6 * HOUR) print_left(elapsed * (1.0 - done) / done);
   fflush(stderr);
   watch->shown = 1;

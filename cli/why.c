@@ -172,8 +172,9 @@ static int32_t print_words(const struct why *why) {
   const hooke_why *found = why->why;
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
-    printf("the run did not blow up: it is '%s' at t = %s s\n", why->status,
-           hooke_format_number(why->time, text));
+    printf("the run did not blow up: it is '");
+    hooke_print_text(stdout, why->status);
+    printf("' at t = %s s\n", hooke_format_number(why->time, text));
     return HOOKE_OK;
   }
   printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));

@@ -64,11 +64,9 @@ void hooke_option_show(const char *text, int64_t length, char *shown) {
       used += 3;
       break;
     }
-    if (bytes == 0 || hooke_utf8_is_control(text[at]))
-      shown[used] = '?';
-    else
-      memcpy(shown + used, text + at, (size_t)bytes);
-    used += count;
+    const int plain = bytes > 0 && !hooke_utf8_control(text + at, bytes);
+    memcpy(shown + used, plain ? text + at : "?", (size_t)(plain ? bytes : 1));
+    used += plain ? bytes : 1;
     at += count;
   }
   shown[used] = '\0';

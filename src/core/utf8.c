@@ -18,14 +18,28 @@ int64_t hooke_utf8_character(const char *text, int64_t length) {
   return bytes;
 }
 
-int hooke_utf8_is_control(char c) {
-  return (unsigned char)c < 32 || c == 127;
+uint32_t hooke_utf8_control(const char *text, int64_t bytes) {
+  static const struct {
+    uint32_t first, last;
+  } control[] = {{0, 0x1F},        {0x7F, 0x9F},     {0x61C, 0x61C},
+                 {0x200E, 0x200F}, {0x2028, 0x202E}, {0x2066, 0x2069}};
+  const unsigned char *c = (const unsigned char *)text;
+  uint32_t point = c[0];
+  if (bytes == 2) point = (c[0] & 0x1Fu) << 6 | (c[1] & 0x3Fu);
+  if (bytes == 3) point = (c[0] & 0xFu) << 12 | (c[1] & 0x3Fu) << 6 | (c[2] & 0x3Fu);
+  for (size_t k = 0; bytes >= 1 && bytes <= 3 && k < sizeof control / sizeof control[0]; k++)
+    if (point >= control[k].first && point <= control[k].last) return point;
+  return 0;
 }
 
 void hooke_utf8_make_plain(char *text) {
+  char *end = text;
   for (int64_t left = (int64_t)strlen(text), bytes; left > 0; left -= bytes, text += bytes) {
     bytes = hooke_utf8_character(text, left);
-    if (bytes == 0 || hooke_utf8_is_control(*text)) *text = '?';
+    const int64_t kept = bytes == 0 || hooke_utf8_control(text, bytes) ? 0 : bytes;
+    memmove(end, kept ? text : "?", (size_t)(kept ? kept : 1));
+    end += kept ? kept : 1;
     if (bytes == 0) bytes = 1;
   }
+  *end = '\0';
 }

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/number.h"
+#include "core/utf8.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,20 +34,24 @@ static void add(struct hooke_text *text, const char *words) {
   hooke_text_add(text, words, (int64_t)strlen(words));
 }
 
-/* "<" is escaped, so that no text ends the element around it or begins a comment. */
+/* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer a terminal. */
 static void add_quoted(struct hooke_text *text, const char *words) {
   add(text, "\"");
-  while (*words) {
-    size_t plain = 0;
-    while ((unsigned char)words[plain] >= 0x20 && strchr("\"\\<", words[plain]) == NULL)
-      plain++;
-    hooke_text_add(text, words, (int64_t)plain);
-    words += plain;
-    if (*words == '\0') break;
-    char escaped[8];
-    snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)(unsigned char)*words++);
+  const char *at = words;
+  for (int64_t left = (int64_t)strlen(words), bytes; left > 0; left -= bytes) {
+    bytes = hooke_utf8_character(at, left);
+    uint32_t escape = hooke_utf8_control(at, bytes);
+    if (strchr("\"\\<", *at)) escape = (unsigned char)*at;
+    if (bytes == 0) bytes = 1;
+    at += bytes;
+    if (escape == 0) continue;
+    char escaped[12];
+    snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)escape);
+    hooke_text_add(text, words, at - bytes - words);
     add(text, escaped);
+    words = at;
   }
+  hooke_text_add(text, words, at - words);
   add(text, "\"");
 }
 

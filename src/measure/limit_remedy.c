@@ -1,6 +1,7 @@
 /* What it would buy to change the few springs or particles that a limit hangs on. */
 #include "core/memory.h"
 #include "core/print.h"
+#include "core/utf8.h"
 #include "measure/limit_blame.h"
 #include "measure/limit_predict.h"
 #include "model/system.h"
@@ -288,5 +289,6 @@ int32_t hooke_remedy_find(const hooke_system *system, const double *q, const cha
     status = tell_force(system, q, method, limit, blame, force, remedy);
   else if (status == HOOKE_OK && remedy->kind == NULL)
     tell_groups(system, blame, remedy);
+  hooke_utf8_make_plain(remedy->sentence);
   return status;
 }

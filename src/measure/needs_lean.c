@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "core/utf8.h"
 #include "integrate/method.h"
 
 #include <math.h>
@@ -165,6 +166,7 @@ static void note_splits(hooke_needs *needs) {
   snprintf(needs->lean_note, sizeof needs->lean_note,
            "%s: written spring by spring, not as a part has it, since single springs of %s are left out",
            names, count == 1 ? "it" : "them");
+  hooke_utf8_make_plain(needs->lean_note);
 }
 
 /* Once more, in turns, so that the two times may be compared. */

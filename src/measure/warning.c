@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "core/utf8.h"
 #include "integrate/integrator.h"
 #include "measure/naming.h"
 #include "measure/step_bound.h"
@@ -57,6 +58,7 @@ static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke
         *state->t, h, kind == ABOVE_LIMIT ? "above" : "within 5 % of", limit, method, (long long)particle,
         where[0] ? " and " : "", where);
   }
+  hooke_utf8_make_plain(sentence);
   return watch->warning(kinds[kind], sentence, *state->t, limit, spring, particle, watch->ctx);
 }
 

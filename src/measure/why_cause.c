@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "core/utf8.h"
 #include "measure/naming.h"
 
 #include <math.h>
@@ -28,6 +29,7 @@ static void say(struct hooke_inquiry *inquiry, const char *cause, const char *fo
   va_start(args, format);
   hooke_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
   va_end(args);
+  hooke_utf8_make_plain(why->sentence);
 }
 
 /* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */

@@ -1,4 +1,4 @@
-"""Every link of README.md, CONTRIBUTING.md, CHANGELOG.md and docs/ inside the project leads somewhere."""
+"""Every link of README.md, CONTRIBUTING.md, SECURITY.md, CHANGELOG.md and docs/ inside the project leads somewhere."""
 
 import os
 from pathlib import Path
@@ -7,7 +7,7 @@ import links
 import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
-DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md",
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CHANGELOG.md",
              *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "bindings").rglob("*.md"))]
 
 

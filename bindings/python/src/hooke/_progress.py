@@ -7,6 +7,8 @@ import importlib
 from collections.abc import Iterator
 from typing import Any, Callable, Union
 
+from ._status import plain
+
 #: A function that is told of progress, True for a bar, or None.
 Shown = Union[None, bool, Callable[..., Any]]
 
@@ -32,7 +34,7 @@ def shown(progress: Shown, fills: bool = True) -> Iterator[Callable[..., Any] | 
 
         def tell(fraction: float, what: Any) -> None:
             if isinstance(what, str):
-                bar.set_postfix_str(what, refresh=False)
+                bar.set_postfix_str(plain(what), refresh=False)
             bar.update(max(fraction - bar.n, 0.0))
 
         yield tell

@@ -10,10 +10,18 @@ from typing import Any, Callable
 OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
 
 
+def plain(text: str) -> str:
+    """Text from outside, a name or the name of a file, on one line: "?" for what could steer a terminal."""
+    return "".join(character if character.isprintable() else "?" for character in text)
+
+
 class Error(Exception):
     """A failure that the library reports; the message is the library's own, `status` its number."""
 
     status: int | None = None
+
+    def __str__(self) -> str:
+        return plain(super().__str__())
 
 
 class NoMemory(Error, MemoryError):

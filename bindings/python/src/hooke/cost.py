@@ -10,7 +10,7 @@ from ._callback import listening
 from ._library import lib
 from ._memory import Handle, text
 from ._prototypes import COST
-from ._status import OUTCOMES
+from ._status import OUTCOMES, plain
 from ._tables import read_rows
 from ._types import Table
 from .options import Options
@@ -70,7 +70,7 @@ class Cost:
         fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
         known = self.rows[~np.isnan(self.rows["memory_bytes"])]
         for name, time, memory, limit in [whole, *known[fields].tolist()]:
-            lines.append(f"{name:28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
+            lines.append(f"{plain(name):28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
         if len(known) < len(self.rows):
             lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
         return "\n".join(lines)

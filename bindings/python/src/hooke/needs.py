@@ -12,7 +12,7 @@ from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, rows, text
 from ._prototypes import NEEDS
-from ._status import OUTCOMES, BadCall
+from ._status import OUTCOMES, BadCall, plain
 from ._tables import read_rows
 from ._types import FloatArray, Path, Table
 from .options import Options
@@ -184,9 +184,9 @@ class Needs(Closing):
         lines.append(f"{'nothing (the full scene)':{width}}{'':18}{self.full.wall_seconds:18.4g}{self.full.step_limit:18.4g}")
         for row in self.rows:
             numbers = "".join(f"{row[name]:18.4g}" for _, name in columns)
-            lines.append(f"{row['without']:{width}}{numbers}  {'needed' if row['needed'] else '-'}")
+            lines.append(f"{plain(row['without']):{width}}{numbers}  {'needed' if row['needed'] else '-'}")
         if self.lean_cost is not None and self.cheapest is not None:
-            left_out = ", ".join(self.left_out) or "nothing"
+            left_out = plain(", ".join(self.left_out)) or "nothing"
             lines.append(
                 f"left out together: {left_out}; error at most {self.lean_error:.3g} m, wall time "
                 f"{self.lean_cost.wall_seconds:.3g} s where the full scene takes {self.cheapest.wall_seconds:.3g} s "
@@ -247,6 +247,6 @@ def _cells(part: np.void, what: str) -> str:
 
 def _part_line(part: np.void) -> str:
     return (
-        f"{part['part']:16}{_cells(part, 'cells'):>12}{part['change']:14.4g}{part['change_fine']:14.4g}"
+        f"{plain(part['part']):16}{_cells(part, 'cells'):>12}{part['change']:14.4g}{part['change_fine']:14.4g}"
         f"{part['order']:8.3g}{part['error']:12.4g}{_cells(part, 'wanted'):>12}  {part['note']}".rstrip()
     )

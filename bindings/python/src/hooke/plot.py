@@ -10,7 +10,7 @@ import numpy as np
 
 from ._library import lib
 from ._pictures import Line3DCollection
-from ._status import BadValue
+from ._status import BadValue, plain
 from ._types import FloatArray, Path, Table
 from .limit import Limit
 from .results import Result
@@ -251,7 +251,7 @@ def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | 
         position = file[f"particles/{run}/position"]
         written = np.flatnonzero(~np.isnan(position["time"][:]))
         if not -written.size <= frame < written.size:
-            raise IndexError(f"frame {frame}: {source} has {written.size} frames of {run!r}")
+            raise IndexError(f"frame {frame}: {plain(str(source))} has {written.size} frames of {run!r}")
         number = written[frame]
         return position["value"][number], file["connectivity/springs"][:], float(position["time"][number])
 

@@ -16,7 +16,7 @@ from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, text
 from ._prototypes import RECORD
-from ._status import BadValue
+from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
 from .options import Options
 from .results import Frames
@@ -211,7 +211,7 @@ class Trajectory(Closing):
         if isinstance(frame, slice):
             return Frames(self.t[frame], self.q[frame], self.v[frame])
         if not -self._count <= frame < self._count:
-            raise IndexError(f"frame {frame}: {self.path} has {self._count} frames")
+            raise IndexError(f"frame {frame}: {plain(self.path)} has {self._count} frames")
         return Frame(int(self.steps[frame]), float(self.t[frame]), self.q[frame], self.v[frame])
 
     def __iter__(self) -> Iterator[Frame]:

@@ -12,7 +12,7 @@ from ._callback import watching
 from ._library import lib
 from ._memory import Handle, text
 from ._prototypes import WHY
-from ._status import SolverFailed
+from ._status import SolverFailed, plain
 from .integrator import Integrator
 from .options import Options
 from .results import Result, Runnable, WorkProgress, resolve
@@ -37,7 +37,7 @@ class Blame(NamedTuple):
 
     def __str__(self) -> str:
         place = self.force or f"spring {self.spring}, between particles {self.ends[0]} and {self.ends[1]}"
-        return place + (f", group {self.group}" if self.group else "")
+        return place + (f", group {plain(self.group)}" if self.group else "")
 
 
 class Advice(NamedTuple):

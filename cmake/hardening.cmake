@@ -1,0 +1,48 @@
+# What compiler and linker add to builds for release so that a fault is harder to exploit, each where they take it: checked
+# calls of the C library, canaries on the stack, tables of the loader that are read-only from the start, an address of its
+# own for the program in each run, and marks where the processor may jump to. Loops have it, too: it costs them nothing that
+# can be measured.
+include(CheckCCompilerFlag)
+include(CheckCSourceCompiles)
+include(CheckLinkerFlag)
+include(CheckPIESupported)
+
+set(release OFF)
+if(CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$" AND NOT CMAKE_C_FLAGS MATCHES "-fsanitize|-O0")
+  set(release ON)
+endif()
+option(HOOKE_HARDENING "Compile and link so that faults are harder to exploit" ${release})
+
+add_library(hooke_hardening INTERFACE)
+if(NOT HOOKE_HARDENING)
+  return()
+endif()
+
+foreach(level 3 2) # those that define it by themselves are overruled
+  set(fortify -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=${level})
+  list(JOIN fortify " " words)
+  set(CMAKE_REQUIRED_FLAGS "-O2 -Werror ${words}")
+  check_c_source_compiles("#include <string.h>\nint main(void) { return 0; }" HOOKE_TAKES_FORTIFY_${level})
+  unset(CMAKE_REQUIRED_FLAGS)
+  if(HOOKE_TAKES_FORTIFY_${level})
+    target_compile_options(hooke_hardening INTERFACE ${fortify})
+    break()
+  endif()
+endforeach()
+check_c_compiler_flag(-fstack-protector-strong HOOKE_TAKES_CANARIES)
+if(HOOKE_TAKES_CANARIES)
+  target_compile_options(hooke_hardening INTERFACE -fstack-protector-strong)
+endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  check_c_compiler_flag(-fcf-protection=full HOOKE_TAKES_CONTROL_FLOW)
+  if(HOOKE_TAKES_CONTROL_FLOW)
+    target_compile_options(hooke_hardening INTERFACE -fcf-protection=full)
+  endif()
+endif()
+foreach(word relro now)
+  check_linker_flag(C LINKER:-z,${word} HOOKE_TAKES_Z_${word})
+  if(HOOKE_TAKES_Z_${word})
+    target_link_options(hooke_hardening INTERFACE LINKER:-z,${word})
+  endif()
+endforeach()
+check_pie_supported(LANGUAGES C)
