@@ -206,11 +206,20 @@ static int32_t rename_new(struct hooke_place *place) {
   return rename(place->temporary, path) == 0 ? HOOKE_OK : hooke_place_fail(path, "take this name", errno);
 }
 
+/* Under a second name, so that the first is never without a file; renamed where there are no such names. */
+static int keep_older(const char *path, const char *previous) {
+  if (unlink(previous) != 0 && errno != ENOENT) return -1;
+  if (link(path, previous) == 0 || errno == ENOENT || errno == EEXIST)
+    return 0; /* another has just done so */
+  return errno == EPERM || errno == ENOTSUP || errno == ENOSYS || errno == EMLINK ? rename(path, previous)
+                                                                                  : -1;
+}
+
 static int32_t take(struct hooke_place *place, const char *previous, int folder) {
   const char *path = place->path;
   /* a folder that cannot do this is found out before anything is replaced */
   if (sync_folder(folder) != 0) return hooke_place_fail(path, "bring the name to the disk", errno);
-  if (previous && rename(path, previous) != 0 && errno != ENOENT)
+  if (previous && keep_older(path, previous) != 0)
     return hooke_place_fail(path, "keep the file that was there", errno);
   const int32_t status = rename_new(place);
   if (status != HOOKE_OK) return status;

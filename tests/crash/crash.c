@@ -151,6 +151,10 @@ int renameat2(int from_folder, const char *from, int to_folder, const char *to, 
   CALL(1, syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
 
+int link(const char *from, const char *to) {
+  CALL(1, syscall(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+
 int unlink(const char *path) {
   CALL(1, syscall(SYS_unlinkat, AT_FDCWD, path, 0));
 }

@@ -154,6 +154,10 @@ int rename(const char *from, const char *to) {
   return fails(concerns(to)) ? -1 : ((int (*)(const char *, const char *))next("rename"))(from, to);
 }
 
+int link(const char *from, const char *to) {
+  return fails(concerns(to)) ? -1 : ((int (*)(const char *, const char *))next("link"))(from, to);
+}
+
 int renameat2(int from_folder, const char *from, int to_folder, const char *to, unsigned flags) {
   if (fails(concerns(to))) return -1;
   return ((int (*)(int, const char *, int, const char *, unsigned))next("renameat2"))(from_folder, from,

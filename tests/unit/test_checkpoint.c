@@ -7,6 +7,8 @@
 
 #include "core/crc32.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,21 +25,24 @@ struct bytes {
 
 /* ---- files ---- */
 
-static char path[64], previous[80];
+static char folder[64], path[80], previous[96];
 
 static int set_up(void **state) {
   (void)state;
-  snprintf(path, sizeof path, "%s/hooke-checkpoint-%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".",
-           (long)getpid());
+  snprintf(folder, sizeof folder, "%s/hooke-checkpoint-XXXXXX",
+           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".");
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/checkpoint", folder);
   snprintf(previous, sizeof previous, "%s.previous", path);
   return 0;
 }
 
+/* Anything that was left lying about keeps the folder. */
 static int tear_down(void **state) {
   (void)state;
   remove(path);
   remove(previous);
-  return 0;
+  return rmdir(folder);
 }
 
 static struct bytes read_bytes(const char *name) {
@@ -336,7 +341,6 @@ static void only_a_place_of_the_run_is_written(void **state) {
 static void a_failed_write_harms_nothing(void **state) {
   (void)state;
   double numbers[NUMBERS];
-  char part[96];
   struct reader writer = reader_of(none, fixed), reader = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
   check_ok(hooke_integrator_run(writer.integrator, writer.state));
@@ -347,12 +351,37 @@ static void a_failed_write_harms_nothing(void **state) {
   assert_int_equal(mkdir(previous, 0700), 0); /* there the newest cannot be kept */
   check_status(hooke_checkpoint_write(path, writer.integrator, writer.state, NULL), HOOKE_IO_FAILED);
   check_message("keep the file");
-  snprintf(part, sizeof part, "%s.%ld.part", path, (long)getpid());
-  assert_false(is_there(part));
   check_ok(hooke_checkpoint_read(path, "first", reader.integrator, reader.state));
   check_numbers(reader.state, numbers);
   remove(previous);
   drop(&reader);
+  drop(&writer);
+}
+
+static atomic_int watched, missed;
+
+static void *look_often(void *unused) {
+  while (watched)
+    missed += !is_there(path);
+  return unused;
+}
+
+/* Though each makes way for the next, the name is never without one. */
+static void there_is_one_at_all_times(void **state) {
+  (void)state;
+  double numbers[NUMBERS];
+  pthread_t watcher;
+  struct reader writer = reader_of(none, fixed);
+  write_stopped(writer.system, fixed, STOP, numbers);
+  check_ok(hooke_integrator_run(writer.integrator, writer.state));
+  watched = 1;
+  assert_int_equal(pthread_create(&watcher, NULL, look_often, NULL), 0);
+  for (int k = 0; k < 2000; k++)
+    check_ok(hooke_checkpoint_write(path, writer.integrator, writer.state, "first"));
+  watched = 0;
+  pthread_join(watcher, NULL);
+  assert_int_equal(missed, 0);
+  assert_true(is_there(previous));
   drop(&writer);
 }
 
@@ -371,7 +400,8 @@ int main(void) {
       cmocka_unit_test(every_byte_is_watched),          cmocka_unit_test(every_length_is_watched),
       cmocka_unit_test(impossible_numbers_are_refused), cmocka_unit_test(other_problems_are_refused),
       cmocka_unit_test(the_one_before_stands_in),       cmocka_unit_test(only_a_place_of_the_run_is_written),
-      cmocka_unit_test(a_failed_write_harms_nothing),   cmocka_unit_test(a_pipe_is_not_waited_for),
+      cmocka_unit_test(there_is_one_at_all_times),      cmocka_unit_test(a_failed_write_harms_nothing),
+      cmocka_unit_test(a_pipe_is_not_waited_for),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
