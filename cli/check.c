@@ -61,7 +61,7 @@ static void warn_of_method(struct check *check) {
          method);
   } else if (step > bound) {
     warn(check, "the step of the run, %s s, is above %s s, up to which %s is certain to be stable",
-         hooke_format_number(step, taken), hooke_format_number(bound, limit), method);
+         hooke_format_rounded(step, taken), hooke_format_rounded(bound, limit), method);
   }
 }
 
@@ -201,7 +201,7 @@ static void print_limits(const struct check *check) {
     } else if (bound == 0.0) {
       printf("none: stable at no step\n");
     } else {
-      printf("%s s\n", hooke_format_number(bound, text));
+      printf("%s s\n", hooke_format_rounded(bound, text));
     }
   }
 }

@@ -189,13 +189,13 @@ static void tell_end(const struct hooke_run *run) {
   }
   if (run->outcome == HOOKE_STOPPED) {
     hooke_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                       hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+                       hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
     if (run->output) hooke_resume_tell_how(arguments, run->output, run->kept_place);
     return;
   }
   hooke_report_words(arguments, "%s", run->message);
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
-                     hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+                     hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
 }
 
 /* On standard error: why, and what to do. */

@@ -68,8 +68,8 @@ static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
   double duration = hooke_study_figure(study, "duration");
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
-  hooke_format_number(until, time);
-  hooke_format_number(duration, all);
+  hooke_format_rounded(until, time);
+  hooke_format_rounded(duration, all);
   int32_t whole = until >= duration * (1.0 - 1e-9);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
@@ -160,8 +160,8 @@ static void print_recommendation(const struct hooke_study_results *results) {
   double want = hooke_study_recommendation_number(study, "want");
   int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
   char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
-  hooke_format_number(want, text);
-  hooke_format_number(hooke_study_figure(study, "trusted_until"), time);
+  hooke_format_rounded(want, text);
+  hooke_format_rounded(hooke_study_figure(study, "trusted_until"), time);
   printf("\n");
   if (met) {
     print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s:", text,
@@ -200,7 +200,7 @@ void hooke_study_results_print(const struct hooke_study_results *results) {
   int32_t width = hooke_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   hooke_print_text(stdout, title && title[0] ? title : arguments->scene);
-  printf(", %s s\n", hooke_format_number(hooke_study_figure(results->study, "duration"), text));
+  printf(", %s s\n", hooke_format_rounded(hooke_study_figure(results->study, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
     printf("\n");

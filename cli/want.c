@@ -51,7 +51,7 @@ static void tell_choice(const struct hooke_run *run, const char *done, const cha
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
   hooke_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
-                     hooke_format_number(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
+                     hooke_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                      adaptive ? "" : " s");
 }
 

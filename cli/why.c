@@ -139,7 +139,7 @@ static void print_number(const char *label, double value, const char *unit) {
   if (isinf(value))
     printf("%-12snone\n", label);
   else
-    printf("%-12s%s %s\n", label, hooke_format_number(value, text), unit);
+    printf("%-12s%s %s\n", label, hooke_format_rounded(value, text), unit);
 }
 
 static void print_springs(const hooke_why *found) {
@@ -173,7 +173,7 @@ static int32_t print_words(const struct why *why) {
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
     printf("the run did not blow up: it is '%s' at t = %s s\n", why->status,
-           hooke_format_number(why->time, text));
+           hooke_format_rounded(why->time, text));
     return HOOKE_OK;
   }
   printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));

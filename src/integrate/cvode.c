@@ -74,7 +74,7 @@ static int32_t start(hooke_integrator *it, double t) {
   if (flag == CV_SUCCESS && own->choice)
     flag = CVodeSetMaxOrd(own->memory, own->choice->low ? LOW_ORDER : BDF_ORDER);
   if (flag == CV_SUCCESS) return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.17g s: %s", t, own->message);
+  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.6g s: %s", t, own->message);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
@@ -128,7 +128,7 @@ static int32_t step(hooke_integrator *it) {
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   struct hooke_sundials *own = it->own;
   if (CVodeGetDky(own->memory, t, 0, own->y) != CV_SUCCESS) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.17g s: %s", t, own->message);
+    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.6g s: %s", t, own->message);
   }
   return hooke_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }

@@ -186,7 +186,7 @@ def test_words_have_the_same_numbers(hooke, write):
     assert answer.code == 0
     memory = re.search(r"^memory +(\d+) bytes at the peak", answer.out, re.M)  # of another process
     assert int(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
-    assert repr(value["step_limit"]["symplectic-euler"]) in answer.out
+    assert f"{value['step_limit']['symplectic-euler']:.6g} s" in answer.out
     assert "warning: " + value["warnings"][0] in answer.err
     assert "warning" not in answer.out
 
