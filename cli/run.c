@@ -264,6 +264,13 @@ static void estimate(struct hooke_run *run) {
     hooke_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
 }
 
+/* Into the output, which is whole already. */
+static int write_estimate(const struct hooke_run *run) {
+  if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
+  const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+}
+
 static int run_and_tell(struct hooke_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
@@ -273,6 +280,8 @@ static int run_and_tell(struct hooke_run *run) {
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
   if (!run->arguments->json) hooke_want_print(run);
+  code = write_estimate(run);
+  if (code != HOOKE_EXIT_DONE) return code;
   hooke_run_print_final(run);
   if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->arguments->json) hooke_run_print(run);

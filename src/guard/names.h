@@ -85,6 +85,7 @@
 #define hooke_trajectory_sync hooke_unchecked_trajectory_sync
 #define hooke_trajectory_run hooke_unchecked_trajectory_run
 #define hooke_trajectory_close hooke_unchecked_trajectory_close
+#define hooke_estimate_write_h5 hooke_unchecked_estimate_write_h5
 #define hooke_record_open hooke_unchecked_record_open
 #define hooke_record_close hooke_unchecked_record_close
 #define hooke_record_text hooke_unchecked_record_text

@@ -212,6 +212,7 @@ PROTOTYPES = {
     "hooke_estimate_refine": (STATUS, ESTIMATE, OPTIONS),
     "hooke_estimate_number": (DOUBLE, ESTIMATE, TEXT),
     "hooke_estimate_text": (TEXT, ESTIMATE, TEXT),
+    "hooke_estimate_write_h5": (STATUS, ESTIMATE, TEXT),
     # study.h
     "hooke_study_options_create": (STATUS, POINTER(OPTIONS)),
     "hooke_study_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(STUDY)),

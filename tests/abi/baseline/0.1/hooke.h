@@ -473,6 +473,7 @@ HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
+HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 typedef struct hooke_record hooke_record;
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
