@@ -67,10 +67,10 @@ static void print_growth(const hooke_study *study) {
 static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
   double duration = hooke_study_figure(study, "duration");
+  const int32_t whole = hooke_study_results_trust_all(study);
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
   hooke_format_rounded(until, time);
   hooke_format_rounded(duration, all);
-  int32_t whole = until >= duration * (1.0 - 1e-9);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
              "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
@@ -164,8 +164,8 @@ static void print_recommendation(const struct hooke_study_results *results) {
   hooke_format_rounded(hooke_study_figure(study, "trusted_until"), time);
   printf("\n");
   if (met) {
-    print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s:", text,
-               time);
+    print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
+               time, hooke_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
   } else {
     print_fact("recommendation", "none for an error of at most %s m: %s", text,
                hooke_study_recommendation_text(study, "note"));

@@ -4,7 +4,7 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "unit.h"
+#include "value.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -223,29 +223,9 @@ static int find_out(struct why *why) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_missing_words(arguments);
 }
 
-/* The time of --budget; the option table of a study knows what is allowed. */
-static int read_budget(const struct hooke_arguments *arguments, double *budget) {
-  const char *text = hooke_arguments_text(arguments, "budget");
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  if (!text) return HOOKE_EXIT_DONE;
-  char *value = hooke_unit_read(text, "s", word);
-  if (!value) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget %s: there is no unit '%s'; allowed: %s", text,
-                        word, hooke_unit_list("s", list));
-  }
-  hooke_options *options = NULL;
-  int32_t status = hooke_study_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "budget", value);
-  if (status == HOOKE_OK) *budget = hooke_options_number(options, "budget");
-  hooke_options_destroy(options);
-  free(value);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget: %s", hooke_last_error());
-}
-
 static int do_why(const struct hooke_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
-  int code = read_budget(arguments, &why.budget);
+  int code = hooke_value_of_study(arguments, "budget", "s", &why.budget);
   if (code == HOOKE_EXIT_DONE) code = hooke_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_why_destroy(why.why);

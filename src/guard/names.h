@@ -131,6 +131,7 @@
 #define hooke_limit_shape hooke_unchecked_limit_shape
 #define hooke_limit_of_mode hooke_unchecked_limit_of_mode
 #define hooke_step_bound hooke_unchecked_step_bound
+#define hooke_step_bounds hooke_unchecked_step_bounds
 #define hooke_comparison_create hooke_unchecked_comparison_create
 #define hooke_comparison_destroy hooke_unchecked_comparison_destroy
 #define hooke_comparison_add hooke_unchecked_comparison_add

@@ -211,6 +211,17 @@ def test_costs_of_ingredients(hooke, write):
     assert gravity["step_limit_without"] == cost["step_limit"]
 
 
+def test_the_first_limit_is_within_the_budget(hooke, write):
+    """Else the step is one that is certain to be stable."""
+    cloth = {"kind": "cloth", "size": [40, 40], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1, "structural": {"stiffness": 1e4}}
+    words = ["check", write({"hooke": 1, "parts": [cloth]}, step=1), "--cost", "--predict", "--json"]
+    value = hooke(*words, "--budget", "1ns").json
+    assert value["cost"]["step_limit"] is None
+    assert value["cost"]["step"] == value["step_limit"]["symplectic-euler"] < 1
+    known = hooke(*words, "--budget", "20s").json["cost"]
+    assert known["step"] == known["step_limit"] > value["cost"]["step"]
+
+
 def test_costs_without_the_timing(hooke, write):
     """The same numbers every time; an adaptive method has steps of symplectic Euler."""
     file = write(SIX_PARTICLES, method="cvode-bdf")

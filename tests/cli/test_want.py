@@ -149,7 +149,8 @@ def test_the_judge_of_studies():
     met, none = study_of(True), study_of(False)
     assert study_complaints(0, met, 0, 9e-4, 1e-3) == []
     assert study_complaints(7, none, None, math.nan, 1e-3) == []
-    assert study_complaints(0, study_of(True, 0.5), 0, 9e-3, 1e-3) == []  # known until an earlier time alone
+    assert study_complaints(7, study_of(None, 0.5), 0, 9e-3, 1e-3) == []  # known until an earlier time alone
+    assert len(study_complaints(0, study_of(True, 0.5), 0, 9e-4, 1e-3)) == 1
     assert len(study_complaints(0, met, 0, 1.1e-3, 1e-3)) == 1
     assert len(study_complaints(0, met, 0, 9e-4, 1e-3, known=False)) == 1
     assert len(study_complaints(0, met, 4, math.nan, 1e-3)) == 1

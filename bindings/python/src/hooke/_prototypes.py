@@ -189,6 +189,7 @@ PROTOTYPES = {
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
+    "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),
     "hooke_comparison_create": (STATUS, SYSTEM, OPTIONS, POINTER(COMPARISON)),
     "hooke_comparison_destroy": (None, COMPARISON),
     "hooke_comparison_add": (STATUS, COMPARISON, TEXT),

@@ -246,6 +246,7 @@ extern "C" {
 #endif
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
+HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 typedef struct hooke_comparison hooke_comparison;
 typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
