@@ -133,7 +133,9 @@ static double bytes_per_particle(const struct check *check) {
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64 " bytes at the peak of a run", check->memory);
+  printf("memory       %" PRId64
+         " bytes at the peak of a run, without -o and without a factor of an implicit method",
+         check->memory);
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_spring_count(check->setup.system) > 0)
