@@ -60,7 +60,8 @@ static int32_t create(hooke_integrator *it) {
   const int highest = is_bdf(it) ? BDF_ORDER : ADAMS_ORDER;
   int order;
   int32_t status = hooke_sundials_order(it, 1, highest, &order);
-  if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + highest);
+  /* counted as far as a run of middling order touches its history */
+  if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
   if (status == HOOKE_OK && is_bdf(it)) status = hooke_order_choice_create(it);
   if (status != HOOKE_OK) return status;
   struct hooke_sundials *own = it->own;

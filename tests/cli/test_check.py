@@ -126,6 +126,14 @@ def test_memory_is_the_peak_of_a_run(hooke, write, tmp_path, scene, method):
     assert 0.8 < said / peak < 1.2
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
+@pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
+def test_memory_of_a_run_whose_order_stays_low(hooke, write, tmp_path):
+    scene = write({**cloth(256), "gravity": [0, -9.81, 0]}, duration=0.002)
+    said = hooke("check", scene, "--json", "--method", "cvode-adams").json["memory_bytes"]
+    assert 0.8 < said / peak_of_run(tmp_path, scene, "--method", "cvode-adams") < 1.2
+
+
 def test_memory_of_the_model_grows_with_the_scene(hooke, write):
     small, large = (hooke("check", write(cloth(n)), "--json").json for n in (20, 40))
     assert (small["particles"], large["particles"]) == (400, 1600)
