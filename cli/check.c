@@ -19,6 +19,7 @@ struct check {
   const struct hooke_arguments *arguments;
   struct hooke_setup setup;
   hooke_cost *cost;        /* NULL: not asked for */
+  double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
   int64_t memory, counted; /* at the peak of a run; of system, state and method alone [bytes] */
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
@@ -34,12 +35,17 @@ static void warn(struct check *check, const char *format, ...) {
   va_end(args);
 }
 
-/* The bound on the step of a method at the initial state [s]; NaN where none is known. */
 static double bound_of(const struct check *check, const char *method) {
-  double bound;
-  int32_t status =
-      hooke_step_bound(check->setup.system, method, hooke_state_position(check->setup.state), &bound);
-  return status == HOOKE_OK ? bound : (double)NAN;
+  for (int64_t k = 0; k < hooke_method_count(); k++)
+    if (strcmp(method, hooke_method_name(k)) == 0) return check->bound[k];
+  return NAN;
+}
+
+/* HOOKE_NO_MEMORY */
+static int32_t find_bounds(struct check *check) {
+  check->bound = malloc((size_t)hooke_method_count() * sizeof *check->bound);
+  if (check->bound == NULL) return HOOKE_NO_MEMORY;
+  return hooke_step_bounds(check->setup.system, hooke_state_position(check->setup.state), check->bound);
 }
 
 /* ---- warnings ---- */
@@ -61,7 +67,7 @@ static void warn_of_method(struct check *check) {
          method);
   } else if (step > bound) {
     warn(check, "the step of the run, %s s, is above %s s, up to which %s is certain to be stable",
-         hooke_format_number(step, taken), hooke_format_number(bound, limit), method);
+         hooke_format_rounded(step, taken), hooke_format_rounded(bound, limit), method);
   }
 }
 
@@ -127,7 +133,9 @@ static double bytes_per_particle(const struct check *check) {
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64 " bytes at the peak of a run", check->memory);
+  printf("memory       %" PRId64
+         " bytes at the peak of a run, without -o and without a factor of an implicit method",
+         check->memory);
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_spring_count(check->setup.system) > 0)
@@ -160,7 +168,7 @@ static void print_json(const struct check *check) {
   hooke_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
   hooke_json_open(&json, "step_limit", '{');
   for (int64_t i = 0; i < hooke_method_count(); i++) {
-    hooke_json_number(&json, hooke_method_name(i), bound_of(check, hooke_method_name(i)));
+    hooke_json_number(&json, hooke_method_name(i), check->bound[i]);
   }
   hooke_json_close(&json);
   hooke_json_open(&json, "warnings", '[');
@@ -188,7 +196,7 @@ static void print_limits(const struct check *check) {
   printf("largest step certain to be stable, at the start:\n");
   for (int64_t i = 0; i < hooke_method_count(); i++) {
     const char *name = hooke_method_name(i);
-    double bound = bound_of(check, name);
+    const double bound = check->bound[i];
     printf("  %-18s ", name);
     if (!hooke_method_is_built(name)) {
       printf("(not in this build)\n");
@@ -201,7 +209,7 @@ static void print_limits(const struct check *check) {
     } else if (bound == 0.0) {
       printf("none: stable at no step\n");
     } else {
-      printf("%s s\n", hooke_format_number(bound, text));
+      printf("%s s\n", hooke_format_rounded(bound, text));
     }
   }
 }
@@ -247,9 +255,10 @@ static void print_words(const struct check *check) {
 static int check_and_tell(struct check *check, struct hooke_peak loaded) {
   int code = hooke_peak_of_run(check->arguments, &check->setup, loaded, &check->memory, &check->counted);
   if (code != HOOKE_EXIT_DONE) return code;
-  warn_of_method(check);
+  int32_t status = find_bounds(check);
+  if (status == HOOKE_OK) warn_of_method(check);
   warn_of_coincident_springs(check);
-  int32_t status = warn_of_loose_particles(check);
+  if (status == HOOKE_OK) status = warn_of_loose_particles(check);
   if (status != HOOKE_OK) return hooke_report(check->arguments, hooke_exit_code(status), "out of memory");
   if (hooke_arguments_text(check->arguments, "cost"))
     code = hooke_cost_sheet_find(check->arguments, &check->setup, &check->cost);
@@ -267,6 +276,7 @@ static int do_check(const struct hooke_arguments *arguments) {
   int code = hooke_setup_load(arguments, &check.setup);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, hooke_peak_look());
   hooke_cost_destroy(check.cost);
+  free(check.bound);
   hooke_setup_destroy(&check.setup);
   return code;
 }

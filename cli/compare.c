@@ -125,7 +125,7 @@ static void print_words(const struct compare *compare) {
   int32_t width = hooke_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   hooke_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
-  printf(", %s s\n", hooke_format_number(hooke_options_number(compare->setup.options, "duration"), text));
+  printf(", %s s\n", hooke_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
   printf("reference: %s at tight tolerance\n\n", hooke_comparison_reference(compare->comparison));
   if (rows.count > 0) {
     print_errors(compare->comparison, width);

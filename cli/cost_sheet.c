@@ -110,7 +110,7 @@ void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) 
     if (is_known(cost, row) && length > width) width = length;
   }
   printf("cost of a step of %s, %s s, on this machine:\n", hooke_cost_method(cost),
-         hooke_format_number(hooke_cost_figure(cost, "step"), step));
+         hooke_format_rounded(hooke_cost_figure(cost, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_cost_row_count(cost) > 0) printf("  %-*s %38s %12s\n", width, "of this", "", "without it");

@@ -48,7 +48,7 @@ static void print_derived(const hooke_system *system) {
     printf("  ");
     hooke_print_text(stdout, text_of(system, i, "part"));
     printf("%s%s: %s %s%s%s\n", family ? "." : "", family ? family : "", text_of(system, i, "name"),
-           hooke_format_number(hooke_system_derived_value(system, i), number), unit[0] ? " " : "", unit);
+           hooke_format_rounded(hooke_system_derived_value(system, i), number), unit[0] ? " " : "", unit);
   }
 }
 

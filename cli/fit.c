@@ -44,7 +44,7 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
   *number = value;
   if (status != HOOKE_OK) return hooke_report_status(fit->arguments, status);
   if (!fit->arguments->quiet)
-    hooke_report_words(fit->arguments, "%s is %s s: %s", name, hooke_format_number(value, text), why);
+    hooke_report_words(fit->arguments, "%s is %s s: %s", name, hooke_format_rounded(value, text), why);
   return HOOKE_EXIT_DONE;
 }
 

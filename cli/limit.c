@@ -239,7 +239,7 @@ static void print_words(const struct limit *l) {
     if (length > width) width = length;
   }
   hooke_print_text(stdout, title_of(l));
-  printf(", at t = %s s\n", hooke_format_number(hooke_state_time(l->setup.state), text));
+  printf(", at t = %s s\n", hooke_format_rounded(hooke_state_time(l->setup.state), text));
   printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", hooke_limit_figure(limit, "frequency_max"),
          hooke_limit_figure(limit, "rate_max"));
   const double clamped = hooke_limit_figure(limit, "clamped");

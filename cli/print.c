@@ -3,13 +3,22 @@
 #include "hooke.h"
 
 #include <errno.h>
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+enum { ROUNDED_DIGITS = 6 };
+
+const char *hooke_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
+  snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", ROUNDED_DIGITS, value);
+  return text;
+}
+
 const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
-  for (int digits = 15; digits <= 17; digits++) {
+  /* to 15 digits every decimal survives, but in subnormal numbers, which have fewer */
+  for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", digits, value);
     if (strtod(text, NULL) == value) break;
   }

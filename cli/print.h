@@ -7,7 +7,10 @@
 
 enum { HOOKE_NUMBER_SIZE = 32, HOOKE_JSON_DEPTH = 8 };
 
-/* Writes the shortest of 15, 16 or 17 digits that read back to the same double into `text` and returns it. */
+/* For people: writes the number to 6 digits into `text` and returns it. What is known to fewer is printed with fewer. */
+const char *hooke_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]);
+
+/* For programs and for commands to type: as above, with the fewest digits that read back to the same double. */
 const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
 
 /* Text from outside, a title, a name or a file name, on one line: '?' for each character by which it could steer a terminal,

@@ -190,13 +190,13 @@ static void tell_end(const struct hooke_run *run) {
   }
   if (run->outcome == HOOKE_STOPPED) {
     hooke_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                       hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+                       hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
     if (run->output) hooke_resume_tell_how(arguments, run->output, run->kept_place);
     return;
   }
   hooke_report_words(arguments, "%s", run->message);
   hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
-                     hooke_format_number(hooke_state_time(run->setup.state), text), kept);
+                     hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
 }
 
 /* On standard error: why, and what to do. */
@@ -265,6 +265,13 @@ static void estimate(struct hooke_run *run) {
     hooke_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
 }
 
+/* Into the output, which is whole already. */
+static int write_estimate(const struct hooke_run *run) {
+  if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
+  const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+}
+
 static int run_and_tell(struct hooke_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
@@ -274,6 +281,8 @@ static int run_and_tell(struct hooke_run *run) {
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
   if (!run->arguments->json) hooke_want_print(run);
+  code = write_estimate(run);
+  if (code != HOOKE_EXIT_DONE) return code;
   hooke_run_print_final(run);
   if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
   if (run->arguments->json) hooke_run_print(run);

@@ -105,7 +105,7 @@ static void print_row(const char *label) {
 
 static void print_quantity(double value, const char *unit) {
   char text[HOOKE_NUMBER_SIZE];
-  printf("%s %s", hooke_format_number(value, text), unit);
+  printf("%s %s", hooke_format_rounded(value, text), unit);
 }
 
 static void print_count(const struct hooke_run *run, const char *label, const char *what) {
@@ -128,7 +128,7 @@ static void print_work(const struct hooke_run *run) {
   print_count(run, "error test failures", "error_test_failures");
   if (run->was_finished) return;
   print_row("wall time");
-  printf("%.4g s", seconds);
+  print_quantity(seconds, "s");
   if (springs > 0 && steps > 0) {
     printf(", %.3g ns per spring-step", 1e9 * seconds / (double)springs / (double)steps);
   }
@@ -140,7 +140,7 @@ static void print_method(const struct hooke_run *run) {
   print_row("method");
   printf("%s, ", hooke_run_method(run));
   if (is_adaptive(run)) {
-    printf("rtol %s, atol ", hooke_format_number(option_of(run, "rtol"), text));
+    printf("rtol %s, atol ", hooke_format_rounded(option_of(run, "rtol"), text));
     print_quantity(option_of(run, "atol"), "m\n");
   } else {
     printf("step ");
@@ -154,11 +154,11 @@ static void print_motion(const struct hooke_run *run) {
   print_row("energy");
   print_quantity(run->energy_before, "J before, ");
   print_quantity(run->energy_after, "J after");
-  printf(" (change %+.4g J)\n", run->energy_after - run->energy_before);
+  printf(" (change %+.6g J)\n", run->energy_after - run->energy_before);
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
   print_row("momentum");
   for (int i = 0; i < 3; i++)
-    printf("%s ", hooke_format_number(momentum[i], text));
+    printf("%s ", hooke_format_rounded(momentum[i], text));
   printf("kg m/s\n");
 }
 
@@ -194,9 +194,9 @@ static void print_final(const struct hooke_run *run) {
   for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
     printf("%" PRId64, i);
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_number(q[3 * i + k], text));
+      printf(" %s", hooke_format_rounded(q[3 * i + k], text));
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_number(v[3 * i + k], text));
+      printf(" %s", hooke_format_rounded(v[3 * i + k], text));
     printf("\n");
   }
 }

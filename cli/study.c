@@ -74,6 +74,10 @@ int32_t hooke_study_results_recommend(const struct hooke_study_results *results)
   return recommended(results, "met") == 1.0 || !results->interrupted;
 }
 
+int32_t hooke_study_results_trust_all(const hooke_study *study) {
+  return hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "duration") * (1.0 - 1e-9);
+}
+
 /* NULL where the number does not apply. */
 static const char *setting(const struct hooke_study_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
@@ -162,7 +166,8 @@ static int tell(struct hooke_study_results *results, const char *output) {
   if (found != HOOKE_OK) return hooke_report_missing_words(arguments);
   if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
   const int32_t made = hooke_study_recommendation_text(results->study, "note") != NULL;
-  return made && recommended(results, "met") != 1.0 ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
+  const int32_t met = recommended(results, "met") == 1.0 && hooke_study_results_trust_all(results->study);
+  return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
 static int do_study(const struct hooke_arguments *arguments) {

@@ -64,14 +64,17 @@ static void print_recommendation(struct hooke_json *json, const struct hooke_stu
     hooke_json_text(json, "recommendation", NULL);
     return;
   }
-  int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
+  const int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
   hooke_json_open(json, "recommendation", '{');
   hooke_json_number(json, "want", hooke_study_recommendation_number(study, "want"));
   hooke_json_text(json, "method", hooke_study_recommendation_text(study, "method"));
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
     hooke_json_number(json, numbers[i], hooke_study_recommendation_number(study, numbers[i]));
   hooke_json_text(json, "command", met ? results->command : NULL);
-  hooke_json_flag(json, "met", met);
+  if (met && !hooke_study_results_trust_all(study))
+    hooke_json_text(json, "met", NULL); /* beyond that time nobody can know */
+  else
+    hooke_json_flag(json, "met", met);
   hooke_json_text(json, "note", hooke_study_recommendation_text(study, "note"));
   hooke_json_number(json, "atol", hooke_study_recommendation_number(study, "atol"));
   hooke_json_number(json, "force_evaluations", hooke_study_recommendation_number(study, "force_evaluations"));

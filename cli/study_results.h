@@ -24,4 +24,7 @@ int32_t hooke_study_results_recommend(const struct hooke_study_results *results)
 void hooke_study_results_print(const struct hooke_study_results *results);
 void hooke_study_results_print_json(const struct hooke_study_results *results);
 
+/* 1 if the reference, and with it every error, is trusted up to the end of the run. */
+int32_t hooke_study_results_trust_all(const hooke_study *study);
+
 #endif

@@ -157,6 +157,15 @@ static void print_quantity(const struct hooke_study_results *results, int32_t me
 static void print_ensemble(const struct hooke_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
   char text[TEXT_SIZE];
+  if (isnan(hooke_study_figure(study, "statistics_from"))) {
+    snprintf(text, sizeof text, "none came to its end, of %.0f runs of each method%s",
+             hooke_study_figure(study, "members"),
+             hooke_study_figure(study, "budget_spent") == 1.0 ? "; a larger --budget leaves time for them"
+                                                              : "");
+    printf("\n");
+    print_words("statistics", text);
+    return;
+  }
   snprintf(text, sizeof text,
            "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each method, "
            "whose "
@@ -178,7 +187,7 @@ static void print_ensemble(const struct hooke_study_results *results, int32_t me
 void hooke_study_statistics_print(const struct hooke_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
   const double until = hooke_study_figure(study, "trusted_until");
-  const int32_t whole = until >= hooke_study_figure(study, "duration") * (1.0 - 1e-9);
+  const int32_t whole = hooke_study_results_trust_all(study);
   const char *asked = hooke_arguments_text(results->arguments, "ensemble");
   char text[TEXT_SIZE];
   if (hooke_study_figure(study, "members") > 0.0) {

@@ -67,10 +67,10 @@ static void print_growth(const hooke_study *study) {
 static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
   double duration = hooke_study_figure(study, "duration");
+  const int32_t whole = hooke_study_results_trust_all(study);
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
-  hooke_format_number(until, time);
-  hooke_format_number(duration, all);
-  int32_t whole = until >= duration * (1.0 - 1e-9);
+  hooke_format_rounded(until, time);
+  hooke_format_rounded(duration, all);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
              "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
@@ -160,12 +160,12 @@ static void print_recommendation(const struct hooke_study_results *results) {
   double want = hooke_study_recommendation_number(study, "want");
   int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
   char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
-  hooke_format_number(want, text);
-  hooke_format_number(hooke_study_figure(study, "trusted_until"), time);
+  hooke_format_rounded(want, text);
+  hooke_format_rounded(hooke_study_figure(study, "trusted_until"), time);
   printf("\n");
   if (met) {
-    print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s:", text,
-               time);
+    print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
+               time, hooke_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
   } else {
     print_fact("recommendation", "none for an error of at most %s m: %s", text,
                hooke_study_recommendation_text(study, "note"));
@@ -200,7 +200,7 @@ void hooke_study_results_print(const struct hooke_study_results *results) {
   int32_t width = hooke_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   hooke_print_text(stdout, title && title[0] ? title : arguments->scene);
-  printf(", %s s\n", hooke_format_number(hooke_study_figure(results->study, "duration"), text));
+  printf(", %s s\n", hooke_format_rounded(hooke_study_figure(results->study, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
     printf("\n");

@@ -141,3 +141,23 @@ const char *hooke_value_example(const hooke_options *table, int64_t row, char te
   }
   return text;
 }
+
+int hooke_value_of_study(const struct hooke_arguments *arguments, const char *name, const char *base,
+                         double *value) {
+  const char *text = hooke_arguments_text(arguments, name);
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  hooke_options *options = NULL;
+  if (!text) return HOOKE_EXIT_DONE;
+  char *plain = hooke_unit_read(text, base, word);
+  if (!plain) {
+    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name,
+                        text, word, hooke_unit_list(base, list));
+  }
+  int32_t status = hooke_study_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
+  if (status == HOOKE_OK) *value = hooke_options_number(options, name);
+  hooke_options_destroy(options);
+  free(plain);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE
+                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
+}

@@ -14,6 +14,11 @@ int hooke_value_read(const struct hooke_arguments *arguments, struct hooke_argum
 /* Gives `argument->value` to its table. */
 int hooke_value_set(const struct hooke_arguments *arguments, const struct hooke_argument *argument);
 
+/* The number in `base` ("m" or "s") given as --`name`, an option of studies, whose table knows what is allowed, where the verb has
+ * it as words; `value` stays as it is where it is not given. A failure is reported and gives the exit code. */
+int hooke_value_of_study(const struct hooke_arguments *arguments, const char *name, const char *base,
+                         double *value);
+
 enum { HOOKE_EXAMPLE_SIZE = 128 };
 
 /* The example of a row as it is typed ("1,0,0;0,0,1", "16x16"), "" if it has none. Returns `text`. */

@@ -1,7 +1,7 @@
 #include "want.h"
 
 #include "report.h"
-#include "unit.h"
+#include "value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,25 +10,7 @@
 
 static const double MOST_RISE = 0.01; /* of what the scene has: from there on energy grows by itself */
 
-/* ---- reading ---- */
-
-/* The length of --want [m]; the option table of a study knows what is allowed. */
-static int read_want(const struct hooke_arguments *arguments, const char *text, double *want) {
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  char *value = hooke_unit_read(text, "m", word);
-  if (!value) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--want %s: there is no unit '%s'; allowed: %s", text,
-                        word, hooke_unit_list("m", list));
-  }
-  hooke_options *options = NULL;
-  int32_t status = hooke_study_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "want", value);
-  if (status == HOOKE_OK) *want = hooke_options_number(options, "want");
-  hooke_options_destroy(options);
-  free(value);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
-}
+/* ---- picking ---- */
 
 static int refuse_typed(const struct hooke_arguments *arguments) {
   static const char *const chosen[] = {"step", "rtol", "atol", "atol_velocity"};
@@ -42,8 +24,6 @@ static int refuse_typed(const struct hooke_arguments *arguments) {
   return HOOKE_EXIT_DONE;
 }
 
-/* ---- picking ---- */
-
 static void tell_choice(const struct hooke_run *run, const char *done, const char *want) {
   const hooke_options *options = run->setup.options;
   const char *method = hooke_options_text(options, "method");
@@ -51,7 +31,7 @@ static void tell_choice(const struct hooke_run *run, const char *done, const cha
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
   hooke_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
-                     hooke_format_number(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
+                     hooke_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                      adaptive ? "" : " s");
 }
 
@@ -61,7 +41,7 @@ int hooke_want_pick(struct hooke_run *run) {
   double want = NAN;
   int code = text ? hooke_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = read_want(arguments, text, &want);
+  if (code == HOOKE_EXIT_DONE && text) code = hooke_value_of_study(arguments, "want", "m", &want);
   if (code != HOOKE_EXIT_DONE) return code;
   if (!text && (run->resumed || hooke_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
   int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);

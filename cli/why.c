@@ -4,7 +4,7 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "unit.h"
+#include "value.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -139,7 +139,7 @@ static void print_number(const char *label, double value, const char *unit) {
   if (isinf(value))
     printf("%-12snone\n", label);
   else
-    printf("%-12s%s %s\n", label, hooke_format_number(value, text), unit);
+    printf("%-12s%s %s\n", label, hooke_format_rounded(value, text), unit);
 }
 
 static void print_springs(const hooke_why *found) {
@@ -174,7 +174,7 @@ static int32_t print_words(const struct why *why) {
   if (!found) {
     printf("the run did not blow up: it is '");
     hooke_print_text(stdout, why->status);
-    printf("' at t = %s s\n", hooke_format_number(why->time, text));
+    printf("' at t = %s s\n", hooke_format_rounded(why->time, text));
     return HOOKE_OK;
   }
   printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));
@@ -224,29 +224,9 @@ static int find_out(struct why *why) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_missing_words(arguments);
 }
 
-/* The time of --budget; the option table of a study knows what is allowed. */
-static int read_budget(const struct hooke_arguments *arguments, double *budget) {
-  const char *text = hooke_arguments_text(arguments, "budget");
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  if (!text) return HOOKE_EXIT_DONE;
-  char *value = hooke_unit_read(text, "s", word);
-  if (!value) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget %s: there is no unit '%s'; allowed: %s", text,
-                        word, hooke_unit_list("s", list));
-  }
-  hooke_options *options = NULL;
-  int32_t status = hooke_study_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "budget", value);
-  if (status == HOOKE_OK) *budget = hooke_options_number(options, "budget");
-  hooke_options_destroy(options);
-  free(value);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--budget: %s", hooke_last_error());
-}
-
 static int do_why(const struct hooke_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
-  int code = read_budget(arguments, &why.budget);
+  int code = hooke_value_of_study(arguments, "budget", "s", &why.budget);
   if (code == HOOKE_EXIT_DONE) code = hooke_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_why_destroy(why.why);

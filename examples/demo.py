@@ -2,7 +2,8 @@
 
     python demo.py HOOKE FOLDER
 
-HOOKE is the program; FOLDER receives cloth-16.h5 (every run, the table, the error over time) and cloth-16.png.
+HOOKE is the program; FOLDER receives cloth-16.h5 (every run, the table, the error over time) and cloth-16.png. After its
+second the Euler methods are millimetres off at their step, verlet a tenth of one, the others micrometres or less.
 """
 
 import subprocess
@@ -70,6 +71,15 @@ def draw(path, picture):
     plt.close(figure)
 
 
+def at_the_end(path):
+    """How far off each method is at its step or tolerance, the best one first."""
+    with h5py.File(path) as file:
+        table = file["comparison"]
+        errors = dict(zip(table["method"].asstr()[:], table["error_final"][:]))
+    order = sorted((error, method) for method, error in errors.items() if error == error)
+    return "off at the end: " + ", ".join(f"{method} {1e3 * error:.2g} mm" for error, method in order)
+
+
 def main(program, folder):
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -78,7 +88,7 @@ def main(program, folder):
     if done.returncode != 0:
         return done.returncode
     draw(data, picture)
-    print(f"picture: {picture}")
+    print(f"{at_the_end(data)}\npicture: {picture}")
     return 0
 
 

@@ -4,6 +4,7 @@ module hooke_estimates
     c_ptr
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_estimate
+  use hooke_c_io, only: c_estimate_write_h5
   use hooke_handles, only: hooke_handle
   use hooke_integrators, only: hooke_integrator
   use hooke_observers, only: call_progress, hooke_progress, progress_holder
@@ -25,6 +26,7 @@ module hooke_estimates
     procedure :: see
     procedure :: measure
     procedure :: refine
+    procedure :: write_h5
     procedure :: number
     procedure :: text
     procedure, private :: assign
@@ -110,6 +112,15 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     call accept(c_estimate_refine(self%address(), run%address()), status)
+  end subroutine
+
+  ! Adds it to the trajectory file that the run wrote.
+  subroutine write_h5(self, path, status)
+    class(hooke_estimate), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_estimate_write_h5(self%address(), to_c(path)), status)
   end subroutine
 
   real(c_double) function number(self, what)

@@ -7,7 +7,8 @@ module hooke_systems
     to_series, to_text, zero_based
   use hooke_builders, only: hooke_builder
   use hooke_c_io, only: c_scene_write
-  use hooke_c_measure, only: c_step_bound
+  use hooke_c_integrator, only: c_method_count
+  use hooke_c_measure, only: c_step_bound, c_step_bounds
   use hooke_c_system
   use hooke_option_tables, only: hooke_options, options_or_null
   implicit none
@@ -67,6 +68,7 @@ module hooke_systems
     procedure :: momentum
     procedure :: angular_momentum
     procedure :: step_bound
+    procedure :: step_bounds
     procedure :: write_scene
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -513,6 +515,17 @@ contains
     found = 0
     call accept(c_step_bound(self%address(), to_c(method), q, found), status)
     bound = found(1)
+  end subroutine
+
+  ! The same of every method, in the order of hooke_method_name().
+  subroutine step_bounds(self, q, bounds, status)
+    class(hooke_system), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    real(c_double), allocatable, intent(out) :: bounds(:)
+    integer, intent(out), optional :: status
+    allocate (bounds(c_method_count()), source=0.0_c_double)
+    if (.not. suits(self, status, q)) return
+    call accept(c_step_bounds(self%address(), q, bounds), status)
   end subroutine
 
   ! Writes the committed system as a scene file, with the options of a run.

@@ -6,6 +6,7 @@
 #define HOOKE_IO_H
 
 #include "build.h"
+#include "estimate.h"
 #include "integrator.h"
 #include "limit.h"
 #include "measure.h"
@@ -126,6 +127,11 @@ HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
  * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 
+/* Adds what is known of the error of a run to the trajectory file that it wrote, which is closed already: /hooke/error and its
+ * texts, see docs/trajectory.md. The file is whole before, and whatever comes between. HOOKE_BAD_VALUE for a file without room
+ * for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
+
 /* ---- trajectories read back ---- */
 
 typedef struct hooke_record hooke_record;
@@ -137,7 +143,7 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped", "diverged",
  * "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run() says, "" if an earlier version
- * wrote it; "version", "sundials", "cholmod", "instructions", "machine": what made the file, as hooke_build_fact() has it, "" where
+ * wrote it; "error_by" and "error_note": as hooke_estimate_text() has them, "" where nothing is known of the error; "version", "sundials", "cholmod", "instructions", "machine": what made the file, as hooke_build_fact() has it, "" where
  * it does not say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, as it ran; valid as long as the record. */
@@ -157,7 +163,8 @@ HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 /* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies rows x columns
  * numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of docs/trajectory.md, of all
  * frames that the file was made for (the first hooke_record_frame_count() are there); one a spring: "springs", its two ends;
- * one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2 driven). HOOKE_BAD_VALUE for another word, or if the file has
+ * one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2 driven). "error": the error of the run, NaN as far as it is not
+ * known, in the order of docs/trajectory.md. HOOKE_BAD_VALUE for another word, or if the file has
  * no such array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);

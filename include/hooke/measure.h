@@ -17,6 +17,9 @@ extern "C" {
  * docs/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
+/* The same of every method at once, hooke_method_count() numbers in the order of hooke_method_name(), for one pass over the
+ * springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 
 /* ---- comparison ----
  * One scene by several methods against CVODE at tight tolerance. A comparison belongs to one thread at a

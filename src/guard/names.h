@@ -85,6 +85,7 @@
 #define hooke_trajectory_sync hooke_unchecked_trajectory_sync
 #define hooke_trajectory_run hooke_unchecked_trajectory_run
 #define hooke_trajectory_close hooke_unchecked_trajectory_close
+#define hooke_estimate_write_h5 hooke_unchecked_estimate_write_h5
 #define hooke_record_open hooke_unchecked_record_open
 #define hooke_record_close hooke_unchecked_record_close
 #define hooke_record_text hooke_unchecked_record_text
@@ -130,6 +131,7 @@
 #define hooke_limit_shape hooke_unchecked_limit_shape
 #define hooke_limit_of_mode hooke_unchecked_limit_of_mode
 #define hooke_step_bound hooke_unchecked_step_bound
+#define hooke_step_bounds hooke_unchecked_step_bounds
 #define hooke_comparison_create hooke_unchecked_comparison_create
 #define hooke_comparison_destroy hooke_unchecked_comparison_destroy
 #define hooke_comparison_add hooke_unchecked_comparison_add

@@ -73,7 +73,7 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   hooke_sundials_load(it, state);
   if (ARKStepReInit(own->memory, NULL, hooke_sundials_slope, *state->t, own->y) == ARK_SUCCESS)
     return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "ARKODE could not start at t = %.17g s: %s", *state->t,
+  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "ARKODE could not start at t = %.6g s: %s", *state->t,
                     own->message);
 }
 

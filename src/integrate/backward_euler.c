@@ -233,7 +233,7 @@ static int32_t give_up(const hooke_integrator *it, int iterations, double first,
                        const char *why) {
   return hooke_fail(
       HOOKE_SOLVER_FAILED, NULL,
-      "backward-euler found no solution for the step from t = %.17g s: after %d Newton iterations %s "
+      "backward-euler found no solution for the step from t = %.6g s: after %d Newton iterations %s "
       "(residual %.3g, at first %.3g, in units of momentum over root mass); take a smaller step, or "
       "newton one-iteration",
       it->t, iterations, why, sqrt(square), sqrt(first));

@@ -60,7 +60,8 @@ static int32_t create(hooke_integrator *it) {
   const int highest = is_bdf(it) ? BDF_ORDER : ADAMS_ORDER;
   int order;
   int32_t status = hooke_sundials_order(it, 1, highest, &order);
-  if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + highest);
+  /* counted as far as a run of middling order touches its history */
+  if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
   if (status == HOOKE_OK && is_bdf(it)) status = hooke_order_choice_create(it);
   if (status != HOOKE_OK) return status;
   struct hooke_sundials *own = it->own;
@@ -74,7 +75,7 @@ static int32_t start(hooke_integrator *it, double t) {
   if (flag == CV_SUCCESS && own->choice)
     flag = CVodeSetMaxOrd(own->memory, own->choice->low ? LOW_ORDER : BDF_ORDER);
   if (flag == CV_SUCCESS) return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.17g s: %s", t, own->message);
+  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.6g s: %s", t, own->message);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
@@ -128,7 +129,7 @@ static int32_t step(hooke_integrator *it) {
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   struct hooke_sundials *own = it->own;
   if (CVodeGetDky(own->memory, t, 0, own->y) != CV_SUCCESS) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.17g s: %s", t, own->message);
+    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.6g s: %s", t, own->message);
   }
   return hooke_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }

@@ -119,7 +119,7 @@ static int32_t pass(hooke_integrator *it, const hooke_state *state) {
   if (it->checker.look == NULL) return HOOKE_OK;
   it->stop_value = it->checker.look(it, state, it->checker.own);
   if (it->stop_value == 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "a warning callback returned %d at t = %.17g s", (int)it->stop_value,
+  return hooke_fail(HOOKE_STOPPED, NULL, "a warning callback returned %d at t = %.6g s", (int)it->stop_value,
                     *state->t);
 }
 
@@ -136,13 +136,13 @@ int32_t hooke_divergence_check(hooke_integrator *it, hooke_state *state, int32_t
   if (!finite) {
     return hooke_fail(
         HOOKE_DIVERGED, NULL,
-        "the run diverged: a position or velocity is not finite at t = %.17g s; the state kept is that of "
-        "t = %.17g s; try %s",
+        "the run diverged: a position or velocity is not finite at t = %.6g s; the state kept is that of "
+        "t = %.6g s; try %s",
         t, *state->t, advice(it));
   }
   return hooke_fail(
       HOOKE_DIVERGED, NULL,
-      "the run diverged: at t = %.17g s the energy has risen from %g to %g J, over 100 times what the scene "
-      "had; the state kept is that of t = %.17g s; try %s",
+      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "
+      "had; the state kept is that of t = %.6g s; try %s",
       t, it->energy0 + it->gravity0, energy, *state->t, advice(it));
 }

@@ -89,7 +89,7 @@ int32_t hooke_integrator_rate(hooke_integrator *it, double t, const double *x, d
   const int32_t value = it->rate(it->size, t, x, slope, it->rate_ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.17g s", (int)value, t);
+  return hooke_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.6g s", (int)value, t);
 }
 
 int32_t hooke_fixed_begin(hooke_integrator *it, const hooke_state *state) {

@@ -448,7 +448,7 @@ int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hoo
   const hooke_integrator *it = reduced->integrator;
   return hooke_fail(
       HOOKE_SOLVER_FAILED, NULL,
-      "%s could not solve the linear equations of the step from t = %.17g s: the residual is %.3g of the "
+      "%s could not solve the linear equations of the step from t = %.6g s: the residual is %.3g of the "
       "right-hand side after %lld iterations; take a smaller step",
       it->method->name, it->t, solution->residual, (long long)solution->iterations);
 }

@@ -99,7 +99,7 @@ static int32_t start(hooke_integrator *it, struct hooke_rk8pd *own) {
   const int answer = hooke_unknowns_slope(it, &own->unknowns, it->t, own->y, own->slope);
   if (answer == HOOKE_SLOPE_STOPPED) return HOOKE_STOPPED;
   if (answer == HOOKE_SLOPE_NOT_FINITE) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "rk8pd cannot start at t = %.17g s: a force is not finite",
+    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "rk8pd cannot start at t = %.6g s: a force is not finite",
                       it->t);
   }
   const double size = weighed(own, own->y), rate = weighed(own, own->slope);
@@ -144,7 +144,7 @@ static int32_t step(hooke_integrator *it) {
     if (!(end > it->t)) {
       return hooke_fail(
           HOOKE_SOLVER_FAILED, NULL,
-          "rk8pd gave up at t = %.17g s: its step would be %.3g s, too small to change the time; "
+          "rk8pd gave up at t = %.6g s: its step would be %.3g s, too small to change the time; "
           "loosen rtol and atol, or look for a force that is not finite",
           it->t, own->step);
     }

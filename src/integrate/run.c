@@ -58,7 +58,7 @@ int32_t hooke_run_observe(hooke_integrator *it, const struct hooke_watch *watch,
   const int32_t value = watch->observer(it->k, state, watch->ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hooke_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.17g s", (int)value, *state->t);
+  return hooke_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.6g s", (int)value, *state->t);
 }
 
 int32_t hooke_run_report(hooke_integrator *it, const hooke_state *state) {

@@ -120,7 +120,7 @@ static int32_t report_frames(hooke_integrator *it, hooke_state *state, double t,
 
 static int32_t refuse_duration(const hooke_integrator *it) {
   return hooke_fail(HOOKE_BAD_VALUE, "duration",
-                    "%.17g s does not change the time t = %.17g s; take a longer one, or a fixed-step method",
+                    "%.6g s does not change the time t = %.6g s; take a longer one, or a fixed-step method",
                     it->schedule.duration, it->t0);
 }
 
@@ -138,7 +138,7 @@ static int32_t refuse_more_steps(hooke_integrator *it, int64_t limit, hooke_stat
   if (status != HOOKE_OK) return status;
   return hooke_fail(
       HOOKE_STEP_LIMIT, NULL,
-      "the run used up max_steps = %lld at t = %.17g s; give it more steps, or try looser tolerances",
+      "the run used up max_steps = %lld at t = %.6g s; give it more steps, or try looser tolerances",
       (long long)limit, it->t);
 }
 

@@ -1,9 +1,11 @@
 /* Options of a run, and the schedule that follows from them. */
 #include "integrate/integrator.h"
 
+#include "core/number.h"
 #include "core/status.h"
 
 #include <math.h>
+#include <string.h>
 
 static const struct hooke_option_row run_rows[] = {
     {.name = "method",
@@ -127,21 +129,21 @@ static double fitting_step(double value, double other, double step, int larger) 
   return NAN;
 }
 
+/* With every digit: the steps are there to be typed. */
 static int32_t refuse_step(const char *name, double value, double other, double step) {
   const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
-  if (isnan(above) && isnan(below)) {
-    return hooke_fail(HOOKE_BAD_VALUE, name,
-                      "%.17g s is not a whole multiple of step %.17g s; no step near it fits", value, step);
-  }
-  if (isnan(above) || isnan(below) || above == below) {
-    return hooke_fail(HOOKE_BAD_VALUE, name,
-                      "%.17g s is not a whole multiple of step %.17g s; the nearest step that fits is %.17g",
-                      value, step, isnan(below) ? above : below);
-  }
-  return hooke_fail(
-      HOOKE_BAD_VALUE, name,
-      "%.17g s is not a whole multiple of step %.17g s; the nearest steps that fit are %.17g and %.17g",
-      value, step, below, above);
+  char given[2][HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
+  hooke_number_print(value, given[0]);
+  hooke_number_print(step, given[1]);
+  hooke_number_print(isnan(below) ? above : below, low);
+  hooke_number_print(isnan(above) ? below : above, high);
+  const int32_t none = isnan(above) && isnan(below), one = none || strcmp(low, high) == 0;
+  return hooke_fail(HOOKE_BAD_VALUE, name, "%s s is not a whole multiple of step %s s; %s%s%s%s", given[0],
+                    given[1],
+                    none  ? "no step near it fits"
+                    : one ? "the nearest step that fits is "
+                          : "the nearest steps that fit are ",
+                    none ? "" : low, one ? "" : " and ", one ? "" : high);
 }
 
 static int32_t read_fixed(struct hooke_schedule *s, double step) {
@@ -180,7 +182,7 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
   }
   const double frames = method->adaptive ? floor(s->duration / s->every * (1.0 + 1e-9)) : 0.0;
   if (frames > 9e15) {
-    return hooke_fail(HOOKE_BAD_VALUE, "every", "%.17g s gives %g frames; allowed: up to 9e15", s->every,
+    return hooke_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every,
                       frames);
   }
   /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1 on */

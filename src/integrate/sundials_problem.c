@@ -124,12 +124,12 @@ int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int fla
   if (own->spare.taken || own->no_memory || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
-                      "%s gave up at t = %.17g s: %.*s; try other tolerances, or a fixed-step method", solver,
+                      "%s gave up at t = %.6g s: %.*s; try other tolerances, or a fixed-step method", solver,
                       it->t, complaint_length(own->message), own->message);
   }
   if (!(reached > it->t)) {
     return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
-                      "%s gave up at t = %.17g s: its step is too small to change the time; try looser "
+                      "%s gave up at t = %.6g s: its step is too small to change the time; try looser "
                       "tolerances or a fixed-step method",
                       solver, it->t);
   }

@@ -35,7 +35,7 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state,
   const double t = standing->t;
   if ((*from)->size != it->size || (*from)->has_v != (it->system != NULL) ||
       memcmp(&t, (*from)->t, sizeof t) != 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.17g s", t);
+    return hooke_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.6g s", t);
   }
   if (hooke_all_finite(((*from)->has_v ? 2 : 1) * (*from)->size, (*from)->q)) return HOOKE_OK;
   return hooke_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");

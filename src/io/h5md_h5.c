@@ -5,12 +5,14 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/bytes.h"
+#include "io/error_h5.h"
 #include "io/h5md_h5.h"
 #include "io/object_h5.h"
 #include "io/place.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -114,6 +116,20 @@ herr_t hooke_h5md_write_run(hid_t file, const char *run) {
   return result;
 }
 
+herr_t hooke_h5md_write_error_room(hid_t file) {
+  const hsize_t count = HOOKE_ERROR_COUNT;
+  const double unknown = NAN;
+  hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
+  hid_t numbers = group < 0 ? -1 : hooke_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
+  herr_t result =
+      numbers < 0 ? -1 : hooke_h5_text_attributes(numbers, "numbers", HOOKE_ERROR_COUNT, hooke_error_number);
+  if (result >= 0) result = write_text(group, "error_by", HOOKE_ERROR_BY, "");
+  if (result >= 0) result = write_text(group, "error_note", HOOKE_ERROR_NOTE, "");
+  hooke_h5_drop(numbers);
+  hooke_h5_drop(group);
+  return result;
+}
+
 /* Says which particles the numbers of the springs mean. */
 herr_t hooke_h5md_refer(hid_t file, const char *group) {
   hobj_ref_t reference;
@@ -188,13 +204,17 @@ static const char *outcome_word(int32_t outcome) {
   }
 }
 
-herr_t hooke_h5md_find_status(hid_t file, int64_t *at) {
-  hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
+int64_t hooke_h5md_place(hid_t file, const char *name, hsize_t bytes) {
+  hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
   const haddr_t first = dataset < 0 ? HADDR_UNDEF : H5Dget_offset(dataset);
-  const int fits = first != HADDR_UNDEF && H5Dget_storage_size(dataset) == STATUS_LENGTH;
+  const int fits = first != HADDR_UNDEF && H5Dget_storage_size(dataset) == bytes;
   hooke_h5_drop(dataset);
-  *at = fits ? (int64_t)first : -1;
-  return fits ? 0 : -1;
+  return fits ? (int64_t)first : -1;
+}
+
+herr_t hooke_h5md_find_status(hid_t file, int64_t *at) {
+  *at = hooke_h5md_place(file, "hooke/status", STATUS_LENGTH);
+  return *at < 0 ? -1 : 0;
 }
 
 int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {

@@ -5,6 +5,7 @@
  * `scene`: the text of the scene;
  * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
  *   /hooke/rest_length       [springs]
+ *   /hooke/error             of a single run: HOOKE_ERROR_NUMBERS, NaN until they are known; texts `error_by`, `error_note`
  *   /particles/<group>       frames (recording_h5.h)
  *   /connectivity/springs    [springs][2] particle numbers
  *   /observables             frames (recording_h5.h)
@@ -39,6 +40,12 @@ herr_t hooke_h5md_write_run(hid_t file, const char *run);
  * the particles group is there. */
 herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy);
 herr_t hooke_h5md_refer(hid_t file, const char *group);
+
+/* Room for the error of a run. Negative on failure. */
+herr_t hooke_h5md_write_error_room(hid_t file);
+
+/* Where in the file an array of so many bytes is; -1 if there is none. */
+int64_t hooke_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
 /* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a
  * status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's error. */

@@ -19,11 +19,9 @@
 static int32_t find_dataset(const char *what, char *dataset, size_t room) {
   static const struct {
     const char *what, *dataset;
-  } known[] = {{"time", "/particles/all/position/time"},
-               {"step", "/particles/all/position/step"},
-               {"springs", "/connectivity/springs"},
-               {"mass", "/particles/all/mass"},
-               {"species", "/particles/all/species"}};
+  } known[] = {{"time", "/particles/all/position/time"}, {"step", "/particles/all/position/step"},
+               {"springs", "/connectivity/springs"},     {"mass", "/particles/all/mass"},
+               {"species", "/particles/all/species"},    {"error", "/hooke/error"}};
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
     if (strcmp(what, known[k].what) != 0) continue;
     snprintf(dataset, room, "%s", known[k].dataset);
@@ -34,11 +32,10 @@ static int32_t find_dataset(const char *what, char *dataset, size_t room) {
     snprintf(dataset, room, "/observables/%s/value", what);
     return HOOKE_OK;
   }
-  return hooke_fail(
-      HOOKE_BAD_VALUE, NULL,
-      "a trajectory has no \"%.80s\"; allowed: time, step, springs, mass, species, or a quantity "
-      "such as kinetic_energy",
-      what);
+  return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                    "a trajectory has no \"%.80s\"; allowed: time, step, springs, mass, species, error, or a "
+                    "quantity such as kinetic_energy",
+                    what);
 }
 
 static void drop_kept(hooke_record *record) {

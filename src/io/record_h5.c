@@ -149,6 +149,8 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   hid_t group = hooke_h5_open_own(file, "hooke"), options = hooke_h5_open_own(group, "options");
   int32_t status = read_text(group, "scene", &record->scene);
   if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
+  if (status == HOOKE_OK) status = read_text(group, "error_by", &record->error_by);
+  if (status == HOOKE_OK) status = read_text(group, "error_note", &record->error_note);
   record->run = read_attribute(group, "run");
   if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
   for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
@@ -223,6 +225,8 @@ void hooke_record_close(hooke_record *record) {
   hooke_free(record->scene);
   hooke_free(record->status);
   hooke_free(record->run);
+  hooke_free(record->error_by);
+  hooke_free(record->error_note);
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     hooke_free(record->fact[k]);
   hooke_free(record->time);
@@ -233,6 +237,8 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
+  if (strcmp(what, "error_by") == 0) return record->error_by ? record->error_by : "";
+  if (strcmp(what, "error_note") == 0) return record->error_note ? record->error_note : "";
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;

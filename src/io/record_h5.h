@@ -12,7 +12,7 @@ enum { HOOKE_RECORD_FACTS = 5 };
 
 struct hooke_record {
   char *fact[HOOKE_RECORD_FACTS]; /* what made the file: "" where it does not say */
-  char *path, *scene, *status, *run;
+  char *path, *scene, *status, *run, *error_by, *error_note;
   hooke_options *options; /* of a run, as they were stored */
   int32_t is_run;
   int64_t frame_count;

@@ -62,6 +62,7 @@ static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_
   herr_t result =
       hooke_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
   if (result >= 0) result = hooke_h5md_write_run(made->file.id, made->run);
+  if (result >= 0) result = hooke_h5md_write_error_room(made->file.id);
   if (result >= 0) result = hooke_recording_create(made->file.id, system, "all", frames, &made->recording);
   if (result >= 0) result = hooke_h5md_connect(made->file.id, system, "all");
   if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");

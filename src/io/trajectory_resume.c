@@ -133,7 +133,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
   hooke_trajectory_keep(going->trajectory, frames);
-  hooke_print(going->origin, sizeof going->origin, "%s at t = %.17g s: %s",
+  hooke_print(going->origin, sizeof going->origin, "%s at t = %.6g s: %s",
               frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
@@ -151,7 +151,7 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
                                      &going->trajectory);
     if (status == HOOKE_OK) {
       hooke_recent_set_first(&going->integrator->recent, going->first);
-      hooke_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.17g s", *going->state->t);
+      hooke_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
     going->integrator->count = (struct hooke_counts){0}; /* those of the checkpoint are of another place */

@@ -115,20 +115,33 @@ static int32_t tell(const hooke_cost *cost, double done, const char *what) {
 
 /* ---- finding ---- */
 
-/* NaN where this build, the method or these numbers have none. */
-static int32_t find_limit(const hooke_cost *cost, const hooke_system *system, const hooke_state *state,
+/* NaN where this build, the method or these numbers have none, or the time is up. */
+static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const hooke_state *state,
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
-  const int32_t status = hooke_limit_predict(system, q, cost->method, NULL, NULL, ACCURACY, limit);
+  const int32_t status =
+      hooke_limit_predict_within(system, q, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->patience, limit);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+}
+
+/* The first one, in the share of the budget that is not for the timing. */
+static int32_t find_first_limit(hooke_cost *cost, const hooke_state *state) {
+  hooke_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
+  const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
+  (void)hooke_patience_take_back(&cost->patience);
+  return status;
 }
 
 /* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers that are not
  * finite may. */
-static int32_t choose_step(hooke_cost *cost) {
-  double step = cost->run_step;
-  if (cost->limit > 0.0) step = fmin(step, cost->limit); /* also if there is none */
+static int32_t choose_step(hooke_cost *cost, const hooke_state *state) {
+  const double *q = hooke_state_position((hooke_state *)state);
+  double step = cost->run_step, safe = cost->limit;
+  const int32_t status =
+      isnan(safe) ? hooke_step_bound(cost->system, cost->method, q, &safe) : HOOKE_OK; /* one pass */
+  if (status != HOOKE_OK) return status;
+  if (safe > 0.0) step = fmin(step, safe); /* also if there is none */
   if (!isfinite(step)) step = SOME_STEP;
   cost->step = step;
   return hooke_options_set_number(cost->run, "step", step);
@@ -205,10 +218,11 @@ int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   struct hooke_timed full = {0};
   const double budget = hooke_options_number(cost->options, "budget"), begun = hooke_clock_seconds();
   forget(cost);
+  cost->patience = hooke_patience_of(budget, NULL, NULL);
   int32_t status = hooke_state_check(state, cost->system);
   if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
-  if (status == HOOKE_OK) status = find_limit(cost, cost->system, state, &cost->limit);
-  if (status == HOOKE_OK) status = choose_step(cost);
+  if (status == HOOKE_OK) status = find_first_limit(cost, state);
+  if (status == HOOKE_OK) status = choose_step(cost, state);
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
   if (status == HOOKE_OK) status = hooke_timed_create(whole, cost->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);

@@ -4,6 +4,7 @@
 
 #include "hooke/cost.h"
 #include "measure/cost_time.h"
+#include "measure/patience.h"
 #include "model/system.h"
 
 struct hooke_cost_row {
@@ -16,9 +17,10 @@ struct hooke_cost_row {
 
 struct hooke_cost {
   const hooke_system *system;
-  hooke_options *run, *options; /* run: of the method that is timed */
-  const char *method;           /* within `run` */
-  double run_step;              /* [s] as the caller gave it, NaN: not */
+  hooke_options *run, *options;   /* run: of the method that is timed */
+  const char *method;             /* within `run` */
+  double run_step;                /* [s] as the caller gave it, NaN: not */
+  struct hooke_patience patience; /* of limits, within the budget */
   hooke_progress *progress;
   void *progress_ctx;
   double step, nanoseconds, resolution, memory, limit;

@@ -114,3 +114,14 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
   if (hooke_step_is_bounded(method)) hooke_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
+
+int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds) {
+  struct hooke_node_blocks blocks;
+  int32_t status = hooke_system_require_committed(system);
+  if (status == HOOKE_OK) status = hooke_node_blocks_create(system, q, &blocks);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < hooke_method_count(); k++)
+    bounds[k] = hooke_step_bound_of(&blocks, hooke_method_name(k));
+  hooke_node_blocks_release(&blocks);
+  return HOOKE_OK;
+}

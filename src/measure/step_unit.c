@@ -14,7 +14,7 @@ int32_t hooke_step_unit(double duration, double every, double *unit) {
     if (hooke_step_is_whole(duration / *unit)) return HOOKE_OK;
   }
   return hooke_fail(HOOKE_BAD_VALUE, "every",
-                    "%.17g s and duration %.17g s have no step in common; take a part of the duration", every,
+                    "%.6g s and duration %.6g s have no step in common; take a part of the duration", every,
                     duration);
 }
 

@@ -1,6 +1,7 @@
 /* Ladders: steps from the safe bound down by halves, tolerances by tenths. */
 #include "measure/study.h"
 
+#include "core/number.h"
 #include "core/status.h"
 #include "measure/step_unit.h"
 
@@ -97,13 +98,13 @@ static int32_t check_steps(const hooke_study *study) {
   for (int64_t k = 0; k < count; k++) {
     const double step = hooke_options_numbers(study->options, "steps")[k];
     if (hooke_step_is_whole(study->every / step) && hooke_step_is_whole(study->duration / step)) continue;
-    char place[64];
+    char place[64], fitting[HOOKE_NUMBER_SIZE];
     snprintf(place, sizeof place, "steps[%lld]", (long long)k);
+    hooke_number_print(hooke_study_fitting_step(study, step), fitting);
     return hooke_fail(
         HOOKE_BAD_VALUE, place,
-        "every %.17g s and duration %.17g s are not whole multiples of %.17g s; a step near it that fits "
-        "is %.17g",
-        study->every, study->duration, step, hooke_study_fitting_step(study, step));
+        "every %.6g s and duration %.6g s are not whole multiples of %.6g s; a step near it that fits is %s",
+        study->every, study->duration, step, fitting);
   }
   return HOOKE_OK;
 }

@@ -12,7 +12,7 @@ static int32_t present(const hooke_system *system) {
 }
 
 static int32_t stopped(int32_t value, double t) {
-  return hooke_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.17g s", (int)value, t);
+  return hooke_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
 }
 
 static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {

@@ -293,7 +293,7 @@ int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *moti
     const int32_t value = hooke_drive_evaluate(drive, t, q, q + 3 * drive->count);
     if (value != 0) {
       motion->stop_value = value;
-      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.17g s", (int)value, t);
+      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.6g s", (int)value, t);
     }
     q += 6 * drive->count;
   }

@@ -126,6 +126,14 @@ def test_memory_is_the_peak_of_a_run(hooke, write, tmp_path, scene, method):
     assert 0.8 < said / peak < 1.2
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
+@pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
+def test_memory_of_a_run_whose_order_stays_low(hooke, write, tmp_path):
+    scene = write({**cloth(256), "gravity": [0, -9.81, 0]}, duration=0.002)
+    said = hooke("check", scene, "--json", "--method", "cvode-adams").json["memory_bytes"]
+    assert 0.8 < said / peak_of_run(tmp_path, scene, "--method", "cvode-adams") < 1.2
+
+
 def test_memory_of_the_model_grows_with_the_scene(hooke, write):
     small, large = (hooke("check", write(cloth(n)), "--json").json for n in (20, 40))
     assert (small["particles"], large["particles"]) == (400, 1600)
@@ -186,7 +194,7 @@ def test_words_have_the_same_numbers(hooke, write):
     assert answer.code == 0
     memory = re.search(r"^memory +(\d+) bytes at the peak", answer.out, re.M)  # of another process
     assert int(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
-    assert repr(value["step_limit"]["symplectic-euler"]) in answer.out
+    assert f"{value['step_limit']['symplectic-euler']:.6g} s" in answer.out
     assert "warning: " + value["warnings"][0] in answer.err
     assert "warning" not in answer.out
 
@@ -209,6 +217,17 @@ def test_costs_of_ingredients(hooke, write):
     assert springs["step_limit_without"] is None  # nothing else limits it
     assert 0 < cost["step_limit"] < damping["step_limit_without"]
     assert gravity["step_limit_without"] == cost["step_limit"]
+
+
+def test_the_first_limit_is_within_the_budget(hooke, write):
+    """Else the step is one that is certain to be stable."""
+    cloth = {"kind": "cloth", "size": [40, 40], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1, "structural": {"stiffness": 1e4}}
+    words = ["check", write({"hooke": 1, "parts": [cloth]}, step=1), "--cost", "--predict", "--json"]
+    value = hooke(*words, "--budget", "1ns").json
+    assert value["cost"]["step_limit"] is None
+    assert value["cost"]["step"] == value["step_limit"]["symplectic-euler"] < 1
+    known = hooke(*words, "--budget", "20s").json["cost"]
+    assert known["step"] == known["step_limit"] > value["cost"]["step"]
 
 
 def test_costs_without_the_timing(hooke, write):

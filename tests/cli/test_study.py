@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import shlex
 import time
 from pathlib import Path
@@ -222,6 +223,17 @@ def test_a_recommendation_looks_beyond_the_ladder(hooke, write):
     assert found["met"] is True and 1.5e-3 < found["step"] <= 0.0625 and found["error"] <= 0.05
     found = hooke(*words, "5cm", "--steps", "250ms").json["recommendation"]
     assert found["met"] is True and 1.5e-3 < found["step"] <= 0.0625 and 0.005 < found["error"] <= 0.05
+
+
+@everything
+def test_what_is_known_for_a_part_of_the_run_is_not_met(hooke, write):
+    words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-10,1e-12", "--want", "1mm"]
+    answer = hooke(*words, "--json")
+    found, until = answer.json["recommendation"], answer.json["reference"]["trusted_until"]
+    assert 1 < until < 14 and answer.code == 7
+    assert found["met"] is None and found["error"] <= 1e-3 and found["command"]
+    answer = hooke(*words)
+    assert answer.code == 7 and re.search(r"at most 0.001 m up to [\d.]+ s; of what comes later", answer.out)
 
 
 @everything
@@ -521,6 +533,17 @@ def test_errors_of_watched_quantities(hooke, write, tmp_path):
 def test_what_cannot_be_watched(hooke, write, watch, message):
     answer = hooke("study", write(DOUBLE), "--duration", 1, "--watch", watch)
     assert answer.code == 3 and message in answer.err
+
+
+@everything
+def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
+    """A run takes longer than the budget."""
+    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.5s"]
+    found = hooke("study", write(DOUBLE), *words, "--json").json["statistics"]
+    assert found["from"] is None and found["until"] is None
+    assert found["quantities"][0]["reference"]["mean"] is None
+    out = hooke("study", write(DOUBLE), *words).out
+    assert "none came to its end" in out and "nan" not in out
 
 
 @everything

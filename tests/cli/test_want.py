@@ -3,7 +3,9 @@ long double (tests/data/wants.json, made by tests/long/make_wants.py); `make tes
 
 import math
 import shlex
+import time
 
+import h5py
 import pytest
 from wants import ENDS, WANTS, complaints, cost, estimate_complaints, is_of_the_end, study_complaints
 
@@ -48,6 +50,46 @@ def test_a_plain_run_says_its_error(hooke, name):
     assert {"estimate", "known_until", "by"} <= set(value["error"])
     assert value["error"]["by"] in (None, "half-step", "tolerance", "reference", "slice")
     assert estimate_complaints(value, end.error(value)) == []
+
+
+def in_status(path):
+    with h5py.File(path) as file:
+        return file["hooke/status"].asstr()[()]
+
+
+def in_file(path):
+    """The error of a run in its file, as --json has it."""
+    with h5py.File(path) as file:
+        numbers = file["hooke/error"]
+        found = dict(zip(numbers.attrs["numbers"], [None if math.isnan(x) else x for x in numbers[:].tolist()]))
+        by, note = (file[f"hooke/error_{name}"].asstr()[()] for name in ("by", "note"))
+        met = None if found["met"] is None else found["met"] == 1
+        return {"wanted": found.pop("wanted"), "met": met}, {**found, "met": met, "by": by or None, "note": note}
+
+
+@pytest.mark.parametrize("words", [(), ("--want", "1mm"), ("--want", "1nm"), ("--no-estimate",)], ids=" ".join)
+def test_the_file_has_the_error(hooke, words, tmp_path):
+    value = hooke("run", ENDS["six-particles"].scene, "--duration", "0.5", "-o", "out.h5", "--json", *words).json
+    want, error = in_file(tmp_path / "out.h5")
+    told = value.get("error", dict.fromkeys(["estimate", "known_from", "known_until", "by", "energy_rise"]))
+    assert error == {"note": "", "met": want["met"], **told}
+    assert want == {name: value.get("want", {}).get(name) for name in ["wanted", "met"]}
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert file["hooke/status"][()] == b"finished"
+    assert hooke("verify", "out.h5").code == 0
+
+
+def test_a_run_that_is_killed_while_its_error_is_looked_into_is_whole(hooke, start, tmp_path):
+    """Its outcome is in the file before."""
+    process = start("run", ENDS["six-particles"].scene, "--step", "1e-6", "--every", "0.05", "-o", "out.h5")
+    while not (tmp_path / "out.h5").exists() or in_status(tmp_path / "out.h5") == "running":
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    assert in_status(tmp_path / "out.h5") == "finished"
+    assert in_file(tmp_path / "out.h5")[1]["by"] in (None, "half-step", "slice")
+    assert hooke("verify", "out.h5").code == 0
 
 
 def test_every_example_is_there():
@@ -107,7 +149,8 @@ def test_the_judge_of_studies():
     met, none = study_of(True), study_of(False)
     assert study_complaints(0, met, 0, 9e-4, 1e-3) == []
     assert study_complaints(7, none, None, math.nan, 1e-3) == []
-    assert study_complaints(0, study_of(True, 0.5), 0, 9e-3, 1e-3) == []  # known until an earlier time alone
+    assert study_complaints(7, study_of(None, 0.5), 0, 9e-3, 1e-3) == []  # known until an earlier time alone
+    assert len(study_complaints(0, study_of(True, 0.5), 0, 9e-4, 1e-3)) == 1
     assert len(study_complaints(0, met, 0, 1.1e-3, 1e-3)) == 1
     assert len(study_complaints(0, met, 0, 9e-4, 1e-3, known=False)) == 1
     assert len(study_complaints(0, met, 4, math.nan, 1e-3)) == 1

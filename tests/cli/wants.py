@@ -86,10 +86,13 @@ def study_complaints(code, value, again, error, want, known=True):
     """Of a study with a want, whose recommended run, done again, ended with the code `again` and is off by `error`, where that
     is `known`."""
     met = value["recommendation"]["met"]
+    whole = value["reference"]["trusted_until"] >= value["duration"] * (1 - 1e-9)
     found = [] if (code == 0) == (met is True) and code in (0, 7) else [f"exit {code} with met {met}"]
     if met and again != 0:
         found.append(f"the recommended run ends with exit {again}")
-    if value["reference"]["trusted_until"] < value["duration"] * (1 - 1e-9):
+    if met and not whole:
+        found.append("recommends for all of the run what is trusted for a part of it")
+    if not whole:
         return found  # what it recommends is for the time until then
     if met and again == 0 and known is False:
         found.append("recommends what nobody can know")

@@ -42,12 +42,15 @@ contains
     type(hooke_limit) :: limit, again
     type(teller), target :: progress
     real(hooke_real) :: bound
+    real(hooke_real), allocatable :: bounds(:)
     real(hooke_real), pointer :: shape(:, :)
     integer :: status
     call make_oscillator(system)
     call state%create(system)
     call system%step_bound("symplectic-euler", state%q, bound)
     call expect(bound > 0 .and. bound <= 2/omega*1.000001_hooke_real, "the bound is safe")
+    call system%step_bounds(state%q, bounds)
+    call expect(any(abs(bounds - bound) <= 0), "all bounds at once")
     call system%step_bound("no such method", state%q, bound, status)
     call expect(status == hooke_bad_value, "of methods that there are")
     call expect_near(hooke_limit_of_mode("verlet", omega, 0.0_hooke_real), 2/omega, 1e-12_hooke_real, "2/omega")

@@ -111,6 +111,22 @@ static void runs_agree(void **unused) {
   hooke_system_destroy(system);
 }
 
+static void all_at_once_are_those_one_by_one(void **unused) {
+  (void)unused;
+  hooke_system *cloth10 = build_cloth10();
+  hooke_state *state;
+  double bounds[32];
+  assert_true(hooke_method_count() <= 32);
+  check_ok(hooke_state_create(cloth10, &state));
+  check_ok(hooke_step_bounds(cloth10, hooke_state_position(state), bounds));
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    const double one = bound_at_start(cloth10, hooke_method_name(k));
+    assert_true(memcmp(&one, &bounds[k], sizeof one) == 0 || (isnan(one) && isnan(bounds[k])));
+  }
+  hooke_state_destroy(state);
+  hooke_system_destroy(cloth10);
+}
+
 static void nothing_to_bound(void **unused) {
   (void)unused;
   const double place[3] = {0.0, 0.0, 0.0};
@@ -139,6 +155,7 @@ int main(void) {
       cmocka_unit_test(forward_euler_needs_damping),
       cmocka_unit_test(one_spring_is_sharp),
       cmocka_unit_test(runs_agree),
+      cmocka_unit_test(all_at_once_are_those_one_by_one),
       cmocka_unit_test(nothing_to_bound),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

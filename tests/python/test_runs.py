@@ -220,10 +220,13 @@ def test_a_wanted_error_is_kept(want):
     assert (error.known_from, error.known_until, error.by) == (0.0, 1.0, "reference")
 
 
-def test_an_error_is_estimated_where_that_is_asked_for():
-    options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0}
+def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
+    options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0, "output": tmp_path / "out.h5"}
     assert hooke.run(build_oscillator(), **options).error is None
+    assert hooke.open(tmp_path / "out.h5").error is None
     result = hooke.run(build_oscillator(), estimate=True, **options)
+    kept = hooke.open(tmp_path / "out.h5").error
+    assert kept is not None and repr(kept) == repr(result.error)
     exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
     truly = abs(result.state.q[1, 0] - exact)
     assert truly / 3 < result.error.estimate < 3 * truly and result.error.met is None

@@ -111,6 +111,11 @@ module hooke_c_io
       type(c_ptr), value :: trajectory
       integer(c_int32_t), value :: outcome
     end function
+    integer(c_int32_t) function c_estimate_write_h5(estimate, path) bind(c, name="hooke_estimate_write_h5")
+      import
+      type(c_ptr), value :: estimate
+      character(kind=c_char), intent(in), optional :: path(*)
+    end function
     integer(c_int32_t) function c_record_open(path, record) bind(c, name="hooke_record_open")
       import
       character(kind=c_char), intent(in), optional :: path(*)

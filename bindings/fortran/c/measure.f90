@@ -11,6 +11,12 @@ module hooke_c_measure
       real(c_double), intent(in), optional :: q(*)
       real(c_double), intent(inout), optional :: bound(*)
     end function
+    integer(c_int32_t) function c_step_bounds(system, q, bounds) bind(c, name="hooke_step_bounds")
+      import
+      type(c_ptr), value :: system
+      real(c_double), intent(in), optional :: q(*)
+      real(c_double), intent(inout), optional :: bounds(*)
+    end function
     integer(c_int32_t) function c_comparison_create(system, options, comparison) bind(c, name="hooke_comparison_create")
       import
       type(c_ptr), value :: system, options

@@ -189,6 +189,7 @@ PROTOTYPES = {
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
+    "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),
     "hooke_comparison_create": (STATUS, SYSTEM, OPTIONS, POINTER(COMPARISON)),
     "hooke_comparison_destroy": (None, COMPARISON),
     "hooke_comparison_add": (STATUS, COMPARISON, TEXT),
@@ -212,6 +213,7 @@ PROTOTYPES = {
     "hooke_estimate_refine": (STATUS, ESTIMATE, OPTIONS),
     "hooke_estimate_number": (DOUBLE, ESTIMATE, TEXT),
     "hooke_estimate_text": (TEXT, ESTIMATE, TEXT),
+    "hooke_estimate_write_h5": (STATUS, ESTIMATE, TEXT),
     # study.h
     "hooke_study_options_create": (STATUS, POINTER(OPTIONS)),
     "hooke_study_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(STUDY)),

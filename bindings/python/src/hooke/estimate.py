@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import os
 from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
@@ -14,6 +15,7 @@ from ._prototypes import ESTIMATE
 from ._status import BadValue, Unsuited
 
 if TYPE_CHECKING:
+    from ._types import Path
     from .integrator import Integrator
     from .options import Options
     from .state import State
@@ -107,6 +109,10 @@ class Estimate:
             _number(self._handle, "energy_rise"),
             text(lib.hooke_estimate_text(self._handle, b"note")),
         )
+
+    def write(self, path: Path) -> None:
+        """Adds it to the file that the run wrote."""
+        lib.hooke_estimate_write_h5(self._handle, os.fsencode(path))
 
     def refine(self, options: Options) -> bool:
         """Sets something finer, if that is known to help."""

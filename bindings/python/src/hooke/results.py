@@ -164,7 +164,12 @@ class _Once:
                 watchers.append(_Progress(tell, integrator.frame_count))
             status = self._integrate(integrator, state, watchers)
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
-        return result if estimate is None else replace(result, error=estimate.measure(integrator, state))
+        if estimate is None:
+            return result
+        error = estimate.measure(integrator, state)
+        if self.output is not None and status == "finished":
+            estimate.write(self.output)
+        return replace(result, error=error)
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:

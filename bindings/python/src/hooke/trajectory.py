@@ -6,6 +6,7 @@ The files are H5MD 1.1 (HDF5), so that h5py and other programs read them, too.
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
@@ -18,6 +19,7 @@ from ._memory import Handle, double_pointer, text
 from ._prototypes import RECORD
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
+from .estimate import RunError
 from .options import Options
 from .results import Frames
 from .scene import Scene
@@ -107,6 +109,16 @@ class Trajectory(Closing):
         """How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running"
         while it lasts, or where it was killed."""
         return text(lib.hooke_record_text(self._handle, b"status"))
+
+    @property
+    def error(self) -> RunError | None:
+        """How wrong the run is, as it was found after it; None where that was not looked into."""
+        by, note = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_note"))
+        if not by and not note:
+            return None
+        estimate, known_from, known_until, rise, wanted, met = map(float, self._numbers("error"))
+        reached = None if math.isnan(met) else met == 1.0
+        return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, note)
 
     @property
     def options(self) -> Options:

@@ -246,6 +246,7 @@ extern "C" {
 #endif
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
+HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 typedef struct hooke_comparison hooke_comparison;
 typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
@@ -473,6 +474,7 @@ HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
+HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 typedef struct hooke_record hooke_record;
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
