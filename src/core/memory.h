@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #if UINTPTR_MAX < UINT64_MAX || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
-#error "hooke needs addresses of 64 bits, and arithmetic in double precision that no wider register rounds twice"
+#error "hooke needs addresses of 64 bits, and double precision that no wider register rounds twice"
 #endif
 
 /* `count` zeroed elements of `size` bytes, aligned to 64 bytes and padded to a multiple of them; NULL, with
