@@ -4,7 +4,12 @@
 
 #include "hooke/base.h"
 
+#include <float.h>
 #include <stddef.h>
+
+#if UINTPTR_MAX < UINT64_MAX || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
+#error "hooke needs addresses of 64 bits, and double precision that no wider register rounds twice"
+#endif
 
 /* `count` zeroed elements of `size` bytes, aligned to 64 bytes and padded to a multiple of them; NULL, with
  * the message recorded, if there is no memory or the product does not fit. A count of 0 gives a valid block.
