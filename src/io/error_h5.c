@@ -2,7 +2,6 @@
 #include "hooke/io.h"
 
 #include "core/keep_errno.h"
-#include "core/memory.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -13,8 +12,6 @@
 #include "io/h5md_h5.h"
 #include "io/place.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 
 const char *const hooke_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
@@ -33,10 +30,10 @@ static int32_t find_places(struct hooke_h5_guard *guard, const struct hooke_h5_f
   at->by = hooke_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
   at->note = hooke_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
   H5Fclose(id);
-  if (guard->no_memory) return hooke_h5_fail(guard, file->path, "find the room for the error");
+  if (guard->no_memory) return hooke_h5_fail(guard, file->place.path, "find the room for the error");
   if (at->numbers >= 0 && at->by >= 0 && at->note >= 0) return HOOKE_OK;
   return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
-                    file->path);
+                    file->place.path);
 }
 
 static int write_at(int descriptor, const struct places *at, const hooke_estimate *estimate) {
@@ -55,23 +52,19 @@ static int write_at(int descriptor, const struct places *at, const hooke_estimat
 static int32_t write_to(struct hooke_h5_guard *guard, struct hooke_h5_file *file,
                         const hooke_estimate *estimate) {
   struct places at;
-  file->descriptor = open(file->path, O_RDWR | O_CLOEXEC);
-  if (file->descriptor < 0) return hooke_place_fail(file->path, "open the file", errno);
   const int32_t status = find_places(guard, file, &at);
   if (status != HOOKE_OK) return status;
-  const int error = write_at(file->descriptor, &at, estimate);
-  return error ? hooke_place_fail(file->path, "write the error of the run", error)
+  const int error = write_at(file->place.descriptor, &at, estimate);
+  return error ? hooke_place_fail(file->place.path, "write the error of the run", error)
                : hooke_h5_file_close(file);
 }
 
 int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_h5_file file = {.id = -1, .list = -1, .descriptor = -1};
+  struct hooke_h5_file file = HOOKE_NO_H5_FILE;
   struct hooke_h5_guard guard;
-  int32_t status = hooke_place_find(path, &file.path, &file.temporary);
-  hooke_free(file.temporary); /* only what is made anew has one */
-  file.temporary = NULL;
   hooke_h5_guard_begin(&guard);
+  int32_t status = hooke_place_hold(path, &file.place);
   if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
   hooke_h5_file_release(&file);
   hooke_h5_guard_end(&guard);
