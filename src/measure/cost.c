@@ -108,20 +108,28 @@ void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ct
   cost->progress_ctx = ctx;
 }
 
-static int32_t tell(const hooke_cost *cost, double done, const char *what) {
+static int32_t tell(hooke_cost *cost, double done, const char *what) {
+  cost->told = done;
   if (cost->progress == NULL || cost->progress(done, what, cost->progress_ctx) == 0) return HOOKE_OK;
   return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
 /* ---- finding ---- */
 
+/* Once more what was told last. */
+static int32_t tell_limits(double done, const char *what, void *ctx) {
+  const hooke_cost *cost = ctx;
+  (void)done, (void)what;
+  return cost->progress ? cost->progress(cost->told, "limits", cost->progress_ctx) : 0;
+}
+
 /* NaN where this build, the method or these numbers have none. */
-static int32_t find_limit(const hooke_cost *cost, const hooke_system *system, const hooke_state *state,
+static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const hooke_state *state,
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
-  const int32_t status = hooke_limit_predict(system, q, cost->method, NULL, NULL, ACCURACY, limit);
-  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+  const int32_t status = hooke_limit_predict(system, q, cost->method, ACCURACY, tell_limits, cost, limit);
+  return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
 /* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers that are not

@@ -21,6 +21,7 @@ struct hooke_cost {
   double run_step;              /* [s] as the caller gave it, NaN: not */
   hooke_progress *progress;
   void *progress_ctx;
+  double told; /* share done */
   double step, nanoseconds, resolution, memory, limit;
   int64_t row_count, chosen_count;
   struct hooke_cost_row *row;
