@@ -2,6 +2,7 @@
 #include "integrate/run_loop.h"
 
 #include "core/clock.h"
+#include "core/crew.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ static const double LOOK = 1e-3; /* [s] between two looks at the clock */
 static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hooke_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  if (state->size == it->size && state->has_v == (it->system != NULL)) return HOOKE_OK;
+  if (state->size == it->size && state->has_v == (it->system != NULL)) return hooke_crew_renew(it->crew);
   return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
                     (long long)state->size, (long long)it->size);
 }

@@ -7,7 +7,7 @@
 
 enum { HOOKE_CHECK_STEPS = 1000 };
 
-/* HOOKE_BAD_VALUE for a state of another size, and without a duration. */
+/* HOOKE_BAD_VALUE for a state of another size, and without a duration. The first also brings threads into a child of fork(). */
 int32_t hooke_run_check_state(const hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_run_check_duration(const hooke_integrator *integrator);
 

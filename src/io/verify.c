@@ -116,7 +116,6 @@ static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
 int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
                             hooke_verify **out) {
   *out = NULL;
-  if (path == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path given");
   struct hooke_verify *verify = hooke_handle_new("hooke_verify", sizeof *verify);
   if (verify == NULL) return HOOKE_NO_MEMORY;
   verify->balance = "not-checked";

@@ -1,8 +1,10 @@
 """Ctrl-C, SIGTERM and SIGHUP end the work alike, however many come: what was computed is kept, and a run says how to go on."""
 
+import re
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import h5py
 import pytest
@@ -31,8 +33,8 @@ def listens(process, number):
     """Waits until the program listens to the signal."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
-        caught = next(line for line in open(f"/proc/{process.pid}/status") if line.startswith("SigCgt"))
-        if int(caught.split()[1], 16) >> (number - 1) & 1:
+        caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1)
+        if int(caught, 16) >> (number - 1) & 1:
             return
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
