@@ -2,8 +2,9 @@
 
     python src/guard/make_guard.py
 
-src/guard/calls.inc, the functions, their texts and their handles, for guard.c; src/guard/names.h, other names for the functions that
-they call, included by every file of the library; tests/data/handle_calls.inc, a bad call for each handle of each function."""
+src/guard/calls.inc, the functions, their texts and their handles, for guard.c; src/guard/names.h, other names for the
+functions that they call, included by every file of the library; tests/data/handle_calls.inc, a bad call for each handle of
+each function."""
 
 import re
 import sys

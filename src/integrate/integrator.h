@@ -13,6 +13,9 @@ struct hooke_counts {
       linear_iterations, error_test_failures;
 };
 
+/* A run has fewer: doubles count them one by one. */
+#define HOOKE_MOST_STEPS INT64_C(9000000000000000)
+
 /* The schedule of a run: whole numbers of steps for a fixed-step method, times for an adaptive one. */
 struct hooke_schedule {
   double step, duration, every, checkpoint; /* NaN where not given */

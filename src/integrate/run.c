@@ -224,6 +224,9 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
   if (status != HOOKE_OK) return status;
   if (!goes_on(it, state)) status = hooke_run_begin(it, state);
   it->placed = 0;
+  if (status == HOOKE_OK && steps > HOOKE_MOST_STEPS - it->k)
+    return hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld after %lld are too many; allowed: %lld in all",
+                      (long long)steps, (long long)it->k, (long long)HOOKE_MOST_STEPS);
   if (status == HOOKE_OK)
     status = it->method->adaptive ? hooke_run_internal_steps(it, state, steps)
                                   : run_fixed(it, state, it->k + steps, 0);

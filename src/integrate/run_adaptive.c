@@ -11,10 +11,8 @@
 #include <float.h>
 #include <math.h>
 
-static const int64_t MOST_NUMBER = INT64_C(9000000000000000);
-
 int64_t hooke_run_first_after(double t0, double every, double t) {
-  int64_t low = 0, high = MOST_NUMBER;
+  int64_t low = 0, high = HOOKE_MOST_STEPS;
   while (high - low > 1) {
     const int64_t middle = low + (high - low) / 2;
     if (t0 + (double)middle * every > t)
