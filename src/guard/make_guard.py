@@ -86,21 +86,20 @@ def may_be_null(name, what):
 
 def check_of_text(result, name, what):
     """A text is refused by a function that returns a status, and to others a word that they do not know."""
-    if (name, what) in MAY_BE_NO_TEXT:
-        return ""
-    return f"TEXT({what}) " if result == "int32_t" and "_is_" not in name else f"WORD({what}) "
+    return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
 
 
 def call(function, types):
     result, name, parameters = function
     value = refused(result, name)
     declared = ", ".join(f"{kind}{'' if kind.endswith('*') else ' '}{what}" for kind, what in parameters) or "void"
-    checks = "".join(check_of_text(result, name, what) for kind, what in parameters if kind == "const char *")
-    checks += " ".join(f"{'MAY_BE' if may_be_null(name, what) else 'IS'}({what}, {handle(kind, types)}, {value or ''})"
-                      for kind, what in parameters if handle(kind, types))
+    checks = [f"{'MAY_BE' if may_be_null(name, what) else 'IS'}({what}, {handle(kind, types)}, {value or ''})"
+              for kind, what in parameters if handle(kind, types)]
+    checks += [check_of_text(result, name, what) for kind, what in parameters
+               if kind == "const char *" and (name, what) not in MAY_BE_NO_TEXT]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
-    return f"{head}{name}, ({declared}), ({arguments}), {checks})"
+    return f"{head}{name}, ({declared}), ({arguments}), {' '.join(checks)})"
 
 
 def bad_calls(function, types):

@@ -130,8 +130,8 @@ static double fitting_step(double value, double other, double step, int larger) 
 static int32_t refuse_step(const char *name, double value, double other, double step) {
   if (!(value / step < (double)HOOKE_MOST_STEPS))
     return hooke_fail(HOOKE_BAD_VALUE, name,
-                      "%.17g s takes too many steps of %.17g s, %.3g; allowed: fewer than %lld", value, step,
-                      value / step, (long long)HOOKE_MOST_STEPS);
+                      "%.17g s takes too many steps of %.17g s; allowed: fewer than %lld", value, step,
+                      (long long)HOOKE_MOST_STEPS);
   const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
   if (isnan(above) && isnan(below)) {
     return hooke_fail(HOOKE_BAD_VALUE, name,
