@@ -26,8 +26,13 @@ static void keep_message(struct hooke_run *run) {
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   struct hooke_run *run = ctx;
-  if (run->estimate) hooke_estimate_see(step, state, run->estimate);
-  return hooke_watch_tell(&run->watch, hooke_state_time(state) / run->duration, NULL);
+  return run->estimate ? hooke_estimate_see(step, state, run->estimate) : 0;
+}
+
+static int32_t see_progress(double done, const char *method, void *ctx) {
+  struct hooke_run *run = ctx;
+  (void)method;
+  return hooke_watch_tell(&run->watch, done, NULL);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
@@ -51,15 +56,15 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* Steps between two looks at the clock: about a millisecond of work, so that looking costs nothing, and for an estimate of
- * the error a hundredth of the run at most. */
+/* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs nothing, and a
+ * hundredth of the run at most. */
 static int64_t stride(const struct hooke_run *run) {
   if (hooke_method_is_adaptive(hooke_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
   const double step = hooke_options_number(hooke_integrator_options(run->integrator), "step");
-  const double share = run->estimate ? run->duration / step / LOOKS : MOST_STEPS_PER_LOOK;
+  const double share = run->duration / step / LOOKS;
   if ((double)steps > share) steps = (int64_t)share;
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
@@ -78,7 +83,10 @@ static int32_t prepare(struct hooke_run *run) {
   if (status != HOOKE_OK) return status;
   run->duration = hooke_options_number(hooke_integrator_options(run->integrator), "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
-  if (status == HOOKE_OK) status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
+  if (status == HOOKE_OK)
+    status = hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, see_progress, run);
+  if (status == HOOKE_OK && run->estimate)
+    status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has looked at the limits themselves */
   const int warns = !run->arguments->quiet && !hooke_arguments_text(run->arguments, "want");
@@ -121,7 +129,10 @@ static int32_t write_companion(struct hooke_run *run) {
 static void find_why(struct hooke_run *run) {
   if (hooke_arguments_text(run->arguments, "no-why")) return;
   hooke_watch_start(&run->watch, run->arguments);
-  const int32_t status = hooke_why_create(run->integrator, NAN, hooke_watch_progress, &run->watch, &run->why);
+  const int32_t status =
+      hooke_watch_interrupted()
+          ? HOOKE_STOPPED
+          : hooke_why_create(run->integrator, NAN, hooke_watch_progress, &run->watch, &run->why);
   hooke_watch_end(&run->watch);
   if (status == HOOKE_OK)
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));

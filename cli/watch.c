@@ -19,7 +19,7 @@ static void interrupt(int number) {
 }
 
 static void catch_signal(int number) {
-  struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+  struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART}; /* writing goes on */
   struct sigaction old;
   sigemptyset(&action.sa_mask);
   /* a program started with the signal ignored (nohup, a background job) keeps ignoring it */
@@ -37,6 +37,7 @@ void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *
   watch->last = watch->start;
   catch_signal(SIGINT);
   catch_signal(SIGTERM);
+  catch_signal(SIGHUP);
 }
 
 static void print_left(double seconds) {

@@ -7,13 +7,15 @@
 
 #include <time.h>
 
+#define HOOKE_BETWEEN_LOOKS 0.01 /* [s] at signals, while a run goes on */
+
 struct hooke_watch {
   int32_t show; /* standard error is a terminal, and words are wanted */
   int32_t shown;
   struct timespec start, last;
 };
 
-/* From here on SIGINT and SIGTERM set a flag; a second one kills as usual. */
+/* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; no number of them kills. */
 void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *arguments);
 
 /* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */

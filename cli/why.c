@@ -30,32 +30,25 @@ static const double USUAL_BUDGET = 30.0;   /* [s] */
 
 /* ---- finding out ---- */
 
-struct progress {
-  struct hooke_watch watch;
-  double duration;
-};
-
-static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
-  struct progress *progress = ctx;
-  (void)step;
-  return hooke_watch_tell(&progress->watch, hooke_state_time(state) / progress->duration, "running it");
+static int32_t see_run(double done, const char *method, void *watch) {
+  (void)method;
+  return hooke_watch_tell(watch, done, "running it");
 }
 
 /* Runs the scene and asks why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
-  struct progress progress;
+  struct hooke_watch watch;
   int32_t status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
   if (status != HOOKE_OK) return status;
-  progress.duration = hooke_options_number(hooke_integrator_options(integrator), "duration");
-  hooke_watch_start(&progress.watch, why->arguments);
-  hooke_integrator_on_frame(integrator, see_frame, &progress);
+  hooke_watch_start(&watch, why->arguments);
+  hooke_integrator_on_progress(integrator, HOOKE_BETWEEN_LOOKS, see_run, &watch);
   status = hooke_integrator_run(integrator, why->setup.state);
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
   if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED)
-    status = hooke_why_create(integrator, why->budget, hooke_watch_progress, &progress.watch, &why->why);
-  hooke_watch_end(&progress.watch);
+    status = hooke_why_create(integrator, why->budget, hooke_watch_progress, &watch, &why->why);
+  hooke_watch_end(&watch);
   hooke_integrator_destroy(integrator);
   return status;
 }

@@ -16,7 +16,8 @@ module hooke_integrators
   public :: hooke_integrator
   public :: method_count, method_name, method_summary, method_is_adaptive, method_is_built
 
-  integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5
+  integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
+    of_progress = 6
 
   type, extends(hooke_handle) :: hooke_integrator
     ! The options it runs with: its own copy, with defaults filled in.
@@ -27,6 +28,7 @@ module hooke_integrators
     procedure :: on_frame
     procedure :: on_step
     procedure :: on_checkpoint
+    procedure :: on_progress
     procedure :: on_warning
     procedure :: frame_count
     procedure :: run
@@ -170,6 +172,30 @@ contains
     code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_funloc(call_observer), c_loc(holder))
     if (code == 0) then
       call self%keep(holder, of_steps)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! Told between two steps, after every `seconds` of work [s].
+  subroutine on_progress(self, seconds, progress, status)
+    class(hooke_integrator), intent(inout) :: self
+    real(c_double), intent(in) :: seconds
+    class(hooke_progress), target, intent(inout), optional :: progress
+    integer, intent(out), optional :: status
+    type(progress_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(progress)) then
+      call accept(c_integrator_on_progress(self%address(), seconds, c_null_funptr, c_null_ptr), status)
+      return
+    end if
+    allocate (holder)
+    holder%progress => progress
+    code = c_integrator_on_progress(self%address(), seconds, c_funloc(call_progress), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_progress)
     else
       deallocate (holder)
     end if

@@ -15,6 +15,8 @@
  * Callbacks may leave by longjmp(): the integrator, state and system can then be destroyed or run again from a state of
  * its own, with the same results. Memory that a call had taken for itself is lost, which a run or a step has only where
  * difference quotients stand in for a missing product. An exception of C++ has to be caught inside the callback.
+ * Texts are not NULL, unless it says so: HOOKE_BAD_VALUE, or by functions that return no status what they return for an
+ * unknown word.
  * Handles. A Debug build (HOOKE_CHECK_HANDLES) refuses an object that was destroyed, never made, or is of another type:
  * HOOKE_BAD_CALL, or -1, NaN, NULL, 0 (no) by functions that return no status. It keeps a list of all objects for it. */
 #ifndef HOOKE_BASE_H

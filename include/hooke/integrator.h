@@ -27,6 +27,9 @@ typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, v
 /* Sees the state after `step` steps; may not change it. Return 0 to go on, anything else to stop the run. */
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
 
+/* Told of progress: the share done (0..1) and what is running. Return 0 to go on. */
+typedef int32_t hooke_progress(double done, const char *what, void *ctx);
+
 /* ---- methods ----
  * Count and name go over the methods for everyday use. Two more are there to check references with, "rk8pd" (GSL) and
  * "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a name know them too. */
@@ -76,13 +79,19 @@ HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t
 HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
                                                  void *ctx);
 
+/* Told between two steps, after every `seconds` >= 0 of work, of the share of `duration` that is done and the method. It costs
+ * nothing that can be measured and changes no bits: for a program that has to hear whether it is to stop, or shows progress.
+ * Stopping leaves the state of the last whole step. HOOKE_BAD_VALUE. */
+HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds,
+                                               hooke_progress *progress, void *ctx);
+
 /* ---- running ---- */
 
 /* Frames that hooke_integrator_run() reports, the initial one included. */
 HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
 
 /* Runs `duration` from the state's time on, reporting frames; `state` is the final state on return.
- * HOOKE_STOPPED: an observer, force or drive returned non-zero (hooke_integrator_stop_value()); the state is
+ * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the state is
  * that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and drives,
  * the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps; the state
  * is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.

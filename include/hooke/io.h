@@ -34,7 +34,7 @@ typedef struct hooke_scene hooke_scene;
  * then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. */
 HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 
-/* The same from `length` bytes of text; `name` stands for the file in messages, `folder` is where files named
+/* The same from `length` bytes of text; `name` stands for the file in messages (NULL: "scene"), `folder` is where files named
  * in the scene are looked up (NULL: none are allowed). */
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                                     hooke_scene **scene);
@@ -235,7 +235,7 @@ HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *pa
 /* ---- reports ---- */
 
 /* Writes one HTML page, readable offline, with all that a study has so far: diagrams, table, recommendation, reference,
- * machine and versions. `scene` is the name over it; `command`, the line to type for what is recommended, may be NULL.
+ * machine and versions. `scene` is the name over it, `command` the line to type for what is recommended; both may be NULL.
  * An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY; HOOKE_NOT_BUILT in a build
  * without Chart.js, or where the files that are installed with the library, in share/hooke, are missing. */
 HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,

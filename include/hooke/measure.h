@@ -27,9 +27,6 @@ HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q,
 
 typedef struct hooke_comparison hooke_comparison;
 
-/* Told of progress: the share done (0..1) and what is running. Return 0 to go on. */
-typedef int32_t hooke_progress(double done, const char *what, void *ctx);
-
 /* Sees frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                                        void *ctx);

@@ -26,6 +26,7 @@ struct seat {
 };
 
 struct hooke_crew {
+  pid_t process; /* whose threads they are */
   int32_t members, spins;
   hooke_crew_work *work; /* NULL: threads end */
   void *ctx;
@@ -130,6 +131,36 @@ static void start(struct hooke_crew *crew, int32_t members) {
   pthread_mutex_unlock(&crew->mutex);
 }
 
+static void end(struct hooke_crew *crew) {
+  crew->work = NULL;
+  hooke_crew_meet(crew);
+  for (int32_t k = 1; k < crew->members; k++)
+    pthread_join(crew->seat[k - 1].thread, NULL);
+  pthread_cond_destroy(&crew->woken);
+  pthread_mutex_destroy(&crew->mutex);
+  crew->process = 0;
+}
+
+/* All threads, or none. */
+static int32_t begin(struct hooke_crew *crew, int32_t members) {
+  pthread_mutex_init(&crew->mutex, NULL);
+  pthread_cond_init(&crew->woken, NULL);
+  atomic_store(&crew->arrived, 0);
+  atomic_store(&crew->round, 0);
+  atomic_store(&crew->sleepers, 0);
+  crew->process = getpid();
+  start(crew, members);
+  if (crew->members == members) return HOOKE_OK;
+  end(crew);
+  crew->members = members;
+  return hooke_fail(HOOKE_NO_MEMORY, "threads", "this machine has no room for %d threads", (int)members);
+}
+
+int32_t hooke_crew_renew(struct hooke_crew *crew) {
+  if (crew == NULL || crew->process == getpid()) return HOOKE_OK;
+  return begin(crew, crew->members);
+}
+
 struct hooke_crew *hooke_crew_create(int32_t members) {
   struct hooke_crew *crew = hooke_new(1, sizeof *crew);
   struct seat *seat = hooke_new(members - 1, sizeof *seat);
@@ -139,23 +170,14 @@ struct hooke_crew *hooke_crew_create(int32_t members) {
     return NULL;
   }
   crew->seat = seat;
-  pthread_mutex_init(&crew->mutex, NULL);
-  pthread_cond_init(&crew->woken, NULL);
-  start(crew, members);
-  if (crew->members == members) return crew;
-  hooke_fail(HOOKE_NO_MEMORY, "threads", "this machine has no room for %d threads", (int)members);
+  if (begin(crew, members) == HOOKE_OK) return crew;
   hooke_crew_destroy(crew);
   return NULL;
 }
 
 void hooke_crew_destroy(struct hooke_crew *crew) {
   if (crew == NULL) return;
-  crew->work = NULL;
-  hooke_crew_meet(crew);
-  for (int32_t k = 1; k < crew->members; k++)
-    pthread_join(crew->seat[k - 1].thread, NULL);
-  pthread_cond_destroy(&crew->woken);
-  pthread_mutex_destroy(&crew->mutex);
+  if (crew->process == getpid()) end(crew);
   hooke_free(crew->seat);
   hooke_free(crew);
 }

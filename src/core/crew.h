@@ -16,6 +16,10 @@ struct hooke_crew *hooke_crew_create(int32_t members);
 /* NULL is allowed. */
 void hooke_crew_destroy(struct hooke_crew *crew);
 
+/* After fork() the threads are those of the parent: a child gets its own here, before anything else is asked of the crew.
+ * HOOKE_NO_MEMORY without threads. NULL is allowed. */
+int32_t hooke_crew_renew(struct hooke_crew *crew);
+
 /* How many processors this process may use. */
 int32_t hooke_crew_processors(void);
 

@@ -1,8 +1,11 @@
-/* In a build with HOOKE_CHECK_HANDLES every public function stands here: it looks at the handles that it is given, and goes
- * on to the one in the library, which names.h calls hooke_unchecked_<name>. calls.inc lists them all. A handle that is no
- * more, never was, or is of another type is refused: with HOOKE_BAD_CALL, or where no status is returned with -1, NaN or
- * NULL, and with 0 of a function that answers yes or no. */
+/* Every public function stands here: it looks at the texts that it is given, in a build with HOOKE_CHECK_HANDLES at the handles,
+ * too, and goes on to the one in the library, which names.h calls hooke_unchecked_<name>. calls.inc lists them all.
+ *
+ * A text that is NULL is refused with HOOKE_BAD_VALUE; where no status is returned it is a word that the function does not
+ * know. A handle that is no more, never was, or is of another type is refused with HOOKE_BAD_CALL, or where no status is
+ * returned with -1, NaN or NULL, and with 0 of a function that answers yes or no. */
 #include "core/handle.h"
+#include "core/status.h"
 #include "hooke/build.h"
 #include "hooke/cost.h"
 #include "hooke/checkpoint.h"
@@ -13,10 +16,21 @@
 
 #include <math.h>
 
+#define TEXT(text)                                                                                           \
+  if ((text) == NULL)                                                                                        \
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
+#define WORD(text)                                                                                           \
+  if ((text) == NULL) (text) = "";
+
+#if HOOKE_CHECK_HANDLES
 #define IS(object, type, refused)                                                                            \
   if (!hooke_handle_is((object), #type, __func__, #object)) return refused;
 #define MAY_BE(object, type, refused)                                                                        \
   if ((object) && !hooke_handle_is((object), #type, __func__, #object)) return refused;
+#else
+#define IS(object, type, refused)
+#define MAY_BE(object, type, refused)
+#endif
 
 #define CALL(result, name, parameters, arguments, checks)                                                    \
   extern result hooke_unchecked_##name parameters;                                                           \

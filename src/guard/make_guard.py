@@ -1,9 +1,10 @@
-"""Writes, from include/hooke/*.h, what a build with HOOKE_CHECK_HANDLES needs to know of every public function:
+"""Writes, from include/hooke/*.h, what the guard needs to know of every public function:
 
     python src/guard/make_guard.py
 
-src/guard/calls.inc, the functions and their handles, for guard.c; src/guard/names.h, other names for the functions that
-they call, included by every file of the library; tests/data/handle_calls.inc, a bad call for each handle of each function."""
+src/guard/calls.inc, the functions, their texts and their handles, for guard.c; src/guard/names.h, other names for the
+functions that they call, included by every file of the library; tests/data/handle_calls.inc, a bad call for each handle of
+each function."""
 
 import re
 import sys
@@ -32,6 +33,19 @@ MAY_BE_NULL = {
     ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"),
     ("why_create_kept", "run"), ("mesh_read", "options"),
     ("scene_options_apply", "options"), ("why_advice_apply", "run"),
+}
+# Texts that may be NULL: (function, parameter).
+MAY_BE_NO_TEXT = {
+    ("system_add_springs", "name"), ("system_add_bending", "name"), ("system_add_altitude", "name"),
+    ("system_add_part", "name"), ("estimate_pick", "method"),
+    ("scene_parse", "name"), ("scene_parse", "folder"),
+    ("scene_parse_within", "name"), ("scene_parse_within", "folder"),
+    ("scene_of_system", "title"), ("scene_of_system", "name"), ("scene_of_system", "folder"),
+    ("scene_write", "title"), ("trajectory_create", "scene_text"), ("comparison_file_create", "scene_text"),
+    ("study_write_h5", "scene_text"), ("view_write", "title"), ("record_write_xdmf", "path"),
+    ("study_write_report", "scene"), ("study_write_report", "command"), ("limit_write_report", "scene"),
+    ("needs_write_report", "scene"), ("needs_write_report", "command"),
+    ("checkpoint_write", "run"), ("checkpoint_read", "run"),
 }
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
 MADE_BY = "made from the headers in include/hooke by src/guard/make_guard.py"
@@ -70,15 +84,22 @@ def may_be_null(name, what):
     return name.endswith(("_destroy", "_close")) or (name, what) in MAY_BE_NULL
 
 
+def check_of_text(result, name, what):
+    """A text is refused by a function that returns a status, and to others a word that they do not know."""
+    return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
+
+
 def call(function, types):
     result, name, parameters = function
     value = refused(result, name)
     declared = ", ".join(f"{kind}{'' if kind.endswith('*') else ' '}{what}" for kind, what in parameters) or "void"
-    checks = " ".join(f"{'MAY_BE' if may_be_null(name, what) else 'IS'}({what}, {handle(kind, types)}, {value or ''})"
-                      for kind, what in parameters if handle(kind, types))
+    checks = [f"{'MAY_BE' if may_be_null(name, what) else 'IS'}({what}, {handle(kind, types)}, {value or ''})"
+              for kind, what in parameters if handle(kind, types)]
+    checks += [check_of_text(result, name, what) for kind, what in parameters
+               if kind == "const char *" and (name, what) not in MAY_BE_NO_TEXT]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
-    return f"{head}{name}, ({declared}), ({arguments}), {checks})"
+    return f"{head}{name}, ({declared}), ({arguments}), {' '.join(checks)})"
 
 
 def bad_calls(function, types):

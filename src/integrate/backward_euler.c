@@ -286,6 +286,7 @@ static int32_t converge(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   struct backward_euler *own = it->own;
+  const struct hooke_counts before = it->count;
   hooke_motion_save(it->motion, own->start);
   hooke_reduced_drop_factor(&own->reduced); /* a step hangs on its start alone */
   int32_t status = linearise(it);
@@ -295,6 +296,7 @@ static int32_t step(hooke_integrator *it) {
     return HOOKE_OK;
   }
   if (status == HOOKE_SOLVER_FAILED) it->count.nonlinear_failures++;
+  if (status == HOOKE_STOPPED) it->count = before; /* whoever goes on takes the step again */
   hooke_motion_restore(it->motion, own->start);
   return status;
 }

@@ -1,6 +1,7 @@
 /* Making an integrator, and asking it what it did. */
 #include "integrate/integrator.h"
 
+#include "core/clock.h"
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
@@ -153,6 +154,15 @@ int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, h
     if (status != HOOKE_OK) return status;
   }
   integrator->on_step = (struct hooke_watch){observer, ctx, stride};
+  return HOOKE_OK;
+}
+
+int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds, hooke_progress *progress,
+                                     void *ctx) {
+  if (!(seconds >= 0.0))
+    return hooke_fail(HOOKE_BAD_VALUE, "seconds", "%g is not allowed; 0 or more are", seconds);
+  const double now = hooke_clock_seconds();
+  integrator->teller = (struct hooke_teller){progress, ctx, seconds, now, now, 1, 1};
   return HOOKE_OK;
 }
 

@@ -13,6 +13,9 @@ struct hooke_counts {
       linear_iterations, error_test_failures;
 };
 
+/* A run has fewer: doubles count them one by one. */
+#define HOOKE_MOST_STEPS INT64_C(9000000000000000)
+
 /* The schedule of a run: whole numbers of steps for a fixed-step method, times for an adaptive one. */
 struct hooke_schedule {
   double step, duration, every, checkpoint; /* NaN where not given */
@@ -41,6 +44,15 @@ struct hooke_watch {
   hooke_observer *observer;
   void *ctx;
   int64_t stride;
+};
+
+/* Who is told of progress between two steps, after every so many seconds. `left` steps to the next look at the clock, of
+ * `stride`, which follows the time that steps take. */
+struct hooke_teller {
+  hooke_progress *progress;
+  void *ctx;
+  double every, told, looked;
+  int64_t stride, left;
 };
 
 /* Whoever looks at every state that passed the check; anything but 0 stops the run. */
@@ -83,6 +95,7 @@ struct hooke_integrator {
   double diverged_at;
 
   struct hooke_watch on_frame, on_step, on_checkpoint;
+  struct hooke_teller teller;
   struct hooke_checker checker;
   int32_t thorough; /* 1: every check looks at the energy, too */
   struct hooke_counts count;
@@ -94,6 +107,9 @@ struct hooke_integrator {
 
 /* HOOKE_BAD_VALUE, as the argument `place`, for options that are not those of a run. */
 int32_t hooke_run_options_require(const hooke_options *options, const char *place);
+
+/* Tells of progress within a step that takes long, if it is time to: HOOKE_STOPPED. */
+int32_t hooke_integrator_tell(hooke_integrator *integrator);
 
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,

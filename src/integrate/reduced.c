@@ -202,6 +202,8 @@ static int32_t subtract_others(struct hooke_reduced *reduced, double alpha, doub
 static int32_t multiply_matrix(struct hooke_reduced *reduced, const double *x, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
+  const int32_t status = hooke_integrator_tell(reduced->integrator);
+  if (status != HOOKE_OK) return status;
   reduced->integrator->count.derivative_products++;
   hooke_apply_diagonal(n, reduced->diagonal, x, out);
   const double *const from[3] = {x, x + n, x + 2 * n};

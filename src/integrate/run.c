@@ -2,14 +2,18 @@
 #include "integrate/run_loop.h"
 
 #include "core/clock.h"
+#include "core/crew.h"
 #include "core/status.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+static const double LOOK = 1e-3; /* [s] between two looks at the clock */
+static const int64_t MOST_STRIDE = 1 << 20;
+
 int32_t hooke_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  if (state->size == it->size && state->has_v == (it->system != NULL)) return HOOKE_OK;
+  if (state->size == it->size && state->has_v == (it->system != NULL)) return hooke_crew_renew(it->crew);
   return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
                     (long long)state->size, (long long)it->size);
 }
@@ -73,9 +77,40 @@ int32_t hooke_run_store(hooke_integrator *it, double t, hooke_state *state, int3
   return status;
 }
 
+static int32_t tell(hooke_integrator *it) {
+  const struct hooke_teller *teller = &it->teller;
+  const double share = (it->t - it->t0) / it->schedule.duration; /* NaN without a duration */
+  const int32_t value = teller->progress(share > 0.0 ? fmin(share, 1.0) : 0.0, it->method->name, teller->ctx);
+  if (value == 0) return HOOKE_OK;
+  it->stop_value = value;
+  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.17g s", it->t);
+}
+
+int32_t hooke_integrator_tell(hooke_integrator *it) {
+  struct hooke_teller *teller = &it->teller;
+  if (teller->progress == NULL) return HOOKE_OK;
+  const double now = hooke_clock_seconds();
+  if (now - teller->told < fmax(LOOK, teller->every)) return HOOKE_OK;
+  teller->told = now;
+  return tell(it);
+}
+
+int32_t hooke_run_tell(hooke_integrator *it, int64_t steps) {
+  struct hooke_teller *teller = &it->teller;
+  if (teller->progress == NULL || (teller->left -= steps) > 0) return HOOKE_OK;
+  const double now = hooke_clock_seconds(), since = now - teller->looked;
+  if (since < 0.5 * LOOK && teller->stride < MOST_STRIDE) teller->stride *= 2;
+  if (since > 2.0 * LOOK && teller->stride > 1) teller->stride /= 2;
+  teller->left = teller->stride;
+  teller->looked = now;
+  if (now - teller->told < teller->every) return HOOKE_OK;
+  teller->told = now;
+  return tell(it);
+}
+
 /* `count` steps of a fixed-step method; time is t0 + k h, not a running sum. A callback that stops leaves the
  * last whole step: drives are asked for the end of a step before anything moves. */
-static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
+static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
   const double begun = hooke_clock_seconds();
   for (int64_t s = 0; s < count && status == HOOKE_OK; s++) {
@@ -89,6 +124,17 @@ static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
     it->count.steps++;
   }
   it->wall_seconds += hooke_clock_seconds() - begun;
+  return status;
+}
+
+static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
+  int32_t status = HOOKE_OK;
+  while (count > 0 && status == HOOKE_OK) {
+    const int64_t left = it->teller.progress ? it->teller.left : count, steps = left < count ? left : count;
+    status = take_untold_steps(it, steps);
+    if (status == HOOKE_OK) status = hooke_run_tell(it, steps);
+    count -= steps;
+  }
   return status;
 }
 
@@ -178,6 +224,9 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
   if (status != HOOKE_OK) return status;
   if (!goes_on(it, state)) status = hooke_run_begin(it, state);
   it->placed = 0;
+  if (status == HOOKE_OK && steps > HOOKE_MOST_STEPS - it->k)
+    return hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld after %lld are too many; allowed: %lld in all",
+                      (long long)steps, (long long)it->k, (long long)HOOKE_MOST_STEPS);
   if (status == HOOKE_OK)
     status = it->method->adaptive ? hooke_run_internal_steps(it, state, steps)
                                   : run_fixed(it, state, it->k + steps, 0);

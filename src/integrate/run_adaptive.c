@@ -11,10 +11,8 @@
 #include <float.h>
 #include <math.h>
 
-static const int64_t MOST_NUMBER = INT64_C(9000000000000000);
-
 int64_t hooke_run_first_after(double t0, double every, double t) {
-  int64_t low = 0, high = MOST_NUMBER;
+  int64_t low = 0, high = HOOKE_MOST_STEPS;
   while (high - low > 1) {
     const int64_t middle = low + (high - low) / 2;
     if (t0 + (double)middle * every > t)
@@ -84,6 +82,13 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state) {
   return status;
 }
 
+/* Progress; where that stops, the state is that of the step. */
+static int32_t tell_step(hooke_integrator *it, hooke_state *state) {
+  const int32_t status = hooke_run_tell(it, 1);
+  const int32_t stored = status == HOOKE_OK ? HOOKE_OK : hooke_run_store(it, it->t, state, 0);
+  return stored == HOOKE_OK ? status : stored;
+}
+
 int32_t hooke_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
   int32_t status = HOOKE_OK;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
@@ -93,6 +98,7 @@ int32_t hooke_run_internal_steps(hooke_integrator *it, hooke_state *state, int64
     if (anew) status = start_anew(it, point, state);
     if (status == HOOKE_OK) status = report_step(it, state);
     if (status == HOOKE_OK && anew) status = hooke_run_observe(it, &it->on_checkpoint, state);
+    if (status == HOOKE_OK) status = tell_step(it, state);
   }
   if (status == HOOKE_OK) status = hooke_run_store(it, it->t, state, 0);
   return status == HOOKE_OK ? hooke_divergence_check(it, state, it->thorough) : status;
@@ -164,8 +170,10 @@ int32_t hooke_run_adaptive(hooke_integrator *it, hooke_state *state) {
   const int64_t limit = step_limit(it), next = hooke_run_first_after(it->t0, it->schedule.every, it->t);
   int32_t status = check_schedule(it, end);
   if (it->frames < next) it->frames = next < it->schedule.frames ? next : it->schedule.frames;
-  while (it->t < end && status == HOOKE_OK)
+  while (it->t < end && status == HOOKE_OK) {
     status = it->k < limit ? go_on(it, state, end) : refuse_more_steps(it, limit, state);
+    if (status == HOOKE_OK && it->t < end) status = tell_step(it, state);
+  }
   if (status == HOOKE_OK) status = hooke_run_store(it, end, state, 0);
   return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
 }

@@ -7,7 +7,7 @@
 
 enum { HOOKE_CHECK_STEPS = 1000 };
 
-/* HOOKE_BAD_VALUE for a state of another size, and without a duration. */
+/* HOOKE_BAD_VALUE for a state of another size, and without a duration. The first also brings threads into a child of fork(). */
 int32_t hooke_run_check_state(const hooke_integrator *integrator, const hooke_state *state);
 int32_t hooke_run_check_duration(const hooke_integrator *integrator);
 
@@ -24,6 +24,8 @@ int32_t hooke_run_end(hooke_integrator *integrator, hooke_state *state, int32_t 
 int32_t hooke_run_observe(hooke_integrator *integrator, const struct hooke_watch *watch,
                           const hooke_state *state);
 int32_t hooke_run_report(hooke_integrator *integrator, const hooke_state *state);
+/* Tells of progress after so many steps, if it is time to: HOOKE_STOPPED. */
+int32_t hooke_run_tell(hooke_integrator *integrator, int64_t steps);
 /* Stores the solution at time t, the bits of a frame's time being t itself; `checked` where hooke_divergence_check() is
  * next. */
 int32_t hooke_run_store(hooke_integrator *integrator, double t, hooke_state *state, int32_t checked);

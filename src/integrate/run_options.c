@@ -112,8 +112,8 @@ int32_t hooke_run_options_require(const hooke_options *options, const char *plac
 /* 1 if `value` is a whole multiple of `step` to 1e-9 relative, with the multiple in `count`. */
 static int is_multiple(double value, double step, int64_t *count) {
   const double whole = round(value / step);
-  *count = whole < 9e15 ? (int64_t)whole : 0;
-  return whole >= 1.0 && whole < 9e15 && fabs(value - whole * step) <= 1e-9 * value;
+  *count = whole < (double)HOOKE_MOST_STEPS ? (int64_t)whole : 0;
+  return whole >= 1.0 && whole < (double)HOOKE_MOST_STEPS && fabs(value - whole * step) <= 1e-9 * value;
 }
 
 /* The step nearest to `step`, from above or below, of which `value` and `other` (NaN: none) are whole
@@ -131,6 +131,10 @@ static double fitting_step(double value, double other, double step, int larger) 
 
 /* With every digit: the steps are there to be typed. */
 static int32_t refuse_step(const char *name, double value, double other, double step) {
+  if (!(value / step < (double)HOOKE_MOST_STEPS))
+    return hooke_fail(HOOKE_BAD_VALUE, name,
+                      "%.17g s takes too many steps of %.17g s; allowed: fewer than %lld", value, step,
+                      (long long)HOOKE_MOST_STEPS);
   const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
   char given[2][HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
   hooke_number_print(value, given[0]);

@@ -116,7 +116,6 @@ static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
 int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
                             hooke_verify **out) {
   *out = NULL;
-  if (path == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path given");
   struct hooke_verify *verify = hooke_handle_new("hooke_verify", sizeof *verify);
   if (verify == NULL) return HOOKE_NO_MEMORY;
   verify->balance = "not-checked";
@@ -183,7 +182,7 @@ static int is_resolved(const struct hooke_verify *verify, const struct hooke_ver
   if (hooke_system_altitude_group_count(verify->system) > 0) return 0; /* their energy jumps */
   if (!verify->fixed) return fabs(pass->balance.residual) > 1e-6 * pass->balance.scale;
   const int32_t status = hooke_limit_predict(verify->system, hooke_state_position(verify->first),
-                                             "symplectic-euler", NULL, NULL, 1e-2, &limit);
+                                             "symplectic-euler", 1e-2, NULL, NULL, &limit);
   return status == HOOKE_OK && ldexp(hooke_options_number(run, "step"), -pass->refined) <= RESOLVED * limit;
 }
 
@@ -252,7 +251,7 @@ static int32_t compare_slice(struct hooke_verify *verify) {
     verify->verdict = "agrees";
     keep(verify, &pass);
     /* other failures leave it as a number that is not known */
-    if (hooke_limit_predict(verify->system, hooke_state_position(verify->first), method, NULL, NULL, 1e-2,
+    if (hooke_limit_predict(verify->system, hooke_state_position(verify->first), method, 1e-2, NULL, NULL,
                             &verify->limit) == HOOKE_NO_MEMORY)
       status = HOOKE_NO_MEMORY;
     if (status == HOOKE_OK && pass.count > 0 && (!is_on(verify, "bits") || verify->may_differ))

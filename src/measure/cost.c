@@ -108,12 +108,20 @@ void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ct
   cost->progress_ctx = ctx;
 }
 
-static int32_t tell(const hooke_cost *cost, double done, const char *what) {
+static int32_t tell(hooke_cost *cost, double done, const char *what) {
+  cost->told = done;
   if (cost->progress == NULL || cost->progress(done, what, cost->progress_ctx) == 0) return HOOKE_OK;
   return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
 /* ---- finding ---- */
+
+/* Once more what was told last. */
+static int32_t tell_limits(double done, const char *what, void *ctx) {
+  const hooke_cost *cost = ctx;
+  (void)done, (void)what;
+  return cost->progress ? cost->progress(cost->told, "limits", cost->progress_ctx) : 0;
+}
 
 /* NaN where this build, the method or these numbers have none, or the time is up. */
 static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const hooke_state *state,
@@ -122,7 +130,7 @@ static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const ho
   *limit = NAN;
   const int32_t status =
       hooke_limit_predict_within(system, q, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->patience, limit);
-  return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+  return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->patience.stopped) ? status : HOOKE_OK;
 }
 
 /* The first one, in the share of the budget that is not for the timing. */
@@ -218,7 +226,7 @@ int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   struct hooke_timed full = {0};
   const double budget = hooke_options_number(cost->options, "budget"), begun = hooke_clock_seconds();
   forget(cost);
-  cost->patience = hooke_patience_of(budget, NULL, NULL);
+  cost->patience = hooke_patience_of(budget, tell_limits, cost);
   int32_t status = hooke_state_check(state, cost->system);
   if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
   if (status == HOOKE_OK) status = find_first_limit(cost, state);

@@ -23,6 +23,7 @@ struct hooke_cost {
   struct hooke_patience patience; /* of limits, within the budget */
   hooke_progress *progress;
   void *progress_ctx;
+  double told; /* share done */
   double step, nanoseconds, resolution, memory, limit;
   int64_t row_count, chosen_count;
   struct hooke_cost_row *row;

@@ -132,11 +132,12 @@ static void scale(const struct hooke_growth *growth, struct course *course) {
   course->offset += off;
 }
 
-static int32_t tell(const struct hooke_growth *growth) {
-  if (growth->progress == NULL) return HOOKE_OK;
-  if (growth->progress(growth->done, hooke_options_text(growth->run, "method"), growth->ctx) == 0)
-    return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
+static int32_t watch(double done, const char *method, void *ctx) {
+  struct hooke_growth *growth = ctx;
+  (void)done;
+  growth->out_of_time = hooke_clock_seconds() > growth->deadline;
+  return growth->out_of_time ||
+         (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
 }
 
 /* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped mode swings by
@@ -185,8 +186,12 @@ static int32_t take(struct hooke_growth *growth, hooke_integrator *integrator, i
   const int32_t status = hooke_integrator_step(integrator, growth->state, count);
   growth->steps_run += count;
   *ended = status != HOOKE_OK;
-  if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED) return status;
-  *verdict = status == HOOKE_DIVERGED ? HOOKE_GROWS : HOOKE_UNSOLVED;
+  if (status == HOOKE_STOPPED && !growth->out_of_time)
+    return hooke_fail(status, NULL, "the progress callback asked to stop while a limit was measured");
+  if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STOPPED) return status;
+  *verdict = status == HOOKE_DIVERGED  ? HOOKE_GROWS
+             : status == HOOKE_STOPPED ? HOOKE_OUT_OF_TIME
+                                       : HOOKE_UNSOLVED;
   return HOOKE_OK;
 }
 
@@ -216,11 +221,6 @@ static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int
     fill(&course, count, now);
     scale(growth, &course);
     if (judge(growth, &course, taken, thorough, verdict)) return HOOKE_OK;
-    if (hooke_clock_seconds() > growth->deadline) {
-      *verdict = HOOKE_OUT_OF_TIME;
-      return HOOKE_OK;
-    }
-    if (course.steps == 0 && tell(growth) != HOOKE_OK) return HOOKE_STOPPED;
   }
   *verdict = last_word(&course);
   return HOOKE_OK;
@@ -232,6 +232,7 @@ int32_t hooke_growth_see(struct hooke_growth *growth, double step, int32_t thoro
   int32_t status = hooke_options_set_number(growth->run, "step", step);
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->frozen->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
+  hooke_integrator_on_progress(integrator, 0.0, watch, growth);
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
   hooke_integrator_destroy(integrator);

@@ -27,7 +27,8 @@ struct hooke_growth {
   uint64_t random;       /* of the generator */
   hooke_progress *progress;
   void *ctx;
-  double done; /* what the progress is told */
+  double done;         /* what the progress is told */
+  int32_t out_of_time; /* what ended the last steps was the deadline */
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */

@@ -64,6 +64,7 @@ static int32_t has_fixed_step(const char *method) {
 }
 
 static void forget(hooke_limit *limit) {
+  limit->endless = hooke_patience_of(INFINITY, hooke_limit_tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = NAN;
   limit->mode_count = limit->products = limit->clamped = 0;
@@ -109,6 +110,7 @@ int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
   hooke_limit *limit = hooke_handle_new("hooke_limit", sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
   limit->system = system;
+  limit->patience = &limit->endless;
   status =
       options ? hooke_options_copy(options, &limit->options) : hooke_limit_options_create(&limit->options);
   if (status == HOOKE_OK && run) status = hooke_options_copy(run, &limit->run);
@@ -279,6 +281,13 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   return walk->status != HOOKE_OK;
 }
 
+static int32_t see_steps(double done, const char *method, void *ctx) {
+  struct walk *walk = ctx;
+  (void)method;
+  walk->status = begin_part(walk->limit, done, 0.0, "limits along the run");
+  return walk->status != HOOKE_OK;
+}
+
 int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_state_check(state, limit->system);
@@ -293,6 +302,7 @@ int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
   forget_smallest(limit);
   struct walk walk = {limit, 0, hooke_integrator_frame_count(integrator), HOOKE_OK};
   status = hooke_integrator_on_frame(integrator, see_frame, &walk);
+  if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, see_steps, &walk);
   if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
   hooke_integrator_destroy(integrator);
   if (walk.status != HOOKE_OK) return walk.status;

@@ -39,7 +39,8 @@ struct hooke_limit {
   struct hooke_blame blame;
   struct hooke_remedy remedy;
 
-  struct hooke_patience *patience; /* NULL, or that of an inquiry, with bytes that a basis may take */
+  struct hooke_patience endless;   /* which only the caller ends */
+  struct hooke_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
   double room;
   hooke_progress *progress;
   void *progress_ctx;

@@ -209,21 +209,13 @@ struct whole {
   void *ctx;
 };
 
-static int32_t watch(int64_t step, const hooke_state *state, void *ctx) {
-  (void)step;
-  (void)state;
+static int32_t watch(double done, const char *method, void *ctx) {
   struct whole *whole = ctx;
+  (void)done;
   whole->out_of_time = hooke_clock_seconds() > whole->deadline;
-  whole->asked_to_stop =
-      whole->progress && whole->progress(1.0 - 1.0 / (1.0 + 0.2 * (double)whole->tries),
-                                         hooke_options_text(whole->run, "method"), whole->ctx) != 0;
+  whole->asked_to_stop = whole->progress && whole->progress(1.0 - 1.0 / (1.0 + 0.2 * (double)whole->tries),
+                                                            method, whole->ctx) != 0;
   return whole->out_of_time || whole->asked_to_stop;
-}
-
-static int64_t stride(const hooke_system *system) {
-  const int64_t steps =
-      100000 / (hooke_system_spring_count(system) + hooke_system_particle_count(system) + 1);
-  return steps < 1 ? 1 : steps;
 }
 
 /* The whole duration, rounded up to whole steps. */
@@ -236,7 +228,7 @@ static int32_t try_whole(void *ctx, double step, enum hooke_trial_end *end) {
   if (status == HOOKE_OK) status = hooke_options_set_number(whole->run, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_unset(whole->run, "every");
   if (status == HOOKE_OK) status = hooke_integrator_create(whole->system, whole->run, &integrator);
-  if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, stride(whole->system), watch, whole);
+  if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, watch, whole);
   if (status == HOOKE_OK) status = hooke_state_copy(whole->start, whole->state);
   if (status == HOOKE_OK) status = hooke_integrator_run(integrator, whole->state);
   if (integrator) whole->steps_run += hooke_integrator_count(integrator, "steps");

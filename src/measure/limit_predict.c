@@ -9,10 +9,10 @@
 
 static const double SURE = 1e-3; /* accuracy of a limit that is taken for sure */
 
-int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
-                            const double *spring_scale, const double *mass_scale, double accuracy,
-                            double *limit) {
-  return hooke_limit_predict_within(system, q, method, spring_scale, mass_scale, accuracy, 0.0, NULL, limit);
+int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
+                            hooke_progress *progress, void *ctx, double *limit) {
+  struct hooke_patience endless = hooke_patience_of(INFINITY, progress, ctx);
+  return hooke_limit_predict_within(system, q, method, NULL, NULL, accuracy, 0.0, &endless, limit);
 }
 
 /* `prediction` without its mode. */

@@ -9,13 +9,13 @@
 
 /* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 where no step is stable, infinity where
  * nothing limits it, an upper estimate where only part of the spectrum can be had (rk4 and forward-euler on large scenes).
- * `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may be NULL. HOOKE_BAD_VALUE for an unknown
- * method, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED. */
-int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method,
-                            const double *spring_scale, const double *mass_scale, double accuracy,
-                            double *limit);
+ * `progress` may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED,
+ * HOOKE_STOPPED by the progress. */
+int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
+                            hooke_progress *progress, void *ctx, double *limit);
 
-/* The same as long as there is patience, with `room` bytes for a basis (0: as many as are usual); else HOOKE_STOPPED. */
+/* The same of a changed system, as long as there is patience, with `room` bytes for a basis (0: as many as are usual); else HOOKE_STOPPED.
+ * `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may be NULL. */
 int32_t hooke_limit_predict_within(const hooke_system *system, const double *q, const char *method,
                                    const double *spring_scale, const double *mass_scale, double accuracy,
                                    double room, struct hooke_patience *patience, double *limit);

@@ -157,12 +157,19 @@ static int32_t find_step(struct search *search) {
   return status;
 }
 
-static double step_limit(const hooke_system *system, const char *method) {
+static int32_t tell_limit(double done, const char *what, void *needs) {
+  (void)what;
+  return hooke_needs_tell(needs, done);
+}
+
+/* Whoever stops it here stops the run after it. */
+static double step_limit(hooke_needs *needs, const hooke_system *system) {
+  const char *method = hooke_options_text(needs->run, "method");
   hooke_state *state = NULL;
   double limit = NAN;
   if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
   const double *q = hooke_state_position(state);
-  if (hooke_limit_predict(system, q, method, NULL, NULL, 1e-3, &limit) != HOOKE_OK &&
+  if (hooke_limit_predict(system, q, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
       hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
     limit = NAN;
   }
@@ -261,7 +268,7 @@ static void fill_cost(const struct search *search, double limit, struct hooke_ne
 
 int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
                             struct hooke_needs_cost *cost, struct hooke_needs_path *fine) {
-  const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
+  const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   if (status == HOOKE_OK) status = find_step(&search);
@@ -322,7 +329,7 @@ static int32_t find_coarsest(struct search *search, double *error) {
 
 int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
                         struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error) {
-  const double limit = step_limit(trial->system, hooke_options_text(needs->run, "method"));
+  const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   *error = NAN;

@@ -17,6 +17,11 @@ static const double SHARE = 0.5;     /* of the time that the study took so far *
 static const double SECONDS = 1.0;   /* and in any case so many */
 static const double ACCURACY = 1e-3; /* of the limit, relative */
 
+static int32_t tell_limit(double done, const char *what, void *study) {
+  (void)what;
+  return hooke_study_tell(done, study);
+}
+
 static int32_t find_limit_share(hooke_study *study, struct hooke_study_recommendation *r) {
   const char *method = study->method[r->method];
   hooke_state *state = NULL;
@@ -24,10 +29,10 @@ static int32_t find_limit_share(hooke_study *study, struct hooke_study_recommend
   if (hooke_study_is_adaptive(study, r->method)) return HOOKE_OK;
   int32_t status = hooke_state_create(study->system, &state);
   if (status != HOOKE_OK) return status;
-  status =
-      hooke_limit_predict(study->system, hooke_state_position(state), method, NULL, NULL, ACCURACY, &limit);
+  status = hooke_limit_predict(study->system, hooke_state_position(state), method, ACCURACY, tell_limit,
+                               study, &limit);
   hooke_state_destroy(state);
-  if (status == HOOKE_NO_MEMORY) return status;
+  if (status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED) return status;
   if (status == HOOKE_OK) r->margin.limit_share = r->value / limit;
   return HOOKE_OK;
 }

@@ -55,15 +55,11 @@ struct run {
   const struct hooke_listener *listener;
 };
 
-static int32_t tell(const struct run *run, const hooke_state *state) {
+static int32_t tell(double share, const char *method, void *ctx) {
+  const struct run *run = ctx;
+  (void)method;
   if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
-  const double share = (hooke_state_time(state) - run->begin) / run->duration;
   return run->listener->on_progress(fmin(1.0, share), run->listener->ctx);
-}
-
-static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
-  (void)step;
-  return tell(ctx, state);
 }
 
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
@@ -91,15 +87,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   if (run->listener && run->listener->on_frame) {
     value = run->listener->on_frame(f, step, state, run->listener->ctx);
   }
-  return value ? value : tell(run, state);
-}
-
-/* Steps between two words to the listener: about a millisecond of work. */
-static int64_t stride(const hooke_system *system, const hooke_options *options) {
-  if (hooke_method_is_adaptive(hooke_options_text(options, "method"))) return 1;
-  const int64_t size = hooke_system_spring_count(system) + hooke_system_particle_count(system) + 1;
-  const int64_t steps = 1000000 / size;
-  return steps < 1 ? 1 : steps > 1000 ? 1000 : steps;
+  return value ? value : tell((hooke_state_time(state) - run->begin) / run->duration, NULL, run);
 }
 
 /* One run on a fresh state; the integrator comes out for its counts. */
@@ -113,9 +101,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
-    if (run->listener && run->listener->on_progress) {
-      hooke_integrator_on_step(*integrator, stride(system, options), see_step, run);
-    }
+    hooke_integrator_on_progress(*integrator, 0.0, tell, run);
     status = hooke_integrator_run(*integrator, state);
   }
   hooke_state_destroy(state);

@@ -95,8 +95,14 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   struct effort *effort = ctx;
   const struct hooke_counts *c = &effort->integrator->count;
   (void)step, (void)state;
-  effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
-                  hooke_patience_ends(effort->patience, "trying what to do");
+  effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK;
+  return effort->spent;
+}
+
+static int32_t watch_time(double done, const char *method, void *ctx) {
+  struct effort *effort = ctx;
+  (void)done, (void)method;
+  effort->spent = hooke_patience_ends(effort->patience, "trying what to do");
   return effort->spent;
 }
 
@@ -128,6 +134,7 @@ static int32_t run_trial(struct hooke_plan *plan, hooke_integrator *integrator, 
   if (status != HOOKE_OK) return status;
   hooke_state_copy(plan->first, state);
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);
+  hooke_integrator_on_progress(integrator, 0.0, watch_time, &effort);
   status = hooke_integrator_run(integrator, state);
   trial->finished = status == HOOKE_OK;
   trial->diverged = status == HOOKE_DIVERGED;

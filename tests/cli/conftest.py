@@ -81,7 +81,8 @@ class Answer:
 
 def default_signals():
     """A test run started in the background hands on ignored signals; the program would rightly keep ignoring them."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 @pytest.fixture

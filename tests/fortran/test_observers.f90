@@ -8,6 +8,7 @@ program test_observers
 
   call frames()
   call steps()
+  call told_of_progress()
   call warnings()
   call finish()
 
@@ -64,6 +65,28 @@ contains
     call integrator%on_step(1)
     call integrator%step(state, 100_hooke_long)
     call expect(second%seen == 4 .and. integrator%count("steps") == 300, "taken back")
+  end subroutine
+
+  subroutine told_of_progress()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(teller), target :: told
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "rk4", 1e-3_hooke_real, 1e3_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%on_progress(-1.0_hooke_real, told, status)
+    call expect(status == hooke_bad_value, "seconds below 0 are refused")
+    told%stop_after = 3
+    call integrator%on_progress(0.0_hooke_real, told)
+    call integrator%run(state, status)
+    call expect(status == hooke_stopped .and. told%told == 3 .and. told%what == "rk4", "stopped by the third word")
+    call integrator%on_progress(0.0_hooke_real)
+    call integrator%step(state, 10)
+    call expect(told%told == 3, "taken back")
   end subroutine
 
   subroutine warnings()

@@ -259,6 +259,38 @@ static void test_steps_by_hand(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* They are said to be that, and no sum of them runs over. */
+static void test_too_many_steps(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(1.0);
+  const struct {
+    double step, duration, every;
+  } cases[] = {{1e-17, 10.0, 1.0}, {1e-300, 1.0, 1.0}, {1e-3, 1e14, 1e-3}, {1e-3, 1e300, 1e300}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    hooke_integrator *refused = NULL;
+    hooke_options *options = run_options((struct run){
+        .method = "verlet", .step = cases[k].step, .duration = cases[k].duration, .every = cases[k].every});
+    check_status(hooke_integrator_create(system, options, &refused), HOOKE_BAD_VALUE);
+    check_message("takes too many steps");
+    check_message("allowed: fewer than 9000000000000000");
+    hooke_options_destroy(options);
+  }
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 1.0});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_step(integrator, state, 3));
+  const double t = hooke_state_time(state);
+  check_status(hooke_integrator_step(integrator, state, INT64_MAX), HOOKE_BAD_VALUE);
+  check_message("steps: 9223372036854775807 after 3 are too many");
+  check_status(hooke_integrator_step(integrator, state, INT64_MAX - 2), HOOKE_BAD_VALUE);
+  const double now = hooke_state_time(state);
+  check_same_bits(1, &now, &t);
+  check_ok(hooke_integrator_step(integrator, state, 3));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
 static void test_state_of_another_size(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(2.0);
@@ -393,6 +425,7 @@ int main(void) {
       cmocka_unit_test(test_step_observer_of_adaptive_methods),
       cmocka_unit_test(test_step_limit),
       cmocka_unit_test(test_steps_by_hand),
+      cmocka_unit_test(test_too_many_steps),
       cmocka_unit_test(test_state_of_another_size),
       cmocka_unit_test(test_energy),
       cmocka_unit_test(test_counts),

@@ -120,6 +120,7 @@ def test_a_callback_type_is_that_of_the_header(name):
 def test_every_prototype_is_installed():
     for name, (result, *arguments) in PROTOTYPES.items():
         function = getattr(lib, name)
+        function = getattr(function, "__wrapped__", function)
         status = result in (_prototypes.STATUS, _prototypes.OUTCOME)
         assert list(function.argtypes) == arguments
         assert function.restype is (ctypes.c_int32 if status else result)

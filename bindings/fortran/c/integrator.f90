@@ -67,6 +67,13 @@ module hooke_c_integrator
       type(c_ptr), value :: integrator, ctx
       type(c_funptr), value :: observer
     end function
+    integer(c_int32_t) function c_integrator_on_progress(integrator, seconds, progress, ctx) &
+      bind(c, name="hooke_integrator_on_progress")
+      import
+      type(c_ptr), value :: integrator, ctx
+      real(c_double), value :: seconds
+      type(c_funptr), value :: progress
+    end function
     integer(c_int64_t) function c_integrator_frame_count(integrator) bind(c, name="hooke_integrator_frame_count")
       import
       type(c_ptr), value :: integrator

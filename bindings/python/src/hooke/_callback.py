@@ -17,6 +17,7 @@ from typing import Any, Callable
 
 import numpy as np
 
+from ._library import lib
 from ._memory import text, view
 from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
@@ -159,26 +160,38 @@ def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Itera
 
 
 @contextlib.contextmanager
-def interruptible() -> Iterator[None]:
-    """Lets Ctrl-C end a run at its next callback.
+def interruptible(integrator: Any = None) -> Iterator[None]:
+    """Lets Ctrl-C end the work at its next callback; steps of `integrator` have one every tenth of a second.
 
-    Python would raise KeyboardInterrupt on entry to the callback, before any `try`, where ctypes can only
-    drop it. So it is noted like an exception of the callback instead. Other handlers than Python's own are
-    left alone.
+    Python would call the handler of the signal on entry to the callback, before any `try`, where ctypes can only
+    drop what it raises. So that is noted like an exception of the callback instead.
     """
     mine = threading.current_thread() is threading.main_thread()
-    if not mine or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+    before = signal.getsignal(signal.SIGINT) if mine else None
+    if not callable(before):
         yield
         return
 
-    def note(_number: int, _frame: Any) -> None:
-        pending.exception = KeyboardInterrupt()
+    def note(number: int, frame: Any) -> None:
+        try:
+            before(number, frame)
+        except BaseException as exception:
+            pending.exception = exception
 
     signal.signal(signal.SIGINT, note)
     try:
+        if integrator is not None:
+            lib.hooke_integrator_on_progress(integrator, _HEARING, _HEAR, None)
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if integrator is not None:
+            lib.hooke_integrator_on_progress(integrator, _HEARING, PROGRESS(), None)
+        if signal.getsignal(signal.SIGINT) is note:
+            signal.signal(signal.SIGINT, before)
         late, pending.exception = pending.exception, None
     if late is not None:
         raise late
+
+
+_HEARING = 0.1  # [s]
+_HEAR = PROGRESS(lambda *_: guarded(lambda: None))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
+from ._memory import Owner
 from ._status import BadCall
 
 C = TypeVar("C", bound="Closing")
 
 
-class Closing:
+class Closing(Owner):
     """Has a `_handle`, which `close` gives back; what needs it afterwards is a BadCall."""
 
     def close(self) -> None:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import functools
+import operator
 import os
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Callable
 
 from . import _prototypes
-from ._status import checker
+from ._status import BadValue, checker
 
 #: The ABI that this package was written for, HOOKE_ABI of the headers.
 ABI = 0
@@ -38,7 +40,7 @@ class Library:
             _prototypes.OUTCOME: checker(words, outcomes=True),
         }
         for name in _prototypes.PROTOTYPES:
-            setattr(self, name, _install(path, library, name, checks))
+            setattr(self, name, _guarded(_install(path, library, name, checks)))
 
 
 def _install(path: str, library: ctypes.CDLL, name: str, checks: Mapping[Any, Any]) -> Any:
@@ -55,6 +57,43 @@ def _install(path: str, library: ctypes.CDLL, name: str, checks: Mapping[Any, An
     else:
         function.restype = result
     return function
+
+
+def _text(value: Any) -> Any:
+    if value is not None and b"\0" in value:
+        raise BadValue(f"{value.decode('utf-8', 'replace')!r} is not allowed: a text has no NUL character")
+    return value
+
+
+def _whole(bits: int) -> Callable[[Any], int]:
+    def check(value: Any) -> int:
+        try:
+            number = operator.index(value)
+        except TypeError:
+            raise BadValue(f"{value!r} is not allowed; a whole number is needed") from None
+        if not -(1 << bits - 1) <= number < 1 << bits - 1:
+            raise BadValue(f"{number} is not allowed; whole numbers go from -2^{bits - 1} to 2^{bits - 1} - 1")
+        return number
+
+    return check
+
+
+_CHECKS = {_prototypes.TEXT: _text, _prototypes.INT32: _whole(32), _prototypes.INT64: _whole(64)}
+
+
+def _guarded(function: Any) -> Any:
+    """The function with its texts and whole numbers looked at, of which ctypes would pass on only a part."""
+    checks = [(place, _CHECKS[kind]) for place, kind in enumerate(function.argtypes) if kind in _CHECKS]
+    if not checks:
+        return function
+
+    @functools.wraps(function)
+    def call(*arguments: Any) -> Any:
+        for place, check in checks:
+            check(arguments[place])
+        return function(*arguments)
+
+    return call
 
 
 def _require_abi(path: str, library: ctypes.CDLL) -> None:

@@ -13,7 +13,20 @@ from ._status import BadValue
 from ._types import FloatArray, IntArray, Table
 
 
-class Handle:
+class Owner:
+    """What holds an object of the library: that cannot be copied or pickled, as it is one of this process."""
+
+    __slots__ = ()
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        way = "copy() makes another" if hasattr(self, "copy") else "build it again where it is needed"
+        raise TypeError(
+            f"a {type(self).__name__} holds an object of the library and cannot be copied or pickled; {way}. "
+            "States and arrays can"
+        )
+
+
+class Handle(Owner):
     """Owns one object of the library and gives it back when the last user is gone, parents after their
     children.
 
@@ -70,10 +83,20 @@ def address_of(pointer: Any) -> int:
     return ctypes.cast(pointer, ctypes.c_void_p).value or 0
 
 
+def plain(values: Any, name: str) -> Table:
+    """`values` as an array; BadValue where an element is masked, as NumPy would give what is beneath."""
+    if isinstance(values, (list, tuple)) and any(isinstance(item, np.ma.MaskedArray) for item in values):
+        values = np.ma.array(values)
+    if np.ma.is_masked(values):
+        place = "".join(f"[{number}]" for number in np.argwhere(np.ma.getmaskarray(values))[0])
+        raise BadValue(f"{name}{place}: is masked; give it a value or leave it out")
+    return np.asarray(values)
+
+
 def doubles(values: Any, name: str, *shapes: Sequence[int]) -> FloatArray:
     """`values` as contiguous doubles of the first of `shapes` that their shape fits, or of the size of
     one."""
-    array = np.asarray(values)
+    array = plain(values, name)
     if array.dtype.kind not in "iuf" and array.size:
         raise BadValue(f"{name}: numbers are needed, these are {array.dtype}")
     array = np.ascontiguousarray(array, dtype=np.float64)
@@ -90,7 +113,7 @@ def rows(values: Any, name: str, count: int) -> FloatArray:
 
 def indices(values: Any, name: str) -> IntArray:
     """`values` as contiguous 64-bit indices; numbers that are not whole are refused rather than cut."""
-    array = np.asarray(values)
+    array = plain(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise BadValue(f"{name}: whole numbers are needed, these are {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.int64)

@@ -178,6 +178,7 @@ PROTOTYPES = {
     "hooke_integrator_on_step": (STATUS, INTEGRATOR, INT64, OBSERVER, ADDRESS),
     "hooke_integrator_frame_count": (INT64, INTEGRATOR),
     "hooke_integrator_on_checkpoint": (STATUS, INTEGRATOR, OBSERVER, ADDRESS),
+    "hooke_integrator_on_progress": (STATUS, INTEGRATOR, DOUBLE, PROGRESS, ADDRESS),
     "hooke_integrator_run": (OUTCOME, INTEGRATOR, STATE),
     "hooke_integrator_resume": (OUTCOME, INTEGRATOR, STATE),
     "hooke_integrator_step": (OUTCOME, INTEGRATOR, STATE, INT64),

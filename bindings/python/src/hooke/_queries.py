@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+from ._memory import Handle, Owner, address_of, double_pointer, index_pointer, rows, text, view
 from ._types import FloatArray, IntArray
 
 _DOUBLE = np.dtype(np.float64)
@@ -42,7 +42,7 @@ class Blocks(NamedTuple):
     dfdv: FloatArray
 
 
-class Queries:
+class Queries(Owner):
     """Counts, tables, forces and energies. Positions and velocities are (n, 3) arrays [m], [m/s]."""
 
     _handle: Handle

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from ._callback import listening
 from ._library import lib
-from ._memory import Handle, text
+from ._memory import Handle, Owner, text
 from ._prototypes import ESTIMATE
 from ._status import BadValue, Unsuited
 
@@ -66,7 +66,7 @@ def _number(handle: Handle, what: str) -> float:
     return float(lib.hooke_estimate_number(handle, what.encode()))
 
 
-class Estimate:
+class Estimate(Owner):
     """Wraps a `hooke_estimate`: what it picks, sees and measures of runs of one system."""
 
     def __init__(self, system: System, want: Length | None, progress: Any = None):

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle
+from ._memory import Handle, Owner, plain
 from ._prototypes import INTEGRATOR
 from ._status import BadValue
 from ._types import Table
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Rate = Callable[[float, Table, Table], Optional[int]]
 
 
-class FirstOrder:
+class FirstOrder(Owner):
     """x' = phi(t, x) from `x0` (size,), real or complex; ``phi(t, x, rate)`` writes the rate into its last
     argument::
 
@@ -36,7 +36,7 @@ class FirstOrder:
     """
 
     def __init__(self, phi: Rate, x0: Any):
-        x0 = np.atleast_1d(np.asarray(x0))
+        x0 = np.atleast_1d(plain(x0, "x0"))
         if x0.ndim != 1 or x0.size == 0 or x0.dtype.kind not in "iufc":
             raise BadValue(f"x0: one row of at least one number is needed, this is {x0!r}")
         self._x0 = x0.astype(complex if x0.dtype.kind == "c" else float)

@@ -42,6 +42,7 @@ COUNTS = (
 
 _SOLVER_FAILED = -7
 _BLOWN_UP = (2, 3, _SOLVER_FAILED)
+_LONG = 50_000  #: numbers times steps that may take long enough for Ctrl-C to matter
 _RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
 
@@ -142,8 +143,8 @@ class Integrator(Closing):
     def step(self, state: State, steps: int = 1) -> str:
         """Takes `steps` steps without frames, for time loops of your own; returns an outcome as `run`
         does."""
-        if self._problem._callbacks:
-            with _callback.interruptible():
+        if self._problem._callbacks or (steps > 1 and steps * state.x.size > _LONG):
+            with _callback.interruptible(self._handle):
                 code = self._step(state, steps)
         else:
             code = self._step(state, steps)
@@ -197,8 +198,7 @@ class Integrator(Closing):
         if self._running:
             raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
-        # a frame observer is always there, so that Ctrl-C is noticed
-        frames = _observer(on_frame or (lambda step, state: None), state)
+        frames = _observer(on_frame, state) if on_frame else OBSERVER()
         steps = _observer(step_observer, state) if step_observer else OBSERVER()
         checkpoints = _observer(on_checkpoint, state) if on_checkpoint else OBSERVER()
         self._running = True
@@ -206,7 +206,7 @@ class Integrator(Closing):
             lib.hooke_integrator_on_frame(self._handle, frames, None)
             lib.hooke_integrator_on_step(self._handle, stride, steps, None)
             lib.hooke_integrator_on_checkpoint(self._handle, checkpoints, None)
-            with _callback.interruptible():
+            with _callback.interruptible(self._handle):
                 yield
         finally:
             self._running = False

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, address_of, double_pointer, doubles, text, view
+from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, text, view
 from ._place import placed
 from ._prototypes import OPTIONS
 from ._status import BadCall, BadValue
@@ -49,7 +49,7 @@ class Row(NamedTuple):
     word_lists: bool
 
 
-class Options(MutableMapping[str, Any]):
+class Options(Owner, MutableMapping[str, Any]):
     """The options of one thing by name: ``options["step"] = 1e-3``.
 
     A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or
@@ -159,6 +159,7 @@ class Options(MutableMapping[str, Any]):
                 with placed(name):
                     self[f"{name}.{member}"] = member_value
         elif np.ndim(value) == 0:
+            plain(value, name)
             lib.hooke_options_set_number(self._handle, key, as_number(name, value))
         elif not isinstance(value, np.ndarray) and any(isinstance(item, str) for item in value):
             words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in value)

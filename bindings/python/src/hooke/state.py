@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, address_of, view
-from ._prototypes import STATE
+from ._memory import Handle, address_of, double_pointer, plain, view
+from ._prototypes import STATE, SYSTEM
 from ._types import FloatArray, Table
 
 
@@ -19,7 +19,7 @@ class State:
 
     `q` and `v` are NumPy arrays over the library's own memory, no copy: write into them to set the state, and
     read them again after a run. They stay valid however long they are kept, also when the state itself is
-    gone.
+    gone. A state can be copied and pickled; one that was pickled belongs to no system, and fits all of its size.
     """
 
     __slots__ = ("__weakref__", "_handle", "_q", "_v", "_x")
@@ -48,6 +48,19 @@ class State:
         lib.hooke_state_create_first_order(size, ctypes.byref(pointer))
         return cls(Handle(pointer, lib.hooke_state_destroy), dtype)
 
+    @classmethod
+    def _of_particles(cls, count: int) -> State:
+        """Of a system that has so many particles and nothing else."""
+        pointer = SYSTEM()
+        lib.hooke_system_create(ctypes.byref(pointer))
+        system = Handle(pointer, lib.hooke_system_destroy)
+        place, mass = np.zeros((count, 3)), np.ones(1)
+        lib.hooke_system_add_particles(
+            system, count, double_pointer(place), None, 1, double_pointer(mass), None
+        )
+        lib.hooke_system_commit(system)
+        return cls._of_system(system)
+
     @property
     def t(self) -> float:
         """Time [s]."""
@@ -64,7 +77,7 @@ class State:
 
     @q.setter
     def q(self, value: Any) -> None:
-        self.q[...] = value
+        self.q[...] = plain(value, "q")
 
     @property
     def v(self) -> FloatArray:
@@ -73,7 +86,7 @@ class State:
 
     @v.setter
     def v(self, value: Any) -> None:
-        self.v[...] = value
+        self.v[...] = plain(value, "v")
 
     @property
     def x(self) -> Table:
@@ -82,7 +95,7 @@ class State:
 
     @x.setter
     def x(self, value: Any) -> None:
-        self._x[...] = value
+        self._x[...] = plain(value, "x")
 
     def copy(self) -> State:
         """A state of its own with the same values."""
@@ -92,6 +105,15 @@ class State:
             other = State._of_system(self._handle.parent)
         other.assign(self)
         return other
+
+    def __copy__(self) -> State:
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> State:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.t, self._x.copy(), None if self._v is None else self._v.copy())
 
     def assign(self, other: State) -> None:
         """Takes over time, positions and velocities of a state of the same size."""
@@ -104,3 +126,12 @@ class State:
         if self._v is None:
             return f"State(t={self.t!r}, {self._x.size} unknowns)"
         return f"State(t={self.t!r}, {len(self._v)} particles)"
+
+
+def _restored(t: float, x: Table, v: FloatArray | None) -> State:
+    """A state that was pickled."""
+    state = State._of_size(x.size * x.itemsize // 8, x.dtype) if v is None else State._of_particles(len(v))
+    state.t, state.x = t, x
+    if v is not None:
+        state.v = v
+    return state

@@ -205,6 +205,7 @@ extern "C" {
 typedef struct hooke_integrator hooke_integrator;
 typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
+typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 HOOKE_API int64_t hooke_method_count(void);
 HOOKE_API const char *hooke_method_name(int64_t method);
 HOOKE_API const char *hooke_method_summary(const char *name);
@@ -224,6 +225,8 @@ HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t
                                            hooke_observer *observer, void *ctx);
 HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
                                                  void *ctx);
+HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds,
+                                               hooke_progress *progress, void *ctx);
 HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
@@ -248,7 +251,6 @@ HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *metho
                                    double *bound);
 HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 typedef struct hooke_comparison hooke_comparison;
-typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                                        void *ctx);
 HOOKE_API int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,

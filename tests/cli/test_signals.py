@@ -1,0 +1,121 @@
+"""Ctrl-C, SIGTERM and SIGHUP end the work alike, however many come: what was computed is kept, and a run says how to go on."""
+
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import pytest
+from conftest import interrupt
+
+SIDE = 40
+ALL = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+CLOTH = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "parts": [
+        {
+            "kind": "cloth",
+            "edges": [[1, 0, 0], [0, 0, 1]],
+            "size": [SIDE, SIDE],
+            "mass": 0.1,
+            "structural": {"stiffness": 500, "damping": 1e-3},
+            "pinned": "top-corners",
+        }
+    ],
+    "run": {"method": "symplectic-euler", "step": 1e-6, "duration": 1000, "every": 1000},
+}
+
+
+def listens(process, number):
+    """Waits until the program listens to the signal."""
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1)
+        if int(caught, 16) >> (number - 1) & 1:
+            return
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    pytest.fail("it does not listen")
+
+
+def end_by(process, numbers, after=0.3):
+    """Sends the signals one after the other; what it said, and the seconds that it took to end."""
+    listens(process, numbers[0])
+    time.sleep(after)
+    began = time.monotonic()
+    for number in numbers:
+        process.send_signal(number)
+        time.sleep(0.002)
+    out, err = process.communicate(timeout=60)
+    return out.decode(), err.decode(), time.monotonic() - began
+
+
+@pytest.mark.parametrize(
+    "method, number", [*(("symplectic-euler", number) for number in ALL), ("backward-euler", signal.SIGTERM)]
+)
+def test_a_run_between_frames_ends_and_can_go_on(hooke, start, write, tmp_path, number, method):
+    step = 1e-6 if method == "symplectic-euler" else 0.01
+    scene = write(CLOTH, method=method, step=step, duration=1000, every=1000)
+    process = start("run", scene, "-o", "out.h5")
+    while not (tmp_path / "out.h5").exists():
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    out, err, seconds = end_by(process, [number] * 20)
+    assert process.returncode == 130, (out, err)
+    assert seconds < 10  # on a busy machine; 2 s, and a step and its writing
+    assert "interrupted at t = " in err and err.endswith("to go on:\n  hooke run --resume out.h5\n")
+    assert "largest stable" not in err  # no diagnosis
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert file["/hooke/status"][()] == b"stopped"
+    reached = next(float(line.split()[2]) for line in out.splitlines() if line.startswith("time reached"))
+    assert reached > 0
+    process = start("run", "--resume", "out.h5", "--no-why")
+    _, err, _ = end_by(process, [number])
+    assert process.returncode == 130 and "checkpoint" in err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["limit", "--accuracy", "1e-4", "--budget", "300s"],
+        ["study", "--duration", "10", "--every", "1", "--budget", "300s"],
+        ["needs", "--want", "1mm", "--duration", "10", "--every", "1"],
+        ["why", "--step", "5ms", "--every", "50ms", "--duration", "100", "--budget", "300s"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_other_work_ends_too(start, write, words):
+    process = start(words[0], write(CLOTH), *words[1:])
+    _, err, seconds = end_by(process, [signal.SIGHUP, *ALL, signal.SIGHUP], 0.5)
+    if process.returncode == 6:
+        pytest.skip("a part that is not built")
+    assert process.returncode == 130 and "interrupted" in err, err
+    assert seconds < 10
+
+
+def test_a_signal_during_a_diagnosis_does_not_kill(start, write):
+    scene = write(CLOTH, step=5e-3, every=0.05, duration=100)
+    process = start("run", scene, "-o", "out.h5")
+    for line in process.stdout:
+        if line.startswith(b"output"):
+            break
+    _, err, seconds = end_by(process, ALL * 3, 0)
+    assert process.returncode == 4 and "the run diverged" in err
+    assert "is not looked into further" in err or "what to do" in err
+    assert seconds < 10
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
+def test_what_was_ignored_stays_ignored(start, write, number):
+    """As SIGHUP is under nohup."""
+    process = start("run", write(CLOTH), preexec_fn=lambda: signal.signal(number, signal.SIG_IGN))
+    listens(process, signal.SIGINT)
+    process.send_signal(number)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(0.3)
+    interrupt(process)
+    process.communicate(timeout=60)
+    assert process.returncode == 130

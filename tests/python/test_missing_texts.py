@@ -1,0 +1,120 @@
+"""A text that is NULL is refused by every function that takes one, or is a word that it does not know, in every build."""
+
+import ctypes
+import importlib.util
+import json
+import math
+
+import pytest
+from conftest import ROOT, SIX_PARTICLES
+
+from hooke import _prototypes as p
+from hooke._library import lib
+
+RUN = {"step": 1e-3, "duration": 0.01, "every": 0.005}
+TEXTS = [
+    (name, place)
+    for name, (_, *arguments) in p.PROTOTYPES.items()
+    for place, kind in enumerate(arguments)
+    if kind is p.TEXT
+]
+
+
+def guard():
+    spec = importlib.util.spec_from_file_location("make_guard", ROOT / "src/guard/make_guard.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+GUARD = guard()
+PARAMETERS = {f"hooke_{name}": [what for _, what in parameters] for _, name, parameters in GUARD.functions()}
+
+
+def made(kind, create, *arguments):
+    handle = kind()
+    getattr(lib, create)(*arguments, ctypes.byref(handle))
+    return handle
+
+
+@pytest.fixture(scope="module")
+def alive(tmp_path_factory):
+    """An object of every type that this build can make."""
+    path = str(tmp_path_factory.mktemp("texts") / "out.h5").encode()
+    text = json.dumps(SIX_PARTICLES).encode()
+    scene = made(p.SCENE, "hooke_scene_parse", text, len(text), b"x.json", b".")
+    lib.hooke_scene_commit(scene)
+    system = lib.hooke_scene_system(scene)
+    run = made(p.OPTIONS, "hooke_run_options_create")
+    for name, value in RUN.items():
+        lib.hooke_options_set_number(run, name.encode(), value)
+    state = made(p.STATE, "hooke_state_create", system)
+    integrator = made(p.INTEGRATOR, "hooke_integrator_create", system, run)
+    objects = {p.SCENE: scene, p.SYSTEM: system, p.OPTIONS: run, p.STATE: state, p.INTEGRATOR: integrator}
+
+    def add(kind, create, *arguments):
+        try:
+            objects[kind] = made(kind, create, *arguments)
+        except Exception:
+            objects[kind] = None
+
+    add(p.TRAJECTORY, "hooke_trajectory_create", path, system, integrator, text)
+    if objects[p.TRAJECTORY]:
+        lib.hooke_trajectory_write(objects[p.TRAJECTORY], 0, state)
+    add(p.RECORD, "hooke_record_open", path)
+    add(p.VIEW, "hooke_view_create", objects[p.RECORD], None)
+    add(p.VERIFY, "hooke_verify_create", path, None, None)
+    add(p.COMPARISON, "hooke_comparison_create", system, run)
+    add(p.ESTIMATE, "hooke_estimate_create", system, 1e-3)
+    add(p.STUDY, "hooke_study_create", system, run, None)
+    add(p.LIMIT, "hooke_limit_create", system, run, None)
+    add(p.COST, "hooke_cost_create", system, run, None)
+    needs = made(p.OPTIONS, "hooke_needs_options_create")
+    lib.hooke_options_set_number(needs, b"want", 1e-3)
+    add(p.NEEDS, "hooke_needs_create", system, run, needs)
+    for name, value in {"step": 0.5, "duration": 500.0, "every": 50.0}.items():
+        lib.hooke_options_set_number(run, name.encode(), value)
+    lib.hooke_options_set_text(run, b"method", b"forward-euler")
+    diverged = made(p.INTEGRATOR, "hooke_integrator_create", system, run)
+    assert lib.hooke_integrator_run(diverged, state) == 2
+    add(p.WHY, "hooke_why_create", diverged, 0.1, p.PROGRESS(), None)
+    return objects
+
+
+def argument(kind, alive):
+    if kind in alive:
+        return alive[kind]
+    if kind is p.TEXT:
+        return b"verlet"
+    if kind in (p.DOUBLES, p.INTEGERS):
+        return ctypes.cast((ctypes.c_double * 100)(), kind)
+    if kind in (p.INT32, p.INT64, p.DOUBLE):
+        return 0
+    return None if kind is p.ADDRESS else ctypes.byref(kind._type_())
+
+
+@pytest.mark.parametrize("name, place", TEXTS)
+def test_no_text(name, place, alive):
+    result, *kinds = p.PROTOTYPES[name]
+    what = PARAMETERS[name][place]
+    if (name.removeprefix("hooke_"), what) in GUARD.MAY_BE_NO_TEXT:
+        return
+    if any(kind in alive and alive[kind] is None for kind in kinds):
+        pytest.skip("this build cannot make one")
+    arguments = [argument(kind, alive) for kind in kinds]
+    function = ctypes.CFUNCTYPE(p.INT32 if result in (p.STATUS, p.OUTCOME) else result, *kinds)((name, ctypes.CDLL(lib.path)))
+    answer = function(*arguments[:place], None, *arguments[place + 1 :])
+    if result in (p.STATUS, p.OUTCOME):
+        assert answer == -2 and lib.hooke_last_error().startswith(f"no {what} given; {name}()".encode())
+        return
+    unknown = function(*arguments[:place], b"no such word", *arguments[place + 1 :])
+    if result is p.DOUBLE:
+        assert math.isnan(answer) and math.isnan(unknown)
+    elif result is p.DOUBLES:
+        assert not answer and not unknown
+    else:
+        assert answer == unknown and answer in (None, b"", 0, -1)
+
+
+def test_there_are_many():
+    assert len(TEXTS) > 100 and len(GUARD.MAY_BE_NO_TEXT) < 30
