@@ -19,6 +19,9 @@
 #define TEXT(text)                                                                                           \
   if ((text) == NULL)                                                                                        \
     return hooke_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
+/* What a function that is refused a text would have made. */
+#define MADE(object)                                                                                         \
+  if (object) *(object) = NULL;
 #define WORD(text)                                                                                           \
   if ((text) == NULL) (text) = "";
 

@@ -97,6 +97,8 @@ def call(function, types):
               for kind, what in parameters if handle(kind, types)]
     checks += [check_of_text(result, name, what) for kind, what in parameters
                if kind == "const char *" and (name, what) not in MAY_BE_NO_TEXT]
+    if any(check.startswith("TEXT") for check in checks):
+        checks = [f"MADE({what})" for kind, what in parameters if handle(kind.removesuffix("*"), types)] + checks
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
     return f"{head}{name}, ({declared}), ({arguments}), {' '.join(checks)})"

@@ -99,6 +99,7 @@ static int32_t open_by(hid_t list, struct hooke_h5_guard *guard, hid_t file, con
   }
   if (H5Iget_type(data->id) != H5I_DATASET) return hooke_dataset_refuse(path, name, not_numbers);
   const char *foreign = hooke_h5_foreign(data->id);
+  if (guard->no_memory) return hooke_h5_fail(guard, path, "look at a dataset");
   if (foreign) return hooke_dataset_refuse(path, name, foreign);
   hid_t space = H5Dget_space(data->id);
   data->rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);

@@ -95,7 +95,7 @@ static void test_steps_that_do_not_fit(void **unused) {
   (void)unused;
   const char *method = "symplectic-euler";
   refuse_run((struct run){.method = method, .step = 0.3, .duration = 1.0}, "duration", "0.25",
-             "0.33333333333333331");
+             "0.3333333333333333");
   refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0, .every = 0.25}, "every",
              "0.083333333333333", "0.125");
   refuse_run((struct run){.method = method, .duration = 1.0}, "step", "missing", "step");
