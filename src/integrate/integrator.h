@@ -4,8 +4,8 @@
 
 #include "core/option.h"
 #include "integrate/method.h"
-#include "integrate/recent.h"
-#include "model/motion.h"
+#include "integrate/loop/recent.h"
+#include "model/sum/motion.h"
 #include "model/state.h"
 
 struct hooke_counts {

@@ -1,7 +1,7 @@
 #include "model/check_value.h"
 
 #include "core/crc32.h"
-#include "model/spring_batch.h"
+#include "model/sum/spring_batch.h"
 
 #include <stddef.h>
 

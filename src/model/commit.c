@@ -1,10 +1,10 @@
 /* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, chooses the forces that
  * are there, frees what only building needed. */
-#include "model/force.h"
+#include "model/force/force.h"
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/spring_batch.h"
+#include "model/sum/spring_batch.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>

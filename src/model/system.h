@@ -3,14 +3,14 @@
 #define HOOKE_MODEL_SYSTEM_H
 
 #include "hooke/system.h"
-#include "model/altitude.h"
-#include "model/bending.h"
+#include "model/force/altitude.h"
+#include "model/force/bending.h"
 #include "model/derived.h"
-#include "model/drive.h"
-#include "model/lane.h"
-#include "model/net.h"
+#include "model/force/drive.h"
+#include "model/sum/lane.h"
+#include "model/sum/net.h"
 #include "model/part_record.h"
-#include "model/spring.h"
+#include "model/force/spring.h"
 
 struct hooke_force_row;
 

@@ -1,6 +1,6 @@
 /* Questions to a system. */
-#include "model/force.h"
-#include "model/spring_batch.h"
+#include "model/force/force.h"
+#include "model/sum/spring_batch.h"
 
 #include "core/status.h"
 

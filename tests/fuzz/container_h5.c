@@ -9,7 +9,7 @@
 #include "hooke.h"
 
 #include "core/crc32.h"
-#include "io/recording_h5.h"
+#include "io/trajectory/recording_h5.h"
 
 #include <hdf5.h>
 

@@ -1,6 +1,6 @@
 /* Arrays that a scene names in HDF5 files: whatever is in the container, the numbers that are in it or a message.
  *
- * Lines of: src/io/array_h5.c src/io/dataset_h5.c src/io/frame_check_h5.c src/io/scene_json_array.c src/io/object_h5.c
+ * Lines of: src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c
  * Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"
@@ -9,7 +9,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "io/array_h5.h"
+#include "io/hdf5/array_h5.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,15 +3,15 @@
  *
  * The first byte says what is asked, the rest is the file. Most inputs have a check value that fits.
  *
- * Lines of: src/io/checkpoint.c src/io/checkpoint_form.c
+ * Lines of: src/io/checkpoint/checkpoint.c src/io/checkpoint/checkpoint_form.c
  * Longest input: 640 */
 #include "fuzz.h"
 
 #include "hooke.h"
 
 #include "core/crc32.h"
-#include "io/checkpoint_file.h"
-#include "io/checkpoint_form.h"
+#include "io/checkpoint/checkpoint_file.h"
+#include "io/checkpoint/checkpoint_form.h"
 
 #include <fcntl.h>
 #include <math.h>

@@ -3,16 +3,15 @@
  * differences.
  *
  * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c src/kernel/net_loops.c
- *           src/kernel/spring_[cl]*.c src/kernel/step_loops.c src/kernel/tangent_loops.c src/model/force.c
- *           src/model/force_[abdgs]*.c src/model/lane*.c src/model/net*.c src/model/motion*.c src/model/spring*.c
- *           src/model/altitude*.c src/model/bending*.c src/model/energy.c src/model/drive.c src/integrate/forward_euler.c
- *           src/integrate/symplectic_euler.c src/integrate/rk4.c src/integrate/verlet.c
+ *           src/kernel/spring_[cl]*.c src/kernel/step_loops.c src/kernel/tangent_loops.c src/model/force/force.c
+ *           src/model/force/*.c src/model/sum/*.c
+ *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c src/integrate/method/rk4.c src/integrate/method/verlet.c
  * Longest input: 104 */
 #include "fuzz.h"
 #include "small_scene.h"
 
 #include "kernel/spring_loops.h"
-#include "model/motion.h"
+#include "model/sum/motion.h"
 
 #include <float.h>
 #include <math.h>

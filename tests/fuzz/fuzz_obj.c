@@ -2,12 +2,12 @@
  *
  * The first two bytes choose `weld` and `transform.scale`, the rest is the file.
  *
- * Lines of: src/io/obj.c src/io/mesh.c src/build/mesh.c src/build/surface.c src/build/weld.c
+ * Lines of: src/io/scene/obj.c src/io/scene/mesh.c src/parts/mesh.c src/parts/surface.c src/parts/weld.c
  * Longest input: 2048, mostly 512 */
 #include "fuzz.h"
 
 #include "hooke/io.h"
-#include "io/mesh.h"
+#include "io/scene/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Trajectories read back: whatever is in the container, an answer that is in it or a message.
  *
- * Lines of: src/io/record.c src/io/record_h5.c src/io/record_array_h5.c src/io/array_h5.c src/io/dataset_h5.c src/io/frame_check_h5.c src/io/xdmf.c
- *           src/io/trajectory_resume.c
+ * Lines of: src/io/trajectory/record.c src/io/trajectory/record_h5.c src/io/trajectory/record_array_h5.c src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c src/io/trajectory/xdmf.c
+ *           src/io/trajectory/trajectory_resume.c
  * Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"

@@ -1,7 +1,7 @@
 /* The parser of scenes: from text in memory to a committed system, and back to text and to an equal system.
  *
- * Lines of: src/io/scene*.c src/io/json_*.c src/io/part_names.c src/build/[clr]*.c src/build/material.c
- *           src/build/part.c src/build/strand.c
+ * Lines of: src/io/scene*.c src/io/json_*.c src/io/scene/part_names.c src/parts/[clr]*.c src/parts/material.c
+ *           src/parts/part.c src/parts/strand.c
  * Longest input: 4096, mostly 320 */
 #include "fuzz.h"
 

@@ -7,11 +7,11 @@ LAYERS = {
     "core": set(),
     "kernel": {"core"},
     "model": {"core", "kernel"},
-    "build": {"core", "kernel", "model"},
+    "parts": {"core", "kernel", "model"},
     "integrate": {"core", "kernel", "model"},
     "measure": {"core", "kernel", "model", "integrate"},
-    "io": {"core", "kernel", "model", "build", "integrate", "measure"},
-    "guard": {"core", "kernel", "model", "build", "integrate", "measure", "io"},
+    "io": {"core", "kernel", "model", "parts", "integrate", "measure"},
+    "guard": {"core", "kernel", "model", "parts", "integrate", "measure", "io"},
 }
 
 # The layer to which each public header belongs.
@@ -20,7 +20,7 @@ PUBLIC = {
     "hooke/options.h": "core",
     "hooke/system.h": "model",
     "hooke/state.h": "model",
-    "hooke/build.h": "build",
+    "hooke/build.h": "parts",
     "hooke/integrator.h": "integrate",
     "hooke/measure.h": "measure",
     "hooke/study.h": "measure",
@@ -36,14 +36,14 @@ PUBLIC = {
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.
 FENCES = [
-    (r"jansson\.h", r"src/io/scene_json\w*\.[ch]|tests/fuzz/mutate_\w+\.c|tests/fault/memory_faults\.c"),
-    (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+_h5\.[ch]|tests/fuzz/\w+_h5\.[ch]"),
+    (r"jansson\.h", r"src/io/scene/scene_json\w*\.[ch]|tests/fuzz/mutate_\w+\.c|tests/fault/memory_faults\.c"),
+    (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+/\w+_h5\.[ch]|tests/fuzz/\w+_h5\.[ch]"),
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
-     r"src/integrate/(arkode|cvode|sundials)\w*\.[ch]"),
-    (r"cholmod\.h", r"src/integrate/\w+_cholmod\.c"),
-    (r"lapacke?\w*\.h", r"src/measure/\w+_lapack\.c"),
-    (r"gsl/.*", r"src/integrate/\w+_gsl\.c"),
-    (r"arpack/.*", r"src/measure/\w+_arpack\.[ch]"),
+     r"src/integrate/\w+/(arkode|cvode|sundials)\w*\.[ch]"),
+    (r"cholmod\.h", r"src/integrate/solve/\w+_cholmod\.c"),
+    (r"lapacke?\w*\.h", r"src/measure/spectrum/\w+_lapack\.c"),
+    (r"gsl/.*", r"src/integrate/method/\w+_gsl\.c"),
+    (r"arpack/.*", r"src/measure/spectrum/\w+_arpack\.[ch]"),
     (r"execinfo\.h", r"tests/fault/(process_faults|places)\.c"),  # of glibc
     (r"malloc\.h", r"cli/setup\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),  # of glibc
     (r"sys/syscall\.h", r"tests/crash/crash\.c"),  # of Linux
@@ -51,7 +51,7 @@ FENCES = [
 ]
 
 # Functions of Fortran, which need no header, and the only files that may call them.
-CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/\w+_lapack\.c")]
+CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/spectrum/\w+_lapack\.c")]
 
 # Headers of C17, POSIX, Linux and the compiler.
 STANDARD = set(

@@ -29,8 +29,8 @@ def test_calls():
 
 def test_planted_call():
     call = "extern void dsyev_(const char *job);\n"
-    assert rules.call_complaints("src/measure/eigen.c", call)
-    assert rules.call_complaints("src/measure/dense_lapack.c", call) == []
+    assert rules.call_complaints("src/measure/spectrum/eigen.c", call)
+    assert rules.call_complaints("src/measure/spectrum/dense_lapack.c", call) == []
 
 
 def test_numbers_are_printed_in_no_locale():
@@ -40,9 +40,9 @@ def test_numbers_are_printed_in_no_locale():
 
 def test_planted_number():
     call = 'snprintf(text, size, "%d of %.3g",\n  k, value);\n'
-    assert rules.locale_complaints("src/io/text.c", call)
-    assert rules.locale_complaints("src/io/text.c", call.replace("%.3g", "%s")) == []
-    assert rules.locale_complaints("src/io/text.c", "hooke_print" + call[8:]) == []
+    assert rules.locale_complaints("src/io/file/text.c", call)
+    assert rules.locale_complaints("src/io/file/text.c", call.replace("%.3g", "%s")) == []
+    assert rules.locale_complaints("src/io/file/text.c", "hooke_print" + call[8:]) == []
 
 
 def test_fences_do_not_leak():
@@ -69,29 +69,29 @@ def test_every_layer_and_public_header_is_known():
         ("src/core/status.c", '#include "hooke/system.h"'),
         ("src/kernel/spring_loops.c", '#include "model/system.h"'),
         ("src/model/system.c", '#include "integrate/method.h"'),
-        ("src/integrate/run.c", '#include "build/rope.h"'),
-        ("src/integrate/run.c", '#include "hooke/build.h"'),
-        ("src/build/rope.c", '#include "integrate/method.h"'),
-        ("src/measure/energy.c", '#include "io/scene.h"'),
+        ("src/integrate/loop/run.c", '#include "parts/rope.h"'),
+        ("src/integrate/loop/run.c", '#include "hooke/build.h"'),
+        ("src/parts/rope.c", '#include "integrate/method.h"'),
+        ("src/measure/energy.c", '#include "io/scene/scene.h"'),
         ("src/measure/energy.c", '  #  include "hooke/io.h"'),
         ("src/measure/energy.c", '#include "hooke.h"'),
         ("src/measure/energy.c", '#include "energy.h"'),
         ("src/measure/energy.c", '#include "../core/status.h"'),
         ("src/kernel/spring_loops.c", '#include "kernel/body.c"'),
         ("src/extra/new.c", '#include "core/status.h"'),
-        ("src/io/csv.c", "#include <jansson.h>"),
-        ("src/io/scene.h", "#include <jansson.h>"),
-        ("src/io/scene_json.c", "#include <hdf5.h>"),
-        ("src/io/trajectory_h5.c", "#include <jansson.h>"),
-        ("src/integrate/run.c", "#include <cvode/cvode.h>"),
-        ("src/integrate/unknowns.c", "#include <nvector/nvector_serial.h>"),
-        ("src/integrate/rk8pd_gsl.c", "#include <arkode/arkode_arkstep.h>"),
-        ("src/integrate/arkode.c", "#include <gsl/gsl_odeiv2.h>"),
-        ("src/integrate/rk8pd.c", "#include <gsl/gsl_odeiv2.h>"),
-        ("src/integrate/factor.c", "#include <cholmod.h>"),
-        ("src/integrate/factor_cholmod.h", "#include <cholmod.h>"),
-        ("src/measure/order_gsl.c", "#include <gsl/gsl_fit.h>"),
-        ("src/measure/eigen.c", "#include <lapack.h>"),
+        ("src/io/table/csv.c", "#include <jansson.h>"),
+        ("src/io/scene/scene.h", "#include <jansson.h>"),
+        ("src/io/scene/scene_json.c", "#include <hdf5.h>"),
+        ("src/io/trajectory/trajectory_h5.c", "#include <jansson.h>"),
+        ("src/integrate/loop/run.c", "#include <cvode/cvode.h>"),
+        ("src/integrate/solve/unknowns.c", "#include <nvector/nvector_serial.h>"),
+        ("src/integrate/method/rk8pd_gsl.c", "#include <arkode/arkode_arkstep.h>"),
+        ("src/integrate/method/arkode.c", "#include <gsl/gsl_odeiv2.h>"),
+        ("src/integrate/method/rk8pd.c", "#include <gsl/gsl_odeiv2.h>"),
+        ("src/integrate/solve/factor.c", "#include <cholmod.h>"),
+        ("src/integrate/solve/factor_cholmod.h", "#include <cholmod.h>"),
+        ("src/measure/study/order_gsl.c", "#include <gsl/gsl_fit.h>"),
+        ("src/measure/spectrum/eigen.c", "#include <lapack.h>"),
         ("src/model/system.c", "#include <mpi.h>"),
         ("src/model/system.c", "#include <cmocka.h>"),
         ("include/hooke/io.h", "#include <hdf5.h>"),
@@ -109,25 +109,25 @@ def test_planted_include(path, line):
 
 
 def test_planted_leak():
-    files = {"src/io/file_h5.h": "#include <hdf5.h>\n", "src/io/group_h5.c": '#include "io/file_h5.h"\n'}
+    files = {"src/io/hdf5/file_h5.h": "#include <hdf5.h>\n", "src/io/hdf5/group_h5.c": '#include "io/hdf5/file_h5.h"\n'}
     assert rules.leak_complaints(files) == []
-    assert rules.leak_complaints(files | {"src/io/report.c": '#include "io/file_h5.h"\n'})
+    assert rules.leak_complaints(files | {"src/io/page/report.c": '#include "io/hdf5/file_h5.h"\n'})
 
 
 @pytest.mark.parametrize(
     "path, line",
     [
-        ("src/io/scene_json_parts.c", "#include <jansson.h>"),
-        ("src/io/trajectory_h5.c", "#include <hdf5.h>"),
-        ("src/integrate/cvode_linear.c", "#include <sunlinsol/sunlinsol_spgmr.h>"),
-        ("src/integrate/arkode.c", "#include <arkode/arkode_arkstep.h>"),
-        ("src/integrate/sundials_problem.h", "#include <nvector/nvector_serial.h>"),
-        ("src/integrate/rk8pd_gsl.c", "#include <gsl/gsl_odeiv2.h>"),
-        ("src/integrate/factor_cholmod.c", "#include <cholmod.h>"),
-        ("src/measure/dense_lapack.c", "#include <lapacke.h>"),
-        ("src/io/report.c", '#include "build/rope.h"'),
+        ("src/io/scene/scene_json_parts.c", "#include <jansson.h>"),
+        ("src/io/trajectory/trajectory_h5.c", "#include <hdf5.h>"),
+        ("src/integrate/method/cvode_linear.c", "#include <sunlinsol/sunlinsol_spgmr.h>"),
+        ("src/integrate/method/arkode.c", "#include <arkode/arkode_arkstep.h>"),
+        ("src/integrate/solve/sundials_problem.h", "#include <nvector/nvector_serial.h>"),
+        ("src/integrate/method/rk8pd_gsl.c", "#include <gsl/gsl_odeiv2.h>"),
+        ("src/integrate/solve/factor_cholmod.c", "#include <cholmod.h>"),
+        ("src/measure/spectrum/dense_lapack.c", "#include <lapacke.h>"),
+        ("src/io/page/report.c", '#include "parts/rope.h"'),
         ("src/measure/energy.c", '#include "hooke/integrator.h"'),
-        ("src/core/status.c", '/* #include "io/scene.h" */'),
+        ("src/core/status.c", '/* #include "io/scene/scene.h" */'),
         ("tests/unit/test_status.c", '#include "core/status.h"'),
         ("tests/fuzz/mutate_scene.c", "#include <jansson.h>"),
         ("cli/main.c", '#include "hooke.h"'),

@@ -4,7 +4,7 @@
 
 #include "check.h"
 
-#include "model/motion.h"
+#include "model/sum/motion.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "hooke.h"
 #include "check.h"
 
-#include "measure/balance.h"
+#include "measure/trial/balance.h"
 #include "model/system.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* Eigenvalues, the line through an order, and the reach of Runge-Kutta 4, against closed forms. */
-#include "measure/dense.h"
-#include "measure/eigen.h"
-#include "measure/limit_rules.h"
-#include "measure/study.h"
+#include "measure/spectrum/dense.h"
+#include "measure/spectrum/eigen.h"
+#include "measure/spectrum/limit_rules.h"
+#include "measure/study/study.h"
 
 #include "check.h"
 

@@ -1,7 +1,7 @@
 /* The sparse factor of S against S itself, found column by column from its definition; and GMRES. */
 #include "check.h"
-#include "integrate/krylov.h"
-#include "integrate/reduced.h"
+#include "integrate/solve/krylov.h"
+#include "integrate/solve/reduced.h"
 #include "random.h"
 #include "random_scene.h"
 #include "run.h"

@@ -1,6 +1,6 @@
 /* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with every force. */
-#include "measure/growing.h"
-#include "measure/top_mode.h"
+#include "measure/why/growing.h"
+#include "measure/spectrum/top_mode.h"
 
 #include "check.h"
 #include "random_scene.h"

@@ -1,6 +1,6 @@
 /* Krylov iterations against Gaussian elimination. */
 #include "check.h"
-#include "integrate/krylov.h"
+#include "integrate/solve/krylov.h"
 #include "random.h"
 #include "run.h"
 

@@ -1,8 +1,8 @@
 /* Limits found by running, against formulas; and what they are blamed on. */
-#include "measure/bracket.h"
-#include "measure/frozen.h"
-#include "measure/limit_blame.h"
-#include "measure/limit_measure.h"
+#include "measure/trial/bracket.h"
+#include "measure/spectrum/frozen.h"
+#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_measure.h"
 
 #include "check.h"
 #include "small.h"

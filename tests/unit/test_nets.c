@@ -5,7 +5,7 @@
 #include "members.h"
 #include "random.h"
 
-#include "model/motion.h"
+#include "model/sum/motion.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* OBJ files: every form that is read, and every fault with its line. */
 #include "check.h"
 
-#include "io/obj.h"
+#include "io/scene/obj.h"
 
 #include <stdio.h>
 #include <stdlib.h>

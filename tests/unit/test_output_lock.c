@@ -2,7 +2,7 @@
  * or is dead. Readers have no part in it, and a fork leaves all as it is. */
 #include "check.h"
 #include "core/memory.h"
-#include "io/array_h5.h"
+#include "io/hdf5/array_h5.h"
 #include "run.h"
 #include "small.h"
 

@@ -1,6 +1,6 @@
 /* The linear equations of implicit steps against products of the model's own derivative. */
 #include "check.h"
-#include "integrate/reduced.h"
+#include "integrate/solve/reduced.h"
 #include "law_scene.h"
 #include "random.h"
 #include "random_scene.h"

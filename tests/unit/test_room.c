@@ -5,7 +5,7 @@
 #include "sanitized.h"
 
 #include "core/room.h"
-#include "io/json_scan.h"
+#include "io/scene/json_scan.h"
 #include "model/system.h"
 
 #include <fcntl.h>

@@ -2,9 +2,9 @@
 #include "check.h"
 
 #include "core/memory.h"
-#include "io/json_place.h"
-#include "io/json_scan.h"
-#include "io/scene_file.h"
+#include "io/scene/json_place.h"
+#include "io/scene/json_scan.h"
+#include "io/scene/scene_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

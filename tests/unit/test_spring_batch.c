@@ -1,7 +1,7 @@
 /* Batches have every spring once, with its material to the bit, whether they go by runs or by the tiles of a net; and sums
  * over them are those over the springs one by one. */
 #include "check.h"
-#include "model/spring_batch.h"
+#include "model/sum/spring_batch.h"
 #include "random.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "file_copy.h"
 #include "file_limit.h"
 #include "core/memory.h"
-#include "io/array_h5.h"
+#include "io/hdf5/array_h5.h"
 #include "run.h"
 
 #include <math.h>

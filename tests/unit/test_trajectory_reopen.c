@@ -1,7 +1,7 @@
 /* Going on in the file of a run that was killed or ended early: the same frames as if it never had, and no other file. */
 #include "check.h"
 #include "file_limit.h"
-#include "io/trajectory.h"
+#include "io/trajectory/trajectory.h"
 #include "run.h"
 #include "small.h"
 

@@ -4,7 +4,7 @@
 #include "random_scene.h"
 #include "run.h"
 
-#include "model/variant.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <stdio.h>

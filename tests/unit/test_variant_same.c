@@ -3,7 +3,7 @@
 #include "random_scene.h"
 #include "run.h"
 
-#include "model/variant.h"
+#include "model/variant/variant.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Pages of trajectories and companions for ParaView: what is chosen, how it is packed, what is refused. */
 #include "check.h"
-#include "io/base64.h"
-#include "io/view.h"
+#include "io/page/base64.h"
+#include "io/page/view.h"
 #include "run.h"
 #include "small.h"
 

@@ -2,7 +2,7 @@
  * periods against known ones. */
 #include "check.h"
 #include "core/memory.h"
-#include "measure/watched.h"
+#include "measure/watch/watched.h"
 #include "small.h"
 
 #include <math.h>

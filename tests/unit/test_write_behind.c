@@ -2,7 +2,7 @@
 #include "check.h"
 #include "file_limit.h"
 #include "core/memory.h"
-#include "io/array_h5.h"
+#include "io/hdf5/array_h5.h"
 #include "run.h"
 
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "run.h"
 #include "small.h"
 
-#include "model/force.h"
+#include "model/force/force.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,0 +1,148 @@
+/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene itself (no
+ * callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start and what gravity
+ * has given since:
+ *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
+ * The last terms are what a scene at rest may have all the same: what gravity gives it in one step (forward Euler has it
+ * in v before q has moved), and what errors do: U is that of springs, bending and altitude springs, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate, which
+ * rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is atol_velocity. Energies
+ * below the smallest normal number prove nothing, and neither do those of a scene that begins with energies
+ * above the largest.
+ *
+ * The last state that passed is kept in `recent`. Where that has no room, since the scene is large, the caller's state is
+ * that state until the next one is stored, which happens as an exchange: the motion then has what has to come back if the
+ * check fails. */
+#include "integrate/integrator.h"
+
+#include "core/status.h"
+#include "model/sum/spring_batch.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+static const double RISE = 100.0, ROUNDING = 1e-12;
+
+static int has_energy_bound(const hooke_integrator *it) {
+  return it->system && it->system->force == NULL && it->system->drive_count == 0;
+}
+
+int32_t hooke_all_finite(int64_t count, const double *value) {
+  /* 0 * value is 0 or not a number, and one of those stays in the sum */
+  double sum = 0.0;
+  for (int64_t k = 0; k < count; k++)
+    sum += 0.0 * value[k];
+  return sum == 0.0;
+}
+
+/* What a scene at rest may come to have. */
+static double least_energy(const hooke_integrator *it, const hooke_state *state) {
+  const hooke_system *system = it->system;
+  const double *g = system->gravity;
+  double mass = 0.0, stiffness = 0.0, extent = 0.0;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    mass += system->held[p] ? 0.0 : system->mass[p];
+  struct hooke_spring_batch batch;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++)
+      stiffness += batch.kappa[k];
+  }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+    stiffness += 16.0 * triple.coefficient;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    stiffness += 4.0 * hooke_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
+  for (int64_t k = 0; k < state->size; k++)
+    extent = fmax(extent, fabs(state->q[k]));
+  if (it->method->adaptive) {
+    const double d = ROUNDING * extent + hooke_options_number(it->options, "atol");
+    const double u = hooke_options_number(it->options, "atol_velocity");
+    return 0.5 * stiffness * d * d + 0.5 * mass * u * u;
+  }
+  const double d = ROUNDING * extent, h = it->schedule.step;
+  return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
+}
+
+int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
+  it->diverged_at = NAN;
+  if (has_energy_bound(it)) {
+    const double kinetic = hooke_system_kinetic_energy(it->system, state->v);
+    const double elastic = hooke_elastic_energy(it->system, state->q);
+    it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
+    it->gravity_swing = 0.0;
+    it->scale0 = kinetic + elastic + least_energy(it, state);
+    it->energy0 = kinetic + elastic;
+  }
+  hooke_recent_begin(&it->recent, state);
+  it->good_time = *state->t;
+  return HOOKE_OK;
+}
+
+static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
+  const double gravity = hooke_system_gravity_energy(it->system, state->q), risen = gravity - it->gravity0;
+  const double rest =
+      hooke_system_kinetic_energy(it->system, state->v) + hooke_elastic_energy(it->system, state->q);
+  it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
+  *energy = rest + gravity;
+  /* far from the origin gravity's energy has no digits to spare for the others */
+  return !(it->scale0 < INFINITY) ||
+         (rest - it->energy0) + risen <= RISE * (it->scale0 + it->gravity_swing) + DBL_MIN;
+}
+
+void hooke_divergence_follow(hooke_integrator *it, const hooke_state *state) {
+  double energy;
+  if (has_energy_bound(it)) energy_is_bounded(it, state, &energy);
+}
+
+static const char *advice(const hooke_integrator *it) {
+  return it->method->adaptive ? "tighter tolerances" : "a smaller step";
+}
+
+int32_t hooke_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
+  if (it->recent.room > 0) return it->method->store(it, t, state);
+  hooke_motion_exchange(it->motion, state->q, state->v);
+  return HOOKE_OK;
+}
+
+static void put_back(hooke_integrator *it, hooke_state *state) {
+  if (it->recent.room > 0) {
+    hooke_state_copy(hooke_recent_state(&it->recent, 0, NULL), state);
+    return;
+  }
+  hooke_motion_exchange(it->motion, state->q, state->v);
+  *state->t = it->good_time;
+}
+
+static int32_t pass(hooke_integrator *it, const hooke_state *state) {
+  hooke_recent_keep(&it->recent, state, it->k);
+  it->good_time = *state->t;
+  if (it->recent.room == 0) hooke_motion_load(it->system, it->motion, state->q, state->v);
+  if (it->checker.look == NULL) return HOOKE_OK;
+  it->stop_value = it->checker.look(it, state, it->checker.own);
+  if (it->stop_value == 0) return HOOKE_OK;
+  return hooke_fail(HOOKE_STOPPED, NULL, "a warning callback returned %d at t = %.6g s", (int)it->stop_value,
+                    *state->t);
+}
+
+int32_t hooke_divergence_check(hooke_integrator *it, hooke_state *state, int32_t with_energy) {
+  double energy = NAN;
+  const double t = *state->t;
+  const int finite =
+      hooke_all_finite(state->size, state->q) && (!state->has_v || hooke_all_finite(state->size, state->v));
+  if (finite && (!with_energy || !has_energy_bound(it) || energy_is_bounded(it, state, &energy))) {
+    return pass(it, state);
+  }
+  it->diverged_at = t;
+  put_back(it, state);
+  if (!finite) {
+    return hooke_fail(
+        HOOKE_DIVERGED, NULL,
+        "the run diverged: a position or velocity is not finite at t = %.6g s; the state kept is that of "
+        "t = %.6g s; try %s",
+        t, *state->t, advice(it));
+  }
+  return hooke_fail(
+      HOOKE_DIVERGED, NULL,
+      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "
+      "had; the state kept is that of t = %.6g s; try %s",
+      t, it->energy0 + it->gravity0, energy, *state->t, advice(it));
+}

@@ -1,0 +1,145 @@
+/* BDF of order 1 and 2 damps every mode that steps do not resolve. Order 3 and above feeds the weakly damped ones, at
+ * omega h of order one, until the error control holds the step there although the motion asks for no such step.
+ *
+ * So: where steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that ratio is
+ * below what order 3 takes, order 2 becomes the highest, before those modes have grown. Where steps then stay shorter
+ * than SHORT/omega, accuracy holds them, and the higher orders come back. CVODE keeps its history in the order that it
+ * has, so each change is a start from order 1; hence the patience. */
+#if HOOKE_HAVE_SUNDIALS
+
+#include "integrate/method/cvode_order.h"
+
+#include "core/memory.h"
+
+#include <math.h>
+
+enum {
+  WINDOW = 50, /* steps over which the mean is taken, with all orders and with the low ones */
+  LOW_WINDOW = 100,
+  LOW_START = 200, /* steps before the first look with the low orders */
+  PATIENCE = 10,   /* windows of short steps, in a row, before the higher orders come back */
+  QUIET = 500, /* steps before the next look with all orders; 4 times as many each time that they come back */
+  REFRESH = 10, /* windows before the fastest modes are looked up again */
+  ITERATIONS = 15
+};
+static const double LOOSE_RTOL = 1e-6, LONG = 2.0, SHORT = 1.0;
+/* Cosine of 86.03 degrees: Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section V.2. */
+static const double DAMPING_OF_ORDER_3 = 0.0692;
+
+int32_t hooke_order_choice_create(hooke_integrator *it) {
+  struct hooke_sundials *own = it->own;
+  if (it->rate || own->unknowns.free_count == 0 || !isnan(hooke_options_number(it->options, "max_order")) ||
+      hooke_options_number(it->options, "rtol") < LOOSE_RTOL)
+    return HOOKE_OK;
+  own->choice = hooke_new(1, sizeof *own->choice);
+  if (own->choice == NULL) return HOOKE_NO_MEMORY;
+  own->choice->scratch = hooke_new(2 * own->unknowns.size, sizeof(double));
+  it->own_memory += 2 * own->unknowns.size * (int64_t)sizeof(double);
+  return own->choice->scratch ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+void hooke_order_choice_release(struct hooke_order_choice *choice) {
+  if (choice == NULL) return;
+  hooke_free(choice->scratch);
+  hooke_free(choice);
+}
+
+void hooke_order_choice_begin(struct hooke_order_choice *c, double t) {
+  *c = (struct hooke_order_choice){.window_begun = t, .quiet_next = QUIET, .scratch = c->scratch};
+}
+
+/* ---- the fastest modes ---- */
+
+/* Both over the unknowns that are velocities; x and p are its scratch. */
+static double product_of(const hooke_integrator *it, const struct hooke_unknowns *u, const double *x,
+                         const double *p) {
+  double sum = 0.0;
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const double *mass = it->system->mass + s->particle;
+      const int64_t from = a * u->free_count + s->place;
+      for (int64_t j = 0; j < s->count; j++)
+        sum += mass[j] * x[from + j] * p[from + j];
+    }
+  }
+  return sum;
+}
+
+/* Power iterations with the derivative of the forces by the positions, from numbers that prefer no direction; then the
+ * damping of what they have come to. A few are enough: it is the mean over the fastest modes that counts. Frequency 0
+ * where nothing is stiff. */
+static int32_t find_fastest_modes(hooke_integrator *it, struct hooke_order_choice *c, const double *y) {
+  const struct hooke_unknowns *u = &((const struct hooke_sundials *)it->own)->unknowns;
+  const int64_t half = u->size / 2;
+  c->frequency = c->damping = 0.0;
+  double *x = c->scratch, *p = x + u->size, squared = 0.0;
+  uint64_t number = 1;
+  if (hooke_unknowns_linearise(it, u, it->t, y) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+  for (int64_t k = 0; k < half; k++) {
+    number = number * 6364136223846793005u + 1442695040888963407u; /* Knuth's MMIX */
+    x[k] = (double)(number >> 40) / 8388608.0 - 1.0;
+    x[half + k] = 0.0;
+  }
+  for (int i = 0; i < ITERATIONS; i++) {
+    if (hooke_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+    const double size = product_of(it, u, x, x), grown = product_of(it, u, p + half, p + half);
+    squared = sqrt(grown / size);
+    if (!(squared > 0.0) || !isfinite(squared)) return HOOKE_OK;
+    for (int64_t k = 0; k < half; k++)
+      x[k] = p[half + k] / sqrt(grown);
+  }
+  for (int64_t k = 0; k < half; k++) {
+    x[half + k] = x[k];
+    x[k] = 0.0;
+  }
+  if (hooke_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+  const double rate = -product_of(it, u, x + half, p + half) / product_of(it, u, x + half, x + half);
+  if (!isfinite(rate)) return HOOKE_OK;
+  c->frequency = sqrt(squared);
+  c->damping = rate / (2.0 * c->frequency);
+  return HOOKE_OK;
+}
+
+/* ---- the choice ---- */
+
+int32_t hooke_order_choice_is_due(struct hooke_order_choice *c, double t) {
+  c->steps++;
+  if (++c->window_steps < (c->low ? LOW_WINDOW : WINDOW)) return 0;
+  if (c->steps >= (c->low ? LOW_START : c->quiet_until)) return 1;
+  c->window_steps = 0;
+  c->window_begun = t;
+  return 0;
+}
+
+static void change(struct hooke_order_choice *c, int32_t low) {
+  c->low = low;
+  c->steps = c->looks = c->short_windows = 0;
+  c->quiet_until = low ? 0 : c->quiet_next;
+  if (!low && c->quiet_next < INT64_MAX / 8) c->quiet_next *= 4;
+}
+
+int32_t hooke_order_choice_look(hooke_integrator *it, const double *y) {
+  struct hooke_order_choice *c = ((struct hooke_sundials *)it->own)->choice;
+  const double step = (it->t - c->window_begun) / (double)c->window_steps;
+  c->window_steps = 0;
+  c->window_begun = it->t;
+  if (c->low || c->looks++ % REFRESH == 0 || step * c->frequency > LONG) {
+    const int32_t status = find_fastest_modes(it, c, y);
+    if (status != HOOKE_OK) return status;
+  }
+  if (c->low) {
+    c->short_windows = step * c->frequency < SHORT ? c->short_windows + 1 : 0;
+    if (c->short_windows >= PATIENCE) change(c, 0);
+  } else if (step * c->frequency > LONG) {
+    if (c->damping < DAMPING_OF_ORDER_3)
+      change(c, 1);
+    else
+      c->quiet_until = c->steps + QUIET;
+  }
+  return HOOKE_OK;
+}
+
+#else
+typedef int hooke_cvode_order_is_not_built;
+#endif

@@ -1,0 +1,377 @@
+#include "integrate/solve/factor.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "integrate/solve/factor_cholmod.h"
+#include "kernel/triangle_loops.h"
+#include "model/sum/pattern.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Where the matrix has the block of two particles: in the three columns of the later one, from number `first` of each on;
+ * column -1 if an end is held. */
+struct place {
+  int32_t column, first;
+};
+
+struct hooke_factor {
+  const hooke_system *system;
+  int32_t free_count;
+  int32_t *particle,
+      *position; /* the free particles in order; where each is in it, -1 for those that are held */
+  struct hooke_columns matrix; /* S, in order */
+  struct place *spring, *triple,
+      *tetrahedron; /* of each spring; of the pairs 01, 12, 20 of each triple of bending; of the pairs
+                                                  01, 02, 12, 03, 13, 23 of each tetrahedron */
+  struct hooke_cholmod *cholmod;
+  struct hooke_triangle triangle;
+  double *vector;
+  double numbers, products;
+  int64_t bytes;
+};
+
+static int32_t no_memory(void) {
+  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a sparse factor");
+}
+
+static void *take(struct hooke_factor *x, int64_t count, size_t size) {
+  x->bytes += count * (int64_t)size;
+  return hooke_new(count, size);
+}
+
+/* ---- once ---- */
+
+static void number_free(struct hooke_factor *x) {
+  x->free_count = 0;
+  for (int64_t p = 0; p < x->system->particle_count; p++) {
+    x->position[p] = -1;
+    if (x->system->held[p]) continue;
+    x->particle[x->free_count] = (int32_t)p;
+    x->position[p] = x->free_count++;
+  }
+}
+
+/* The upper triangle of blocks in the present order: a row in each column for every earlier neighbour, ascending, and for
+ * the particle itself. */
+static void fill_blocks(const struct hooke_factor *x, const struct hooke_pattern *pattern,
+                        const struct hooke_columns *blocks) {
+  int32_t count = 0;
+  for (int32_t k = 0; k < x->free_count; k++) {
+    const int32_t p = x->particle[k], first = count;
+    blocks->start[k] = count;
+    for (int64_t e = pattern->row_start[p]; e < pattern->row_start[p + 1]; e++) {
+      const int32_t other = x->position[pattern->column[e]];
+      if (other < 0 || other > k) continue;
+      int32_t at = count++; /* neighbours are few */
+      for (; at > first && blocks->row[at - 1] > other; at--)
+        blocks->row[at] = blocks->row[at - 1];
+      blocks->row[at] = other;
+    }
+  }
+  blocks->start[x->free_count] = count;
+}
+
+static int reorder(struct hooke_factor *x, const struct hooke_columns *blocks) {
+  int32_t *order = hooke_new(x->free_count, sizeof *order);
+  const int fine = order && hooke_cholmod_order(blocks, order);
+  for (int32_t k = 0; fine && k < x->free_count; k++)
+    order[k] = x->particle[order[k]];
+  for (int32_t k = 0; fine && k < x->free_count; k++) {
+    x->particle[k] = order[k];
+    x->position[order[k]] = k;
+  }
+  hooke_free(order);
+  return fine;
+}
+
+/* Three columns and rows of numbers for each of blocks. */
+static int make_matrix(struct hooke_factor *x, const struct hooke_columns *blocks) {
+  struct hooke_columns *m = &x->matrix;
+  const int64_t numbers = 9 * (int64_t)blocks->start[x->free_count];
+  m->size = 3 * x->free_count;
+  m->start = take(x, (int64_t)m->size + 1, sizeof *m->start);
+  m->row = take(x, numbers, sizeof *m->row);
+  m->number = take(x, numbers, sizeof *m->number);
+  if (m->start == NULL || m->row == NULL || m->number == NULL) return 0;
+  int32_t count = 0;
+  for (int32_t k = 0; k < m->size; k++) {
+    m->start[k] = count;
+    for (int32_t b = blocks->start[k / 3]; b < blocks->start[k / 3 + 1]; b++) {
+      for (int32_t row = 3 * blocks->row[b]; row < 3 * blocks->row[b] + 3 && row <= k; row++)
+        m->row[count++] = row;
+    }
+  }
+  m->start[m->size] = count;
+  return 1;
+}
+
+static struct place find_place(const struct hooke_factor *x, int64_t one, int64_t other) {
+  const int32_t a = x->position[one], b = x->position[other];
+  if (a < 0 || b < 0) return (struct place){-1, 0};
+  const int32_t column = 3 * (a > b ? a : b), earlier = 3 * (a > b ? b : a);
+  const int32_t start = x->matrix.start[column];
+  int32_t low = start, high = x->matrix.start[column + 1];
+  while (high - low > 1) {
+    const int32_t middle = low + (high - low) / 2;
+    if (x->matrix.row[middle] <= earlier)
+      low = middle;
+    else
+      high = middle;
+  }
+  return (struct place){column, low - start};
+}
+
+static int locate_blocks(struct hooke_factor *x) {
+  const struct hooke_springs *springs = &x->system->springs;
+  x->spring = take(x, springs->count, sizeof *x->spring);
+  x->triple = take(x, 3 * x->system->bending.count, sizeof *x->triple);
+  x->tetrahedron = take(x, 6 * x->system->altitudes.count, sizeof *x->tetrahedron);
+  if (x->spring == NULL || x->triple == NULL || x->tetrahedron == NULL) return 0;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    const struct hooke_run *run = &springs->run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hooke_spring spring = hooke_run_spring(run, k);
+      x->spring[run->first + k] = find_place(x, spring.head, spring.tail);
+    }
+  }
+  struct hooke_triple triple;
+  struct place *place = x->triple;
+  for (struct hooke_triples at = {&x->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++)
+      *place++ = find_place(x, triple.particle[e], triple.particle[(e + 1) % 3]);
+  }
+  place = x->tetrahedron;
+  for (int64_t k = 0; k < x->system->altitudes.count; k++) {
+    const int32_t *p = x->system->altitudes.tetrahedron[k].particle;
+    for (int j = 1; j < 4; j++) {
+      for (int e = 0; e < j; e++)
+        *place++ = find_place(x, p[e], p[j]);
+    }
+  }
+  return 1;
+}
+
+static void count_numbers(struct hooke_factor *x) {
+  const int32_t *count = hooke_cholmod_counts(x->cholmod);
+  for (int32_t k = 0; k < x->matrix.size; k++) {
+    x->numbers += count[k];
+    x->products += 0.5 * count[k] * count[k];
+  }
+}
+
+/* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
+static int make_triangle(struct hooke_factor *x) {
+  struct hooke_triangle *l = &x->triangle;
+  const int32_t *count = hooke_cholmod_counts(x->cholmod);
+  l->count = x->free_count;
+  l->begin = take(x, l->count + 1, sizeof *l->begin);
+  for (int64_t k = 0; l->begin && k < l->count; k++)
+    l->begin[k + 1] = l->begin[k] + (count[3 * k] - 3) / 3;
+  const int64_t blocks = l->begin ? l->begin[l->count] : 0;
+  l->row = take(x, blocks, sizeof *l->row);
+  l->block = take(x, 9 * blocks + HOOKE_TRIANGLE_SPARE, sizeof *l->block);
+  l->corner = take(x, 6 * l->count, sizeof *l->corner);
+  x->vector = take(x, 3 * l->count + HOOKE_TRIANGLE_SPARE, sizeof *x->vector);
+  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
+  return l->begin && l->row && l->block && l->corner && x->vector;
+}
+
+/* 1 with the factor found to be small enough, -1 where it is not. */
+static int analyse(struct hooke_factor *x, const struct hooke_pattern *pattern, int64_t most) {
+  if (pattern->count > most / 9) return -1;
+  struct hooke_columns blocks = {.size = x->free_count,
+                                 .start = hooke_new((int64_t)x->free_count + 1, sizeof *blocks.start),
+                                 .row = hooke_new(pattern->count, sizeof *blocks.row)};
+  int fine = blocks.start && blocks.row;
+  if (fine) fill_blocks(x, pattern, &blocks);
+  if (fine) fine = reorder(x, &blocks);
+  if (fine) fill_blocks(x, pattern, &blocks);
+  if (fine) fine = make_matrix(x, &blocks);
+  hooke_free(blocks.start);
+  hooke_free(blocks.row);
+  if (fine) fine = (x->cholmod = hooke_cholmod_create(&x->matrix)) != NULL;
+  if (!fine) return 0;
+  count_numbers(x);
+  return x->numbers <= (double)most ? 1 : -1;
+}
+
+int32_t hooke_factor_is_built(void) {
+  return hooke_cholmod_is_built();
+}
+
+int32_t hooke_factor_create(const hooke_system *system, int64_t most, struct hooke_factor **factor) {
+  struct hooke_pattern pattern;
+  *factor = NULL;
+  if (!hooke_cholmod_is_built()) return HOOKE_OK;
+  struct hooke_factor *x = hooke_new(1, sizeof *x);
+  if (x == NULL) return HOOKE_NO_MEMORY;
+  x->system = system;
+  x->particle = take(x, system->particle_count, sizeof *x->particle);
+  x->position = take(x, system->particle_count, sizeof *x->position);
+  int32_t status = x->particle && x->position ? hooke_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;
+  int found = -1;
+  if (status == HOOKE_OK) {
+    number_free(x);
+    found = analyse(x, &pattern, most);
+    hooke_pattern_release(&pattern);
+    if (found > 0) found = locate_blocks(x) && make_triangle(x);
+    if (found == 0) status = no_memory();
+  }
+  if (status == HOOKE_OK && found > 0)
+    *factor = x;
+  else
+    hooke_factor_destroy(x);
+  return status;
+}
+
+void hooke_factor_destroy(struct hooke_factor *x) {
+  if (x == NULL) return;
+  hooke_cholmod_destroy(x->cholmod);
+  void *const blocks[] = {x->particle,       x->position,       x->matrix.start, x->matrix.row,
+                          x->matrix.number,  x->spring,         x->triple,       x->tetrahedron,
+                          x->vector,         x->triangle.begin, x->triangle.row, x->triangle.block,
+                          x->triangle.corner};
+  for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
+    hooke_free(blocks[k]);
+  hooke_free(x);
+}
+
+int64_t hooke_factor_memory(const struct hooke_factor *x) {
+  return x->bytes;
+}
+
+int64_t hooke_factor_numbers(const struct hooke_factor *x) {
+  return (int64_t)x->numbers;
+}
+
+double hooke_factor_products(const struct hooke_factor *x) {
+  return x->products;
+}
+
+/* ---- numbers ---- */
+
+/* Column c of a block. */
+static double *column_of(const struct hooke_columns *matrix, struct place place, int c) {
+  return matrix->number + matrix->start[place.column + c] + place.first;
+}
+
+static void add_diagonal(const struct hooke_factor *x, const double *diagonal) {
+  static const int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  const int64_t n = x->system->particle_count;
+  for (int32_t k = 0; k < x->matrix.size; k++) {
+    const int c = k % 3;
+    double *corner = x->matrix.number + x->matrix.start[k + 1] - 1; /* the last number of its column */
+    for (int a = 0; a <= c; a++)
+      corner[a - c] += diagonal[component[a][c] * n + x->particle[k / 3]];
+  }
+}
+
+static void add_springs(const struct hooke_factor *x, const struct hooke_tangent *t) {
+  for (int64_t s = 0; s < x->system->springs.count; s++) {
+    if (x->spring[s].column < 0) continue;
+    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
+    const double across = t->b[s] > 0.0 ? t->b[s] : 0.0;
+    const double along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + t->b[s] - across;
+    for (int c = 0; c < 3; c++) {
+      double *to = column_of(&x->matrix, x->spring[s], c);
+      for (int a = 0; a < 3; a++)
+        to[a] -= along * u[a] * u[c] + (a == c ? across : 0.0);
+    }
+  }
+}
+
+static void add_bending(const struct hooke_factor *x, double alpha) {
+  struct hooke_triple triple;
+  const struct place *place = x->triple;
+  for (struct hooke_triples at = {&x->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++, place++) {
+      if (place->column < 0) continue;
+      for (int c = 0; c < 3; c++)
+        column_of(&x->matrix, *place, c)[c] +=
+            alpha * triple.coefficient * (hooke_triple_factor(e) * hooke_triple_factor((e + 1) % 3));
+    }
+  }
+}
+
+static void add_altitude(const struct hooke_factor *x, const struct hooke_altitude_tangent *altitude) {
+  const struct place *place = x->tetrahedron;
+  for (const struct hooke_altitude_tangent *t = altitude; t < altitude + x->system->altitudes.count; t++) {
+    for (int j = 1; j < 4; j++) {
+      for (int e = 0; e < j; e++, place++) {
+        const double s = t->size * (t->weight[e] * t->weight[j]);
+        if (place->column < 0) continue;
+        for (int c = 0; c < 3; c++) {
+          for (int a = 0; a < 3; a++)
+            column_of(&x->matrix, *place, c)[a] += s * t->u[a] * t->u[c];
+        }
+      }
+    }
+  }
+}
+
+/* Takes L over block by block. 0 where a number on its diagonal is not finite. */
+static int32_t fill_triangle(struct hooke_factor *x) {
+  const struct hooke_columns l = hooke_cholmod_factor(x->cholmod);
+  struct hooke_triangle *to = &x->triangle;
+  for (int64_t k = 0; k < to->count; k++) {
+    const int32_t *row = l.row + l.start[3 * k] + 3;
+    const double *one = l.number + l.start[3 * k], *two = l.number + l.start[3 * k + 1],
+                 *three = l.number + l.start[3 * k + 2];
+    const double corner[6] = {1.0 / one[0], one[1], one[2], 1.0 / two[0], two[1], 1.0 / three[0]};
+    if (!(one[0] < INFINITY && two[0] < INFINITY && three[0] < INFINITY)) return 0;
+    memcpy(to->corner + 6 * k, corner, sizeof corner);
+    for (int64_t e = to->begin[k], at = 0; e < to->begin[k + 1]; e++, at += 3) {
+      to->row[e] = row[at];
+      memcpy(to->block + 9 * e, one + 3 + at, 3 * sizeof(double));
+      memcpy(to->block + 9 * e + 3, two + 2 + at, 3 * sizeof(double));
+      memcpy(to->block + 9 * e + 6, three + 1 + at, 3 * sizeof(double));
+    }
+  }
+  return 1;
+}
+
+int32_t hooke_factor_compute(struct hooke_factor *x, const double *diagonal,
+                             const struct hooke_tangent *tangent,
+                             const struct hooke_altitude_tangent *altitude, double alpha) {
+  memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
+  add_diagonal(x, diagonal);
+  add_springs(x, tangent);
+  add_bending(x, alpha);
+  add_altitude(x, altitude);
+  const int32_t positive = hooke_cholmod_compute(x->cholmod, &x->matrix);
+  return positive == 1 ? fill_triangle(x) : positive;
+}
+
+/* ---- solutions ---- */
+
+void hooke_factor_forward(struct hooke_factor *factor, double *x) {
+  hooke_triangle_forward(&factor->triangle, x);
+}
+
+void hooke_factor_backward(struct hooke_factor *factor, double *x) {
+  const size_t bytes = (size_t)factor->matrix.size * sizeof(double);
+  memcpy(factor->vector, x, bytes);
+  hooke_triangle_backward(&factor->triangle, factor->vector);
+  memcpy(x, factor->vector, bytes);
+}
+
+void hooke_factor_gather(const struct hooke_factor *factor, const double *all, double *ordered) {
+  const int64_t n = factor->system->particle_count;
+  for (int64_t k = 0; k < factor->free_count; k++) {
+    for (int a = 0; a < 3; a++)
+      ordered[3 * k + a] = all[a * n + factor->particle[k]];
+  }
+}
+
+void hooke_factor_spread(const struct hooke_factor *factor, const double *ordered, double *all) {
+  const int64_t n = factor->system->particle_count;
+  for (int64_t k = 0; k < factor->system->held_count; k++) {
+    for (int a = 0; a < 3; a++)
+      all[a * n + factor->system->held_particle[k]] = 0.0;
+  }
+  for (int64_t k = 0; k < factor->free_count; k++) {
+    for (int a = 0; a < 3; a++)
+      all[a * n + factor->particle[k]] = ordered[3 * k + a];
+  }
+}

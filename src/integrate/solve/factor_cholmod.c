@@ -1,0 +1,132 @@
+#include "integrate/solve/factor_cholmod.h"
+
+#if HOOKE_HAVE_CHOLMOD
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <cholmod.h>
+
+struct hooke_cholmod {
+  cholmod_common common;
+  cholmod_factor *factor;
+};
+
+/* Nothing is printed, and nothing tried but `ordering`. */
+static void start(cholmod_common *common, int ordering) {
+  cholmod_start(common);
+  common->print = 0;
+  common->supernodal = CHOLMOD_SIMPLICIAL;
+  common->final_ll = 1;
+  common->nmethods = 1;
+  common->method[0].ordering = ordering;
+  common->postorder = ordering != CHOLMOD_NATURAL;
+}
+
+static cholmod_sparse view(const struct hooke_columns *matrix) {
+  const size_t size = (size_t)matrix->size;
+  return (cholmod_sparse){.nrow = size,
+                          .ncol = size,
+                          .nzmax = (size_t)matrix->start[size],
+                          .p = matrix->start,
+                          .i = matrix->row,
+                          .x = matrix->number,
+                          .stype = 1,
+                          .itype = CHOLMOD_INT,
+                          .xtype = matrix->number ? CHOLMOD_REAL : CHOLMOD_PATTERN,
+                          .dtype = CHOLMOD_DOUBLE,
+                          .sorted = 1,
+                          .packed = 1};
+}
+
+int32_t hooke_cholmod_is_built(void) {
+  return 1;
+}
+
+int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order) {
+  cholmod_common common;
+  cholmod_sparse sparse = view(matrix);
+  start(&common, CHOLMOD_AMD);
+  cholmod_factor *found = cholmod_analyze(&sparse, &common);
+  for (int32_t k = 0; found && k < matrix->size; k++)
+    order[k] = ((const int *)found->Perm)[k];
+  const int32_t fine = found != NULL;
+  cholmod_free_factor(&found, &common);
+  cholmod_finish(&common);
+  return fine;
+}
+
+struct hooke_cholmod *hooke_cholmod_create(const struct hooke_columns *matrix) {
+  struct hooke_cholmod *x = hooke_new(1, sizeof *x);
+  if (x == NULL) return NULL;
+  cholmod_sparse sparse = view(matrix);
+  start(&x->common, CHOLMOD_NATURAL);
+  x->factor = cholmod_analyze(&sparse, &x->common);
+  if (x->factor) return x;
+  hooke_cholmod_destroy(x);
+  return NULL;
+}
+
+void hooke_cholmod_destroy(struct hooke_cholmod *x) {
+  if (x == NULL) return;
+  cholmod_free_factor(&x->factor, &x->common);
+  cholmod_finish(&x->common);
+  hooke_free(x);
+}
+
+const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *x) {
+  return x->factor->ColCount;
+}
+
+int32_t hooke_cholmod_compute(struct hooke_cholmod *x, const struct hooke_columns *matrix) {
+  cholmod_sparse sparse = view(matrix);
+  const int fine = cholmod_factorize(&sparse, x->factor, &x->common);
+  if (x->common.status == CHOLMOD_OUT_OF_MEMORY)
+    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a factor of %d unknowns", (int)matrix->size);
+  return fine && x->common.status == CHOLMOD_OK;
+}
+
+struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *x) {
+  return (struct hooke_columns){(int32_t)x->factor->n, x->factor->p, x->factor->i, x->factor->x};
+}
+
+#else
+
+#include <stddef.h>
+
+int32_t hooke_cholmod_is_built(void) {
+  return 0;
+}
+
+int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order) {
+  (void)matrix;
+  (void)order;
+  return 0;
+}
+
+struct hooke_cholmod *hooke_cholmod_create(const struct hooke_columns *matrix) {
+  (void)matrix;
+  return NULL;
+}
+
+void hooke_cholmod_destroy(struct hooke_cholmod *x) {
+  (void)x;
+}
+
+const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *x) {
+  (void)x;
+  return NULL;
+}
+
+int32_t hooke_cholmod_compute(struct hooke_cholmod *x, const struct hooke_columns *matrix) {
+  (void)x;
+  (void)matrix;
+  return 0;
+}
+
+struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *x) {
+  (void)x;
+  return (struct hooke_columns){0};
+}
+
+#endif

@@ -1,0 +1,456 @@
+#include "integrate/solve/reduced.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/vector_loops.h"
+#include "model/force/force.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
+/* Numbers of a factor that is still made: 2 GB. */
+static const int64_t MOST_NUMBERS = 100000000;
+/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of work on a vector for each number, of a
+ * solve with a factor for each of its numbers, of a factor for each of its multiplications. */
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84,
+                    OF_TETRAHEDRON = 150.0;
+/* Of BiCGSTAB(4), an iteration. */
+static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
+enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
+enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
+
+static int is_own(const struct hooke_force_row *row) {
+  return row == &hooke_force_springs || row == &hooke_force_bending || row == &hooke_force_drag;
+}
+
+static double *part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
+int32_t hooke_reduced_create(hooke_integrator *it, int32_t kind, struct hooke_reduced *reduced) {
+  static const int64_t vectors_of[] = {HOOKE_GENERAL_VECTORS, HOOKE_SYMMETRIC_VECTORS, HOOKE_MINIMAL_VECTORS};
+  const hooke_system *system = it->system;
+  const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
+  const int64_t n = system->particle_count, m = system->springs.count, vectors = vectors_of[kind];
+  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + (symmetric ? 0 : 15 * n);
+  double *block = hooke_new(numbers, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  *reduced = (struct hooke_reduced){.integrator = it, .symmetric = symmetric};
+  reduced->altitude = hooke_new(system->altitudes.count, sizeof *reduced->altitude);
+  if (reduced->altitude == NULL) {
+    hooke_free(block);
+    return HOOKE_NO_MEMORY;
+  }
+  it->own_memory +=
+      numbers * (int64_t)sizeof(double) + system->altitudes.count * (int64_t)sizeof *reduced->altitude;
+  for (int32_t k = 0; k < system->force_row_count && !symmetric; k++)
+    reduced->rows_needed |= !is_own(system->force_row[k]) && system->force_row[k]->add_product;
+  reduced->diagonal = part(&block, n);
+  for (int a = 0; a < 3; a++)
+    reduced->tangent.u[a] = reduced->tangent.e[a] = part(&block, m);
+  for (int a = 0; a < 3 && !symmetric; a++)
+    reduced->tangent.e[a] = part(&block, m);
+  if (!symmetric) reduced->tangent.b = part(&block, m);
+  reduced->block = part(&block, 6 * n);
+  reduced->factor = part(&block, 6 * n);
+  reduced->right = part(&block, 3 * n);
+  reduced->unknown = part(&block, 3 * n);
+  reduced->place = part(&block, 3 * n);
+  reduced->moved = part(&block, 3 * n);
+  reduced->krylov = part(&block, 3 * n * vectors);
+  if (!symmetric) reduced->rows = part(&block, 15 * n);
+  return HOOKE_OK;
+}
+
+void hooke_reduced_release(struct hooke_reduced *reduced) {
+  hooke_free(reduced->diagonal);
+  hooke_free(reduced->altitude);
+  hooke_factor_destroy(reduced->whole);
+  memset(reduced, 0, sizeof *reduced);
+}
+
+/* ---- the place of the derivatives ---- */
+
+/* The inverse Cholesky factor of a block xx, yy, zz, xy, xz, yz, in its place: 11, 22, 33, 21, 31, 32. */
+static void factorise(int64_t n, int64_t p, double *block) {
+  double *const b[6] = {block + p,         block + n + p,     block + 2 * n + p,
+                        block + 3 * n + p, block + 4 * n + p, block + 5 * n + p};
+  const double l11 = sqrt(*b[0]), l21 = *b[3] / l11, l31 = *b[4] / l11;
+  const double l22 = sqrt(*b[1] - l21 * l21), l32 = (*b[5] - l31 * l21) / l22;
+  const double l33 = sqrt((*b[2] - l31 * l31) - l32 * l32);
+  const double w11 = 1.0 / l11, w22 = 1.0 / l22, w33 = 1.0 / l33;
+  *b[0] = w11;
+  *b[1] = w22;
+  *b[2] = w33;
+  *b[3] = -l21 * w11 * w22;
+  *b[4] = (l21 * l32 - l31 * l22) * w11 * w22 * w33;
+  *b[5] = -l32 * w22 * w33;
+}
+
+/* Diagonal blocks of alpha times the stiffness of triples. */
+static void add_bending(const struct hooke_bending *bending, double alpha, double *const block[6]) {
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++) {
+      const double factor = hooke_triple_factor(e);
+      for (int c = 0; c < 3; c++)
+        block[c][triple.particle[e]] += alpha * triple.coefficient * (factor * factor);
+    }
+  }
+}
+
+static void fill_diagonal(struct hooke_reduced *reduced) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count;
+  const double brake = reduced->beta * system->drag;
+  double *const block[6] = {reduced->block,         reduced->block + n,     reduced->block + 2 * n,
+                            reduced->block + 3 * n, reduced->block + 4 * n, reduced->block + 5 * n};
+  for (int64_t p = 0; p < n; p++) {
+    reduced->diagonal[p] = system->mass[p] + brake;
+    for (int c = 0; c < 6; c++)
+      block[c][p] = c < 3 ? reduced->diagonal[p] : 0.0;
+  }
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_diagonal(run, &reduced->tangent, block);
+  }
+  if (reduced->alpha != 0.0) add_bending(&system->bending, reduced->alpha, block);
+  hooke_altitude_tangent_diagonal(system->altitudes.count, reduced->altitude, block);
+  memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
+  for (int64_t p = 0; p < n; p++)
+    factorise(n, p, reduced->factor);
+  for (int64_t k = 0; k < system->held_count; k++) {
+    for (int c = 0; c < 6; c++)
+      reduced->factor[c * n + system->held_particle[k]] = 0.0;
+  }
+}
+
+void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, double beta) {
+  const hooke_system *system = reduced->integrator->system;
+  const struct hooke_motion *motion = reduced->integrator->motion;
+  reduced->t = t;
+  reduced->alpha = alpha;
+  reduced->beta = beta;
+  struct hooke_fields fields;
+  for (int a = 0; a < 3; a++) {
+    fields.q[a] = motion->q[a];
+    fields.v[a] = motion->v[a];
+  }
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
+  }
+  hooke_altitude_tangents(&system->altitudes, fields.q, fields.v, alpha, beta, reduced->altitude);
+  fill_diagonal(reduced);
+  if (reduced->rows) hooke_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
+}
+
+/* ---- products ---- */
+
+/* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our own. */
+static int32_t multiply_rows(struct hooke_reduced *reduced, int all) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t size = it->size;
+  double *rows = reduced->rows, *out = rows + 4 * size;
+  int32_t stop_value = 0;
+  const struct hooke_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
+                                    rows + 3 * size, &stop_value};
+  const int32_t status = hooke_forces_product(it->system, &point, all ? NULL : is_own, out);
+  if (status == HOOKE_STOPPED) it->stop_value = stop_value;
+  return status;
+}
+
+static void rows_from_vector(int64_t n, double factor, const double *x, double *rows) {
+  for (int64_t p = 0; p < n; p++) {
+    for (int a = 0; a < 3; a++)
+      rows[3 * p + a] = factor * x[a * n + p];
+  }
+}
+
+int32_t hooke_reduced_change(struct hooke_reduced *reduced, const double *dq, const double *dv, double *out) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t n = it->system->particle_count, size = it->size;
+  rows_from_vector(n, 1.0, dq, reduced->rows + 2 * size);
+  rows_from_vector(n, 1.0, dv, reduced->rows + 3 * size);
+  it->count.derivative_products++;
+  const int32_t status = multiply_rows(reduced, 1);
+  double *const component[3] = {out, out + n, out + 2 * n};
+  hooke_components_from_rows(n, reduced->rows + 4 * size, component);
+  return status;
+}
+
+/* y -= what forces of the other kinds change by under alpha x, beta x. */
+static int32_t subtract_others(struct hooke_reduced *reduced, double alpha, double beta, const double *x,
+                               double *y) {
+  const int64_t n = reduced->integrator->system->particle_count, size = reduced->integrator->size;
+  rows_from_vector(n, alpha, x, reduced->rows + 2 * size);
+  rows_from_vector(n, beta, x, reduced->rows + 3 * size);
+  const int32_t status = multiply_rows(reduced, 0);
+  for (int64_t p = 0; p < n; p++) {
+    for (int a = 0; a < 3; a++)
+      y[a * n + p] -= reduced->rows[4 * size + 3 * p + a];
+  }
+  return status;
+}
+
+/* out = the matrix times x, where no particle is held. */
+static int32_t multiply_matrix(struct hooke_reduced *reduced, const double *x, double *out) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count;
+  const int32_t status = hooke_integrator_tell(reduced->integrator);
+  if (status != HOOKE_OK) return status;
+  reduced->integrator->count.derivative_products++;
+  hooke_apply_diagonal(n, reduced->diagonal, x, out);
+  const double *const from[3] = {x, x + n, x + 2 * n};
+  double *const to[3] = {out, out + n, out + 2 * n};
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
+      hooke_tangent_product(run, &reduced->tangent, from, to);
+  }
+  if (reduced->alpha != 0.0) hooke_bending_add(&system->bending, -reduced->alpha, from, to);
+  if (reduced->symmetric) hooke_altitude_tangent_add(system->altitudes.count, reduced->altitude, from, to);
+  return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
+}
+
+static int32_t apply(void *ctx, const double *unknown, double *out) {
+  struct hooke_reduced *reduced = ctx;
+  const int64_t n = reduced->integrator->system->particle_count;
+  hooke_apply_factor_transposed(n, reduced->factor, unknown, reduced->place);
+  const int32_t status = multiply_matrix(reduced, reduced->place, out);
+  hooke_apply_factor(n, reduced->factor, out);
+  return status;
+}
+
+/* The power of two that brings numbers whose squares would overflow or underflow to about 1; 1 for all others. */
+static double scale_of(int64_t size, const double *b) {
+  static const double SAFE = 1e100;
+  double most = 0.0;
+  int exponent;
+  for (int64_t k = 0; k < size; k++)
+    most = fmax(most, fabs(b[k]));
+  if (!(most > 0.0 && most < INFINITY) || (most > 1.0 / SAFE && most < SAFE)) return 1.0;
+  frexp(most, &exponent);
+  return ldexp(1.0, exponent > -1000 ? -exponent : 1000);
+}
+
+static void multiply(int64_t size, double factor, double *x) {
+  for (int64_t k = 0; k < size && factor != 1.0; k++)
+    x[k] *= factor;
+}
+
+/* The factor on one side and the other; `unknown` is in its order. */
+static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
+  struct hooke_reduced *reduced = ctx;
+  const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);
+  double *x = reduced->place, *product = reduced->moved;
+  memcpy(product, unknown, bytes);
+  hooke_factor_backward(reduced->whole, product);
+  hooke_factor_spread(reduced->whole, product, x);
+  const int32_t status = multiply_matrix(reduced, x, product);
+  hooke_factor_gather(reduced->whole, product, out);
+  hooke_factor_forward(reduced->whole, out);
+  return status;
+}
+
+static int32_t solve_whole(struct hooke_reduced *reduced, const double *b, double tolerance, int64_t limit,
+                           double *x, struct hooke_solution *solution) {
+  hooke_integrator *it = reduced->integrator;
+  const struct hooke_operator a = {3 * (it->system->particle_count - it->system->held_count), apply_whole,
+                                   reduced};
+  hooke_factor_gather(reduced->whole, b, reduced->right);
+  hooke_factor_forward(reduced->whole, reduced->right);
+  const double scale = scale_of(a.size, reduced->right);
+  multiply(a.size, scale, reduced->right);
+  const int32_t status =
+      hooke_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+  it->count.linear_iterations += solution->iterations;
+  hooke_factor_backward(reduced->whole, reduced->unknown);
+  hooke_factor_spread(reduced->whole, reduced->unknown, x);
+  multiply(it->size, 1.0 / scale, x);
+  return status;
+}
+
+static int32_t solve_by_blocks(struct hooke_reduced *reduced, int symmetric, const double *b,
+                               double tolerance, int64_t limit, double *x, struct hooke_solution *solution) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t n = it->system->particle_count, size = it->size;
+  const struct hooke_operator a = {size, apply, reduced};
+  memcpy(reduced->right, b, (size_t)size * sizeof(double));
+  hooke_apply_factor(n, reduced->factor, reduced->right);
+  const double scale = scale_of(size, reduced->right);
+  multiply(size, scale, reduced->right);
+  const int32_t status = (symmetric ? hooke_solve_symmetric : hooke_solve_general)(
+      &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+  it->count.linear_iterations += solution->iterations;
+  hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  multiply(size, 1.0 / scale, x);
+  return status;
+}
+
+static int64_t most_iterations(const struct hooke_reduced *reduced) {
+  const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
+  return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
+}
+
+/* Iterations by blocks that cost what a factor does with its few. */
+static int64_t iterations_worth_a_factor(const struct hooke_reduced *reduced) {
+  const double whole =
+      hooke_reduced_cost_of_factor(reduced) + 2.0 * TRIES_WITH_FACTOR * hooke_reduced_cost_of_solve(reduced);
+  return (int64_t)fmin(whole / hooke_reduced_cost_by_blocks(reduced, PRODUCTS_OF_SWEEP, VECTORS_OF_SWEEP),
+                       1e9);
+}
+
+static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
+                             struct hooke_solution *solution, int64_t *before) {
+  const int64_t most = most_iterations(reduced);
+  int32_t status = HOOKE_OK;
+  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
+    status = solve_whole(reduced, b, tolerance, TRIES_WITH_FACTOR, x, solution);
+    if (status != HOOKE_OK || solution->iterations < TRIES_WITH_FACTOR) return status;
+  } else {
+    status = solve_by_blocks(reduced, 0, b, tolerance, TRIES_BY_BLOCKS, x, solution);
+    if (status != HOOKE_OK || solution->iterations < TRIES_BY_BLOCKS) return status;
+    status = hooke_reduced_prepare_whole(reduced);
+    if (status != HOOKE_OK) return status;
+    const int64_t worth = reduced->whole ? iterations_worth_a_factor(reduced) : most;
+    if (worth > TRIES_BY_BLOCKS) {
+      *before += solution->iterations;
+      status = solve_by_blocks(reduced, 0, b, tolerance, worth < most ? worth : most, x, solution);
+      if (status != HOOKE_OK || solution->iterations < worth || reduced->whole == NULL) return status;
+    }
+  }
+  *before += solution->iterations;
+  const int32_t positive = hooke_reduced_factorise(reduced);
+  if (positive < 0) return positive;
+  return positive ? solve_whole(reduced, b, tolerance, most, x, solution)
+                  : solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
+}
+
+/* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with the factor of
+ * this step, and if that has come to be old with a new one. What is chosen hangs on the numbers of the step alone. */
+int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
+                            struct hooke_solution *solution) {
+  int64_t before = 0;
+  const int32_t status =
+      reduced->symmetric ? solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, solution)
+                         : solve_as_pays(reduced, b, tolerance, x, solution, &before);
+  solution->iterations += before;
+  return status;
+}
+
+int32_t hooke_reduced_descend(struct hooke_reduced *reduced, const double *b, double tolerance, double *x) {
+  struct hooke_solution solution;
+  return solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, &solution);
+}
+
+/* ---- all of S ---- */
+
+int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced) {
+  if (reduced->whole_state != HOOKE_WHOLE_UNKNOWN) return HOOKE_OK;
+  const int32_t status = hooke_factor_create(reduced->integrator->system, MOST_NUMBERS, &reduced->whole);
+  if (status != HOOKE_OK) return status;
+  reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
+  if (reduced->whole) reduced->integrator->own_memory += hooke_factor_memory(reduced->whole);
+  return HOOKE_OK;
+}
+
+int32_t hooke_reduced_factorise(struct hooke_reduced *reduced) {
+  const int32_t positive = hooke_factor_compute(reduced->whole, reduced->block, &reduced->tangent,
+                                                reduced->altitude, reduced->alpha);
+  reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
+  return positive;
+}
+
+void hooke_reduced_drop_factor(struct hooke_reduced *reduced) {
+  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) reduced->whole_state = HOOKE_WHOLE_READY;
+}
+
+double hooke_reduced_cost_by_blocks(const struct hooke_reduced *reduced, double products, double vectors) {
+  const hooke_integrator *it = reduced->integrator;
+  return products * (OF_SPRING * (double)it->system->springs.count +
+                     OF_TETRAHEDRON * (double)it->system->altitudes.count) +
+         vectors * OF_UNKNOWN * (double)it->size;
+}
+
+double hooke_reduced_cost_of_solve(const struct hooke_reduced *reduced) {
+  return OF_NUMBER * (double)hooke_factor_numbers(reduced->whole);
+}
+
+double hooke_reduced_cost_of_factor(const struct hooke_reduced *reduced) {
+  return OF_PRODUCT * hooke_factor_products(reduced->whole);
+}
+
+/* ---- few iterations, for an error in a given norm ---- */
+
+int32_t hooke_reduced_right(struct hooke_reduced *reduced, const double *bq, const double *bv, double *out) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count, size = 3 * n;
+  const double inverse = 1.0 / reduced->beta;
+  for (int64_t k = 0; k < size; k++) {
+    const int64_t p = k % n;
+    out[k] = system->mass[p] * (bv[k] + inverse * bq[k]) + system->drag * bq[k];
+  }
+  const double *const from[3] = {bq, bq + n, bq + 2 * n};
+  double *const to[3] = {out, out + n, out + 2 * n};
+  for (int64_t k = 0; k < system->springs.run_count; k++) {
+    const struct hooke_run *run = &system->springs.run[k];
+    if (run->shape & HOOKE_RUN_DAMPED) hooke_tangent_damping(run, &reduced->tangent, from, to);
+  }
+  if (!reduced->rows_needed) return HOOKE_OK;
+  return subtract_others(reduced, 0.0, 1.0, bq, out);
+}
+
+/* x = S^-1 x, as far as S is factorised. */
+static void divide(struct hooke_reduced *reduced, double *x) {
+  const int64_t n = reduced->integrator->system->particle_count;
+  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
+    hooke_factor_gather(reduced->whole, x, reduced->unknown);
+    hooke_factor_forward(reduced->whole, reduced->unknown);
+    hooke_factor_backward(reduced->whole, reduced->unknown);
+    hooke_factor_spread(reduced->whole, reduced->unknown, x);
+    return;
+  }
+  memcpy(reduced->unknown, x, (size_t)(3 * n) * sizeof(double));
+  hooke_apply_factor(n, reduced->factor, reduced->unknown);
+  hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+}
+
+static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {
+  struct hooke_reduced *reduced = ctx;
+  const int64_t size = reduced->integrator->size;
+  hooke_divide(size, weighed, reduced->weight, reduced->place);
+  const int32_t status = multiply_matrix(reduced, reduced->place, out);
+  divide(reduced, out);
+  hooke_multiply(size, reduced->weight, out, out);
+  return status;
+}
+
+int32_t hooke_reduced_minimise(struct hooke_reduced *reduced, const double *b, const double *weight,
+                               double tolerance, int64_t limit, double *x, struct hooke_solution *solution) {
+  const int64_t size = reduced->integrator->size;
+  const struct hooke_operator a = {size, apply_weighed, reduced};
+  reduced->weight = weight;
+  memcpy(reduced->right, b, (size_t)size * sizeof(double));
+  divide(reduced, reduced->right);
+  hooke_multiply(size, weight, reduced->right, reduced->right);
+  const int32_t status =
+      hooke_solve_minimal(&a, reduced->right, tolerance, limit, reduced->krylov, x, solution);
+  reduced->integrator->count.linear_iterations += solution->iterations;
+  hooke_divide(size, x, weight, x);
+  return status;
+}
+
+int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution) {
+  const hooke_integrator *it = reduced->integrator;
+  return hooke_fail(
+      HOOKE_SOLVER_FAILED, NULL,
+      "%s could not solve the linear equations of the step from t = %.6g s: the residual is %.3g of the "
+      "right-hand side after %lld iterations; take a smaller step",
+      it->method->name, it->t, solution->residual, (long long)solution->iterations);
+}

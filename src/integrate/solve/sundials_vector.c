@@ -1,0 +1,305 @@
+#if HOOKE_HAVE_SUNDIALS
+
+#include "integrate/solve/sundials_vector.h"
+
+#include "core/memory.h"
+#include "kernel/vector_loops.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Vectors are worked on in blocks, which depend on the size alone: as many as there may be sums, and none so small that
+ * many vectors would not stay in cache between two of them. Below LARGE waking the others takes longer than it saves. */
+enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
+
+/* Begins as that of a serial vector, for whoever takes it for one. */
+struct content {
+  struct _N_VectorContent_Serial serial;
+  void *plain; /* what it is a copy of */
+  struct hooke_crew *crew;
+  struct hooke_sundials_spare *spare; /* for clones; NULL: none */
+  int32_t is_spare;
+};
+
+static double *numbers(N_Vector v) {
+  return NV_DATA_S(v);
+}
+
+static int64_t size_of(N_Vector v) {
+  return NV_LENGTH_S(v);
+}
+
+/* ---- block by block ---- */
+
+struct job {
+  /* elements from `at` on; sums go to `sum` */
+  void (*some)(const struct job *job, int64_t at, int64_t count, double *sum);
+  double a, b;
+  const double *x, *y;
+  double *z;
+  int vectors;
+  const double *factor;
+  N_Vector *from, *to;
+  int64_t size, block;
+  double sum[MOST_BLOCKS];
+};
+
+static void work(int32_t member, int32_t members, void *ctx) {
+  struct job *job = ctx;
+  const int64_t end = hooke_crew_share(job->size, job->block, member + 1, members);
+  for (int64_t at = hooke_crew_share(job->size, job->block, member, members); at < end; at += job->block) {
+    const int64_t left = job->size - at;
+    job->some(job, at, left < job->block ? left : job->block, &job->sum[at / job->block]);
+  }
+}
+
+static void run(N_Vector v, struct job *job) {
+  const int64_t least = (size_of(v) + MOST_BLOCKS - 1) / MOST_BLOCKS;
+  job->size = size_of(v);
+  job->block = (least + LEAST_BLOCK - 1) / LEAST_BLOCK * LEAST_BLOCK;
+  if (job->block < LEAST_BLOCK) job->block = LEAST_BLOCK;
+  hooke_crew_run(job->size < LARGE ? NULL : ((struct content *)v->content)->crew, work, job);
+}
+
+/* The sums of the blocks in their order. */
+static double run_and_add(N_Vector v, struct job *job) {
+  double sum = 0.0;
+  run(v, job);
+  for (int64_t k = 0; k * job->block < job->size; k++)
+    sum += job->sum[k];
+  return sum;
+}
+
+/* ---- one vector from one or two ---- */
+
+static void some_linear_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
+}
+
+static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+  run(z, &(struct job){
+             .some = some_linear_sum, .a = a, .x = numbers(x), .b = b, .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_set(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  for (int64_t k = at; k < at + count; k++)
+    j->z[k] = j->a;
+}
+
+static void set(realtype a, N_Vector z) {
+  run(z, &(struct job){.some = some_set, .a = a, .z = numbers(z)});
+}
+
+static void some_product(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_multiply(count, j->x + at, j->y + at, j->z + at);
+}
+
+static void product(N_Vector x, N_Vector y, N_Vector z) {
+  run(z, &(struct job){.some = some_product, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_quotient(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_divide(count, j->x + at, j->y + at, j->z + at);
+}
+
+static void quotient(N_Vector x, N_Vector y, N_Vector z) {
+  run(z, &(struct job){.some = some_quotient, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
+}
+
+static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_scale(count, j->a, j->x + at, j->z + at);
+}
+
+static void scale(realtype a, N_Vector x, N_Vector z) {
+  run(z, &(struct job){.some = some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_absolute(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_absolute(count, j->x + at, j->z + at);
+}
+
+static void absolute(N_Vector x, N_Vector z) {
+  run(z, &(struct job){.some = some_absolute, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_inverse(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_invert(count, j->x + at, j->z + at);
+}
+
+static void inverse(N_Vector x, N_Vector z) {
+  run(z, &(struct job){.some = some_inverse, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_add_number(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_add_number(count, j->a, j->x + at, j->z + at);
+}
+
+static void add_number(N_Vector x, realtype a, N_Vector z) {
+  run(z, &(struct job){.some = some_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
+}
+
+/* ---- numbers ---- */
+
+static void some_dot(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_long_dot(count, j->x + at, j->y + at);
+}
+
+static realtype dot(N_Vector x, N_Vector y) {
+  return run_and_add(x, &(struct job){.some = some_dot, .x = numbers(x), .y = numbers(y)});
+}
+
+static void some_largest(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_largest(count, j->x + at);
+}
+
+static realtype largest(N_Vector x) {
+  struct job job = {.some = some_largest, .x = numbers(x)};
+  double most = 0.0;
+  run(x, &job);
+  for (int64_t k = 0; k * job.block < job.size; k++)
+    most = job.sum[k] > most ? job.sum[k] : most;
+  return most;
+}
+
+static void some_squares(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = hooke_sum_of_squares(count, j->x + at, j->y + at);
+}
+
+static realtype sum_of_squares(N_Vector x, N_Vector weight) {
+  return run_and_add(x, &(struct job){.some = some_squares, .x = numbers(x), .y = numbers(weight)});
+}
+
+static realtype mean_square(N_Vector x, N_Vector weight) {
+  return sqrt(sum_of_squares(x, weight) / (double)size_of(x));
+}
+
+static realtype norm(N_Vector x, N_Vector weight) {
+  return sqrt(sum_of_squares(x, weight));
+}
+
+/* ---- several vectors at once ---- */
+
+static void some_combination(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  hooke_scale(count, j->factor[0], numbers(j->from[0]) + at, j->z + at);
+  for (int k = 1; k < j->vectors; k++)
+    hooke_add_multiple(count, j->factor[k], numbers(j->from[k]) + at, j->z + at);
+}
+
+/* z may be the first of x. */
+static int combination(int count, realtype *c, N_Vector *x, N_Vector z) {
+  run(z, &(struct job){.some = some_combination, .vectors = count, .factor = c, .from = x, .z = numbers(z)});
+  return 0;
+}
+
+static void some_add_to_each(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  for (int k = 0; k < j->vectors; k++)
+    hooke_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
+}
+
+static int add_to_each(int count, realtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
+  run(x, &(struct job){
+             .some = some_add_to_each, .vectors = count, .factor = a, .x = numbers(x), .from = y, .to = z});
+  return 0;
+}
+
+static int dot_each(int count, N_Vector x, N_Vector *y, realtype *products) {
+  for (int k = 0; k < count; k++)
+    products[k] = dot(x, y[k]);
+  return 0;
+}
+
+static int scale_each(int count, realtype *c, N_Vector *x, N_Vector *z) {
+  for (int k = 0; k < count; k++)
+    scale(c[k], x[k], z[k]);
+  return 0;
+}
+
+/* ---- the object ---- */
+
+static void destroy(N_Vector v) {
+  struct content *content = v->content;
+  if (content->is_spare) return; /* others may still have it */
+  v->content = content->plain;
+  hooke_free(content);
+  N_VDestroy_Serial(v);
+}
+
+/* A serial vector with content of ours; NULL, and nothing left, without memory. */
+static N_Vector wrap(N_Vector v, struct hooke_crew *crew) {
+  struct content *content = v ? hooke_new(1, sizeof *content) : NULL;
+  if (content) {
+    content->serial = *(N_VectorContent_Serial)v->content;
+    content->plain = v->content;
+    content->crew = crew;
+    v->content = content;
+  } else if (v) {
+    N_VDestroy_Serial(v);
+  }
+  return content ? v : NULL;
+}
+
+/* N_VClone() writes to what it gets without a look. */
+static N_Vector clone(N_Vector v) {
+  const struct content *content = v->content;
+  struct hooke_sundials_spare *spare = content->spare;
+  N_Vector copy = wrap(N_VClone_Serial(v), content->crew);
+  if (copy) ((struct content *)copy->content)->spare = spare;
+  if (copy || spare == NULL) return copy;
+  spare->taken = 1;
+  return spare->vector;
+}
+
+int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spare) {
+  struct content *content = v->content;
+  spare->vector = clone(v);
+  if (spare->vector == NULL) return 0;
+  ((struct content *)spare->vector->content)->is_spare = 1;
+  content->spare = ((struct content *)spare->vector->content)->spare = spare;
+  return 1;
+}
+
+void hooke_sundials_spare_release(struct hooke_sundials_spare *spare) {
+  if (spare->vector == NULL) return;
+  ((struct content *)spare->vector->content)->is_spare = 0;
+  destroy(spare->vector);
+  spare->vector = NULL;
+}
+
+N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context) {
+  N_Vector v = wrap(N_VNew_Serial(size, context), crew);
+  if (v == NULL) return NULL;
+  v->ops->nvclone = clone;
+  v->ops->nvcloneempty = NULL;
+  v->ops->nvdestroy = destroy;
+  v->ops->nvlinearsum = linear_sum;
+  v->ops->nvconst = set;
+  v->ops->nvprod = product;
+  v->ops->nvdiv = quotient;
+  v->ops->nvscale = scale;
+  v->ops->nvabs = absolute;
+  v->ops->nvinv = inverse;
+  v->ops->nvaddconst = add_number;
+  v->ops->nvdotprod = v->ops->nvdotprodlocal = dot;
+  v->ops->nvmaxnorm = v->ops->nvmaxnormlocal = largest;
+  v->ops->nvwrmsnorm = mean_square;
+  v->ops->nvwl2norm = norm;
+  v->ops->nvlinearcombination = combination;
+  v->ops->nvscaleaddmulti = add_to_each;
+  v->ops->nvdotprodmulti = v->ops->nvdotprodmultilocal = dot_each;
+  v->ops->nvscalevectorarray = scale_each;
+  return v;
+}
+
+#else
+typedef int hooke_sundials_vector_is_not_built;
+#endif

@@ -1,0 +1,25 @@
+/* The serial vectors of SUNDIALS with the loops of the kernel, by several threads where they are large. Sums go in blocks
+ * that depend on the size alone and are added in order: their bits are the same for any number of threads. */
+#ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
+#define HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
+
+#include "core/crew.h"
+
+#include <nvector/nvector_serial.h>
+
+/* `size` numbers, not set; N_VDestroy() releases it. Clones have the same loops and crew, which has to outlive them (NULL:
+ * one thread). NULL without memory. */
+N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context);
+
+/* SUNDIALS takes for granted that there is memory for a clone. Where there is none, its clones are all this one vector, which
+ * N_VDestroy() leaves alone, and `taken` says that their numbers mean nothing. */
+struct hooke_sundials_spare {
+  N_Vector vector;
+  int32_t taken;
+};
+
+/* A spare for the clones of `v` and for theirs, which stays where it is until all of them are gone. 0 without memory. */
+int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spare);
+void hooke_sundials_spare_release(struct hooke_sundials_spare *spare);
+
+#endif

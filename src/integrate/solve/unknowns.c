@@ -1,0 +1,202 @@
+/* q' = v, v' = w f + g over the free particles, on one array. */
+#include "integrate/solve/unknowns.h"
+
+#include "core/memory.h"
+#include "model/force/force.h"
+
+#include <string.h>
+
+static int32_t find_stretches(const hooke_system *system, struct hooke_unknowns *u) {
+  u->stretch = hooke_new(system->held_count + 1, sizeof *u->stretch);
+  if (u->stretch == NULL) return HOOKE_NO_MEMORY;
+  int64_t from = 0, place = 0;
+  for (int64_t k = 0; k <= system->held_count; k++) {
+    const int64_t to = k < system->held_count ? system->held_particle[k] : system->particle_count;
+    if (to > from) {
+      u->stretch[u->stretch_count++] = (struct hooke_stretch_of_free){from, place, to - from};
+      place += to - from;
+    }
+    from = to + 1;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_unknowns_create(hooke_integrator *it, int32_t products, struct hooke_unknowns *u) {
+  *u = (struct hooke_unknowns){.size = it->size};
+  if (it->rate) return HOOKE_OK;
+  u->free_count = it->system->particle_count - it->system->held_count;
+  u->size = u->free_count > 0 ? 6 * u->free_count : 1;
+  if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  if (!products) return HOOKE_OK;
+  u->rows = hooke_new(5 * it->size, sizeof(double));
+  it->own_memory += 5 * it->size * (int64_t)sizeof(double);
+  return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+void hooke_unknowns_release(struct hooke_unknowns *u) {
+  hooke_free(u->stretch);
+  hooke_free(u->rows);
+  *u = (struct hooke_unknowns){0};
+}
+
+void hooke_unknowns_tolerance(const hooke_integrator *it, const struct hooke_unknowns *u, double *tolerance) {
+  const double position = hooke_options_number(it->options, "atol");
+  const double velocity = hooke_options_number(it->options, "atol_velocity");
+  for (int64_t k = 0; k < u->size; k++)
+    tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
+}
+
+/* ---- between y and all particles ---- */
+
+void hooke_unknowns_gather(const struct hooke_unknowns *u, const double *const all[3], double *some) {
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      memcpy(some + a * u->free_count + s->place, all[a] + s->particle, (size_t)s->count * sizeof(double));
+    }
+  }
+}
+
+void hooke_unknowns_spread(const struct hooke_unknowns *u, const double *some, double *const all[3]) {
+  for (int a = 0; a < 3; a++) {
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      memcpy(all[a] + s->particle, some + a * u->free_count + s->place, (size_t)s->count * sizeof(double));
+    }
+  }
+}
+
+/* Rows of x y z of the free particles; those of the others stay. */
+static void spread_to_rows(const struct hooke_unknowns *u, const double *some, double *rows) {
+  for (int64_t k = 0; k < u->stretch_count; k++) {
+    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    const double *x = some + s->place, *y = x + u->free_count, *z = y + u->free_count;
+    double *row = rows + 3 * s->particle;
+    for (int64_t p = 0; p < s->count; p++, row += 3) {
+      row[0] = x[p];
+      row[1] = y[p];
+      row[2] = z[p];
+    }
+  }
+}
+
+static void gather_motion(const struct hooke_unknowns *u, const struct hooke_motion *motion, double *y) {
+  hooke_unknowns_gather(u, (const double *const *)motion->q, y);
+  hooke_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
+}
+
+void hooke_unknowns_load(hooke_integrator *it, const struct hooke_unknowns *u, const hooke_state *state,
+                         double *y) {
+  if (it->rate) {
+    memcpy(y, state->q, (size_t)it->size * sizeof(double));
+    return;
+  }
+  y[0] = 0.0; /* stays where nothing is free */
+  hooke_motion_load(it->system, it->motion, state->q, state->v);
+  gather_motion(u, it->motion, y);
+}
+
+int32_t hooke_unknowns_store(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y,
+                             hooke_state *state) {
+  *state->t = t;
+  if (it->rate) {
+    memcpy(state->q, y, (size_t)it->size * sizeof(double));
+    return HOOKE_OK;
+  }
+  const int32_t status = hooke_integrator_hold(it, t);
+  hooke_motion_store(it->motion, state->q, state->v);
+  spread_to_rows(u, y, state->q);
+  spread_to_rows(u, y + 3 * u->free_count, state->v);
+  return status;
+}
+
+/* ---- the right-hand side ---- */
+
+int32_t hooke_unknowns_place(hooke_integrator *it, const struct hooke_unknowns *u, double t,
+                             const double *y) {
+  hooke_unknowns_spread(u, y, it->motion->q);
+  hooke_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+  return hooke_integrator_hold(it, t);
+}
+
+/* v' of the free particles; 0 times their sum tells whether all are finite. */
+static double accelerations(const hooke_integrator *it, const struct hooke_unknowns *u, double *out) {
+  const hooke_system *system = it->system;
+  double sum = 0.0;
+  for (int a = 0; a < 3; a++) {
+    const double g = system->gravity[a];
+    for (int64_t k = 0; k < u->stretch_count; k++) {
+      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
+      double *to = out + a * u->free_count + s->place;
+      for (int64_t p = 0; p < s->count; p++) {
+        to[p] = system->has_gravity ? w[p] * f[p] + g : w[p] * f[p];
+        sum += 0.0 * to[p];
+      }
+    }
+  }
+  return sum;
+}
+
+static int first_order_slope(hooke_integrator *it, double t, const double *x, double *slope) {
+  if (hooke_integrator_rate(it, t, x, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  double sum = 0.0;
+  for (int64_t k = 0; k < it->size; k++)
+    sum += 0.0 * slope[k];
+  return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
+}
+
+int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y,
+                         double *slope) {
+  /* a solver may take a stop for a reason to try a smaller step */
+  if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
+  if (it->rate) return first_order_slope(it, t, y, slope);
+  if (u->free_count == 0) {
+    slope[0] = 0.0;
+    return HOOKE_SLOPE_FINE;
+  }
+  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK || hooke_integrator_forces(it, t) != HOOKE_OK)
+    return HOOKE_SLOPE_STOPPED;
+  const int64_t m = u->free_count;
+  memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
+  return accelerations(it, u, slope + 3 * m) == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
+}
+
+/* ---- its derivative ---- */
+
+int hooke_unknowns_linearise(hooke_integrator *it, const struct hooke_unknowns *u, double t,
+                             const double *y) {
+  if (u->free_count == 0) return HOOKE_SLOPE_FINE;
+  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  hooke_motion_store(it->motion, u->rows, u->rows + it->size);
+  return HOOKE_SLOPE_FINE;
+}
+
+int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u, double t,
+                           const double *direction, double *product) {
+  if (u->free_count == 0) {
+    product[0] = 0.0;
+    return HOOKE_SLOPE_FINE;
+  }
+  double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
+  const int64_t m = u->free_count;
+  spread_to_rows(u, direction, dq); /* held particles: zero from the start */
+  spread_to_rows(u, direction + 3 * m, dv);
+  it->count.derivative_products++;
+  int32_t stop_value = 0;
+  const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
+  if (hooke_forces_product(it->system, &point, NULL, out) != HOOKE_OK) {
+    it->stop_value = stop_value;
+    return HOOKE_SLOPE_STOPPED;
+  }
+  memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
+  for (int64_t k = 0; k < u->stretch_count; k++) {
+    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    for (int64_t p = 0; p < s->count; p++) {
+      for (int a = 0; a < 3; a++)
+        product[(3 + a) * m + s->place + p] =
+            it->system->inverse_mass[s->particle + p] * out[3 * (s->particle + p) + a];
+    }
+  }
+  return HOOKE_SLOPE_FINE;
+}

@@ -1,0 +1,221 @@
+#include "io/checkpoint/checkpoint_form.h"
+
+#include "core/crc32.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "model/check_value.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char MAGIC[8] = {'h', 'o', 'o', 'k', 'e', 'C', 'K', 'P'};
+enum { VERSION = 1 };
+
+/* ---- bytes ---- */
+
+/* Fields in the order of the file, taken either way. */
+struct tape {
+  unsigned char *at;
+  int32_t writing;
+};
+
+static void move(struct tape *tape, uint64_t *bits, int count) {
+  if (!tape->writing) *bits = 0;
+  for (int k = 0; k < count; k++) {
+    if (tape->writing)
+      tape->at[k] = (unsigned char)(*bits >> 8 * k);
+    else
+      *bits |= (uint64_t)tape->at[k] << 8 * k;
+  }
+  tape->at += count;
+}
+
+static void move_u32(struct tape *tape, uint32_t *value) {
+  uint64_t bits = *value;
+  move(tape, &bits, 4);
+  *value = (uint32_t)bits;
+}
+
+static void move_whole(struct tape *tape, int64_t *value) {
+  uint64_t bits = (uint64_t)*value;
+  move(tape, &bits, 8);
+  *value = (int64_t)bits;
+}
+
+static void move_number(struct tape *tape, double *value) {
+  uint64_t bits;
+  memcpy(&bits, value, sizeof bits);
+  move(tape, &bits, 8);
+  memcpy(value, &bits, sizeof bits);
+}
+
+static void move_text(struct tape *tape, char *text, int64_t size) {
+  if (tape->writing)
+    memcpy(tape->at, text, (size_t)size);
+  else
+    memcpy(text, tape->at, (size_t)size);
+  tape->at += size;
+}
+
+static void move_header(struct tape *tape, struct hooke_checkpoint_header *h) {
+  struct hooke_standing *s = &h->standing;
+  struct hooke_counts *c = &s->count;
+  move_text(tape, h->magic, sizeof h->magic);
+  move_u32(tape, &h->version);
+  move_u32(tape, &h->has_v);
+  move_whole(tape, &h->length);
+  move_whole(tape, &h->size);
+  move_u32(tape, &h->system);
+  move_u32(tape, &h->options);
+  move_text(tape, h->method, sizeof h->method);
+  move_text(tape, h->run, sizeof h->run);
+  double *const numbers[] = {&s->t0,          &s->t, &s->energy0, &s->scale0, &s->gravity0, &s->gravity_swing,
+                             &s->wall_seconds};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    move_number(tape, numbers[k]);
+  int64_t *const wholes[] = {&s->k,
+                             &s->frames,
+                             &c->steps,
+                             &c->force_evaluations,
+                             &c->derivative_products,
+                             &c->nonlinear_iterations,
+                             &c->nonlinear_failures,
+                             &c->linear_iterations,
+                             &c->error_test_failures};
+  for (size_t k = 0; k < sizeof wholes / sizeof wholes[0]; k++)
+    move_whole(tape, wholes[k]);
+}
+
+void hooke_checkpoint_pack(const struct hooke_checkpoint_header *header,
+                           unsigned char bytes[HOOKE_CHECKPOINT_HEADER]) {
+  struct hooke_checkpoint_header copy = *header;
+  move_header(&(struct tape){bytes, 1}, &copy);
+}
+
+void hooke_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
+                             struct hooke_checkpoint_header *header) {
+  unsigned char copy[HOOKE_CHECKPOINT_HEADER];
+  memcpy(copy, bytes, sizeof copy);
+  move_header(&(struct tape){copy, 0}, header);
+}
+
+void hooke_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes) {
+  struct tape tape = {bytes, 1};
+  for (int64_t k = 0; k < count; k++) {
+    double number = value[k];
+    move_number(&tape, &number);
+  }
+}
+
+void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value) {
+  for (int64_t k = 0; k < count; k++) {
+    unsigned char copy[8];
+    memcpy(copy, bytes + 8 * k, sizeof copy);
+    move_number(&(struct tape){copy, 0}, value + k);
+  }
+}
+
+/* ---- what it is of ---- */
+
+uint32_t hooke_checkpoint_options(const hooke_options *options) {
+  uint32_t value = 0;
+  for (int64_t k = 0; k < hooke_options_row_count(options); k++) {
+    const char *name = hooke_options_row(options, k, "name"), *text = hooke_options_text(options, name);
+    const double number = hooke_options_number(options, name);
+    if (strcmp(name, "threads") == 0 || (isnan(number) && text[0] == '\0')) continue;
+    value = hooke_crc32(value, name, (int64_t)strlen(name) + 1);
+    if (isnan(number))
+      value = hooke_crc32(value, text, (int64_t)strlen(text) + 1);
+    else
+      value = hooke_crc32(value, &number, sizeof number);
+  }
+  return value;
+}
+
+static int64_t length_of(int64_t size, uint32_t has_v) {
+  return HOOKE_CHECKPOINT_HEADER + (has_v ? 16 : 8) * size + HOOKE_CHECKPOINT_END;
+}
+
+void hooke_checkpoint_describe(const hooke_integrator *it, const struct hooke_standing *standing,
+                               const char *run, struct hooke_checkpoint_header *h) {
+  memset(h, 0, sizeof *h);
+  memcpy(h->magic, MAGIC, sizeof MAGIC);
+  h->version = VERSION;
+  h->has_v = it->system != NULL;
+  h->size = it->size;
+  h->length = length_of(h->size, h->has_v);
+  h->system = it->system ? hooke_system_check_value(it->system) : 0;
+  h->options = hooke_checkpoint_options(it->options);
+  snprintf(h->method, sizeof h->method, "%s", it->method->name);
+  snprintf(h->run, sizeof h->run, "%s", run ? run : "");
+  h->standing = *standing;
+}
+
+const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *h, int64_t length) {
+  if (memcmp(h->magic, MAGIC, sizeof MAGIC) != 0) return "is no checkpoint of hooke";
+  if (h->version != VERSION) return "is of a version that this library does not read";
+  if (h->length != length) return "is not as long as it was written";
+  if (h->has_v > 1 || h->size < 0 || h->size > length || length_of(h->size, h->has_v) != length ||
+      h->method[HOOKE_CHECKPOINT_METHOD - 1] != '\0' || h->run[HOOKE_CHECKPOINT_RUN - 1] != '\0')
+    return "is damaged";
+  return NULL;
+}
+
+/* ---- whether it fits ---- */
+
+/* Far from where counting on would overflow. */
+static int are_counts(const struct hooke_standing *s) {
+  static const int64_t most = INT64_C(1) << 62;
+  const struct hooke_counts *c = &s->count;
+  const int64_t counts[] = {s->k,
+                            s->frames,
+                            c->steps,
+                            c->force_evaluations,
+                            c->derivative_products,
+                            c->nonlinear_iterations,
+                            c->nonlinear_failures,
+                            c->linear_iterations,
+                            c->error_test_failures};
+  int fit = 1;
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
+    fit &= counts[k] >= 0 && counts[k] <= most;
+  return fit;
+}
+
+static int is_possible(const hooke_integrator *it, const struct hooke_standing *s) {
+  const struct hooke_schedule *schedule = &it->schedule;
+  const int planned = schedule->frames > 0;
+  const double t = s->t0 + (double)s->k * schedule->step;
+  if (!isfinite(s->t0) || !isfinite(s->t) || !are_counts(s) || !(s->wall_seconds >= 0.0)) return 0;
+  if (planned && s->frames > schedule->frames) return 0;
+  if (it->method->adaptive)
+    return s->t >= s->t0 && (!planned || s->t <= s->t0 + schedule->duration) && (s->k > 0) == (s->t > s->t0);
+  if (memcmp(&t, &s->t, sizeof t) != 0) return 0;
+  if (!planned || s->frames == 0) return !planned || s->k == 0 || schedule->frame_steps > 0;
+  /* one may be missing, if the run was stopped just before it */
+  const int64_t frames = s->k / schedule->frame_steps + 1;
+  return s->k <= schedule->steps &&
+         (s->frames == frames || (s->frames == frames - 1 && s->k % schedule->frame_steps == 0));
+}
+
+int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *h,
+                               const hooke_integrator *it) {
+  struct hooke_checkpoint_header own;
+  hooke_checkpoint_describe(it, &h->standing, NULL, &own);
+  if (h->size != own.size || h->has_v != own.has_v || h->system != own.system)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
+  if (strcmp(h->method, own.method) != 0) {
+    char shown[HOOKE_OPTION_SHOWN];
+    hooke_option_show(h->method, (int64_t)strlen(h->method), shown);
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run by %s, not by %s", path, shown, own.method);
+  }
+  if (h->options != own.options)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                      "%s: is of a run with other options; only threads may be changed", path);
+  if (!is_possible(it, &h->standing))
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is damaged: it is at a place where no such run comes by",
+                      path);
+  return HOOKE_OK;
+}

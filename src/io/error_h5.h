@@ -1,9 +1,0 @@
-/* The error of a run in its trajectory file. */
-#ifndef HOOKE_IO_ERROR_H5_H
-#define HOOKE_IO_ERROR_H5_H
-
-/* Bytes of the texts, and the numbers by their names in hooke_estimate_number(). */
-enum { HOOKE_ERROR_BY = 16, HOOKE_ERROR_NOTE = 256, HOOKE_ERROR_COUNT = 6 };
-extern const char *const hooke_error_number[HOOKE_ERROR_COUNT];
-
-#endif

@@ -1,0 +1,11 @@
+/* Files that are installed with the library, in share/hooke. */
+#ifndef HOOKE_IO_FILE_SHARE_H
+#define HOOKE_IO_FILE_SHARE_H
+
+#include "io/file/text.h"
+
+/* Adds the whole of share/hooke/<name> to `text`. HOOKE_NOT_BUILT if it is not there, HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY. */
+int32_t hooke_share_read(const char *name, struct hooke_text *text);
+
+#endif

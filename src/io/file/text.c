@@ -1,0 +1,95 @@
+#include "io/file/text.h"
+
+#include "core/memory.h"
+#include "core/number.h"
+#include "core/utf8.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const int64_t FIRST_CAPACITY = 1 << 16;
+
+void hooke_text_add(struct hooke_text *text, const char *bytes, int64_t length) {
+  if (text->status != HOOKE_OK) return;
+  if (length > text->capacity - text->length) {
+    int64_t capacity = text->capacity > 0 ? 2 * text->capacity : FIRST_CAPACITY;
+    if (capacity < text->length + length) capacity = text->length + length;
+    text->status = hooke_grow((void **)&text->bytes, text->length, capacity, 1);
+    if (text->status != HOOKE_OK) return;
+    text->capacity = capacity;
+  }
+  memcpy(text->bytes + text->length, bytes, (size_t)length);
+  text->length += length;
+}
+
+void hooke_text_release(struct hooke_text *text) {
+  hooke_free(text->bytes);
+  *text = (struct hooke_text){.bytes = NULL};
+}
+
+/* ---- JSON ---- */
+
+static void add(struct hooke_text *text, const char *words) {
+  hooke_text_add(text, words, (int64_t)strlen(words));
+}
+
+/* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer a terminal. */
+static void add_quoted(struct hooke_text *text, const char *words) {
+  add(text, "\"");
+  const char *at = words;
+  for (int64_t left = (int64_t)strlen(words), bytes; left > 0; left -= bytes) {
+    bytes = hooke_utf8_character(at, left);
+    uint32_t escape = hooke_utf8_control(at, bytes);
+    if (strchr("\"\\<", *at)) escape = (unsigned char)*at;
+    if (bytes == 0) bytes = 1;
+    at += bytes;
+    if (escape == 0) continue;
+    char escaped[12];
+    snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)escape);
+    hooke_text_add(text, words, at - bytes - words);
+    add(text, escaped);
+    words = at;
+  }
+  hooke_text_add(text, words, at - words);
+  add(text, "\"");
+}
+
+static void begin(struct hooke_text *text, const char *key) {
+  const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
+  if (last != '{' && last != '[') add(text, ",");
+  if (key == NULL) return;
+  add_quoted(text, key);
+  add(text, ":");
+}
+
+void hooke_text_open(struct hooke_text *text, const char *key, char bracket) {
+  begin(text, key);
+  hooke_text_add(text, &bracket, 1);
+}
+
+void hooke_text_close(struct hooke_text *text, char bracket) {
+  hooke_text_add(text, &bracket, 1);
+}
+
+/* "-0" would be read as a whole number, and these have one 0. */
+void hooke_text_number(struct hooke_text *text, const char *key, double value) {
+  char number[HOOKE_NUMBER_SIZE] = "null";
+  if (isfinite(value)) hooke_number_print(value, number);
+  if (value == 0.0 && signbit(value)) strcpy(number, "-0.0");
+  begin(text, key);
+  add(text, number);
+}
+
+void hooke_text_flag(struct hooke_text *text, const char *key, int32_t flag) {
+  begin(text, key);
+  add(text, flag ? "true" : "false");
+}
+
+void hooke_text_word(struct hooke_text *text, const char *key, const char *word) {
+  begin(text, key);
+  if (word)
+    add_quoted(text, word);
+  else
+    add(text, "null");
+}

@@ -1,0 +1,84 @@
+/* JSON laid out for people: short objects and arrays on one line, long ones an element a line. */
+#include "io/file/text.h"
+
+#include <string.h>
+
+enum { LINE = 100, INDENT = 2 };
+
+static void add(struct hooke_text *text, const char *words) {
+  hooke_text_add(text, words, (int64_t)strlen(words));
+}
+
+/* Past the string, object, array or bare word that begins at `at`. */
+static const char *past_value(const char *at, const char *end) {
+  int64_t depth = 0;
+  while (at < end) {
+    if (*at == '"') {
+      for (at++; at < end && *at != '"'; at++)
+        at += *at == '\\';
+    } else if (*at == '{' || *at == '[') {
+      depth++;
+    } else if (*at == '}' || *at == ']') {
+      if (depth == 0) return at;
+      depth--;
+    } else if (*at == ',' && depth == 0) {
+      return at;
+    }
+    at++;
+    if (depth == 0 && (at == end || *at == ',' || *at == '}' || *at == ']')) return at;
+  }
+  return end;
+}
+
+static void new_line(struct hooke_text *laid, int32_t depth) {
+  add(laid, "\n");
+  for (int32_t k = 0; k < depth * INDENT; k++)
+    add(laid, " ");
+}
+
+/* On one line, with a space after every comma and colon outside texts. */
+static void add_line(struct hooke_text *laid, const char *at, const char *end) {
+  int32_t quoted = 0;
+  for (; at < end; at++) {
+    if (*at == '\\') {
+      hooke_text_add(laid, at++, 1);
+    } else if (*at == '"') {
+      quoted = !quoted;
+    }
+    hooke_text_add(laid, at, 1);
+    if (!quoted && (*at == ',' || *at == ':')) add(laid, " ");
+  }
+}
+
+static void lay_out(struct hooke_text *laid, const char *at, const char *end, int32_t depth) {
+  if ((*at != '{' && *at != '[') || end - at <= LINE - depth * INDENT) {
+    add_line(laid, at, end);
+    return;
+  }
+  hooke_text_add(laid, at++, 1);
+  while (at < end - 1) {
+    const char *stop = past_value(at, end - 1);
+    new_line(laid, depth + 1);
+    if (*at == '"' && end[-1] == '}') { /* the key, then its value */
+      const char *colon = at + 1;
+      while (*colon != '"')
+        colon += 1 + (*colon == '\\');
+      add_line(laid, at, colon + 2);
+      at = colon + 2;
+    }
+    lay_out(laid, at, stop, depth + 1);
+    if (stop < end - 1) add(laid, ",");
+    at = stop + 1;
+  }
+  new_line(laid, depth);
+  hooke_text_add(laid, end - 1, 1);
+}
+
+void hooke_text_lay_out(const struct hooke_text *json, struct hooke_text *laid) {
+  if (json->status != HOOKE_OK || json->length == 0) {
+    laid->status = json->status;
+    return;
+  }
+  lay_out(laid, json->bytes, json->bytes + json->length, 0);
+  add(laid, "\n");
+}

@@ -1,0 +1,201 @@
+/* HDF5 files that take their place only when they are ready, and HDF5 errors in words. */
+#include "core/print.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/hdf5/driver_h5.h"
+#include "io/hdf5/file_h5.h"
+#include "io/hdf5/object_h5.h"
+#include "io/file/place.h"
+
+#include "core/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- errors ---- */
+
+/* The innermost entry of HDF5's error stack is the cause. */
+static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
+  struct hooke_h5_guard *guard = ctx;
+  if (n > 0 || entry->desc == NULL) return 0;
+  const char *text = entry->desc, *mark = "error message = '";
+  const char *system_text = strstr(text, mark);
+  size_t length = strlen(text);
+  if (system_text) {
+    text = system_text + strlen(mark);
+    length = strcspn(text, "'");
+  }
+  snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
+  /* some of its parts say so in words alone */
+  guard->no_memory = entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_CANTALLOC ||
+                     strstr(entry->desc, "memory allocation failed") != NULL;
+  return 0;
+}
+
+/* Called by HDF5 when one of its functions fails; what fails first is the reason for the rest. */
+static herr_t on_error(hid_t stack, void *ctx) {
+  struct hooke_h5_guard *guard = ctx;
+  if (guard->reason[0] == '\0') H5Ewalk2(stack, H5E_WALK_UPWARD, keep_innermost, guard);
+  return 0;
+}
+
+/* HDF5 keeps its open files, and more, in variables of its own, one set for the process. */
+static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
+static _Thread_local int32_t guards; /* of this thread, one inside the other */
+
+void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
+  *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno, .failures = hooke_fail_count()};
+  if (guards++ == 0) pthread_mutex_lock(&alone);
+  H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
+  if (guard->second_version) {
+    H5E_auto2_t handler = NULL;
+    H5Eget_auto2(H5E_DEFAULT, &handler, &guard->data);
+    guard->handler = (void (*)(void))handler;
+  } else {
+    H5E_auto1_t handler = NULL;
+    H5Eget_auto1(&handler, &guard->data);
+    guard->handler = (void (*)(void))handler;
+  }
+  H5Eset_auto2(H5E_DEFAULT, on_error, guard);
+  H5PLget_loading_state(&guard->plugins);
+  H5PLset_loading_state(0);
+}
+
+void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
+  H5PLset_loading_state(guard->plugins);
+  H5Eclear2(H5E_DEFAULT);
+  if (guard->second_version) {
+    H5Eset_auto2(H5E_DEFAULT, (H5E_auto2_t)guard->handler, guard->data);
+  } else {
+    H5Eset_auto1((H5E_auto1_t)guard->handler, guard->data);
+  }
+  if (--guards == 0) pthread_mutex_unlock(&alone);
+  errno = guard->error;
+}
+
+/* HDF5 was without memory, or we were as it called us. */
+static int was_without_memory(const struct hooke_h5_guard *guard) {
+  return guard->no_memory || (hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY);
+}
+
+int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
+  if (was_without_memory(guard)) return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
+                    guard->reason);
+}
+
+/* ---- a file ---- */
+
+/* Whether `bytes` fit is found out before anything is written. */
+static int32_t try_room(const char *path, int descriptor, double bytes) {
+  char what[64];
+  hooke_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
+  int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
+  if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
+  if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
+  return error ? hooke_place_fail(path, what, error) : HOOKE_OK;
+}
+
+static int32_t create(struct hooke_h5_guard *guard, const char *path, double bytes,
+                      struct hooke_h5_file *file) {
+  const int32_t status = try_room(path, file->place.descriptor, bytes);
+  if (status != HOOKE_OK) return status;
+  file->list = hooke_h5_access_list(file->place.descriptor, &file->error);
+  if (file->list >= 0) file->id = H5Fcreate(file->place.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
+  if (file->id >= 0) return HOOKE_OK;
+  return file->error && !was_without_memory(guard) ? hooke_place_fail(path, "create the file", file->error)
+                                                   : hooke_h5_fail(guard, path, "create the file");
+}
+
+int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
+                             struct hooke_h5_file *file) {
+  *file = HOOKE_NO_H5_FILE;
+  const int32_t status = hooke_place_make(path, &file->place);
+  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
+}
+
+int32_t hooke_h5_file_create_held(struct hooke_h5_guard *guard, const char *path, double bytes, int32_t again,
+                                  struct hooke_h5_file *file) {
+  *file = HOOKE_NO_H5_FILE;
+  const int32_t status = hooke_place_make_held(path, again, &file->place);
+  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
+}
+
+/* Room on the disk for all of it, and not only in the numbering of its bytes. */
+static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_file *file) {
+  hsize_t bytes = 0;
+  if (H5Fget_filesize(file->id, &bytes) < 0) return hooke_h5_fail(guard, file->place.path, "write");
+  const int error = posix_fallocate(file->place.descriptor, 0, (off_t)bytes);
+  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
+  return hooke_place_fail(file->place.path, "make room for all frames", error);
+}
+
+/* Whatever comes of it, HDF5 has no part in the file afterwards. */
+static int32_t let_go(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const hid_t id = file->id;
+  file->id = -1;
+  const herr_t result = H5Fclose(id);
+  hooke_h5_drop(file->list);
+  file->list = -1;
+  if (file->error) return hooke_place_fail(file->place.path, "write", file->error);
+  return result < 0 ? hooke_h5_fail(guard, file->place.path, "close the file") : HOOKE_OK;
+}
+
+int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const int32_t status = take_room(guard, file);
+  return status == HOOKE_OK ? let_go(guard, file) : status;
+}
+
+int32_t hooke_h5_file_publish(struct hooke_h5_file *file) {
+  return hooke_place_take(&file->place, NULL);
+}
+
+int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
+  int32_t status = hooke_place_is(file->place.path, file->place.descriptor);
+  if (status == HOOKE_OK && fsync(file->place.descriptor) != 0)
+    status = hooke_place_fail(file->place.path, "bring the data to the disk", errno);
+  const int32_t closed = hooke_place_close(&file->place);
+  return status == HOOKE_OK ? closed : status;
+}
+
+int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+  const int32_t status = let_go(guard, file);
+  return status == HOOKE_OK ? hooke_place_take(&file->place, NULL) : status;
+}
+
+int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {
+  void *handle = NULL;
+  *id = H5Fopen(file->place.path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (*id < 0) return hooke_h5_fail(guard, file->place.path, "open the file as HDF5");
+  int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
+                       ? hooke_h5_fail(guard, file->place.path, "open the file as HDF5")
+                       : hooke_place_same(file->place.path, *(const int *)handle, file->place.descriptor);
+  if (status == HOOKE_OK) return status;
+  H5Fclose(*id);
+  *id = -1;
+  return status;
+}
+
+double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
+  struct stat now;
+  return fstat(file->place.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
+}
+
+void hooke_h5_file_release(struct hooke_h5_file *file) {
+  if (file->id >= 0) {
+    file->error = ECANCELED; /* nobody wants what HDF5 has not written yet */
+    H5Fclose(file->id);
+  }
+  hooke_h5_drop(file->list);
+  hooke_place_release(&file->place);
+  *file = HOOKE_NO_H5_FILE;
+}
+
+#endif

@@ -1,0 +1,300 @@
+/* Trajectories as pages: what of a file is shown. */
+#include "io/page/view.h"
+
+#include "core/handle.h"
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "io/hdf5/array_h5.h"
+#include "io/page/base64.h"
+#include "io/trajectory/record.h"
+#include "io/file/share.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct hooke_option_row rows[] = {
+    {.name = "frames",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 2,
+     .high = 1e6,
+     .whole = 1,
+     .doc = "frames that the page has at most, evenly; as many as its size allows if not given"},
+    {.name = "springs",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 1,
+     .high = 1e7,
+     .whole = 1,
+     .fallback = "100000",
+     .doc = "springs that the page draws at most: of more, every second, third, ..."},
+    {.name = "size",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "MB",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 2000,
+     .fallback = "50",
+     .doc = "size of the page at most, which frames are left out for"},
+};
+static const struct hooke_option_table table = {"view", HOOKE_OPTION_ROWS(rows)};
+
+const char *const hooke_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
+
+int32_t hooke_view_options_create(hooke_options **options) {
+  return hooke_options_create(&table, options);
+}
+
+/* ---- reading ---- */
+
+static int32_t refuse(const struct hooke_view *view, const char *what) {
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", hooke_record_path(view->record), what);
+}
+
+int32_t hooke_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t count,
+                        int64_t columns, double **values) {
+  int64_t there, wide;
+  const char *path = hooke_record_path(view->record);
+  const int32_t status = hooke_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
+  if (status != HOOKE_OK) return status;
+  if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
+  hooke_free(*values);
+  *values = NULL;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                    "%s: dataset %s has %lld rows of %lld numbers, which do not fit the other datasets", path,
+                    dataset, (long long)there, (long long)wide);
+}
+
+/* Springs as the file has them, with ends that there are. */
+static int32_t read_ends(struct hooke_view *view, double **ends) {
+  int64_t wide = 0;
+  int32_t status = hooke_array_read(hooke_record_path(view->record), "/connectivity/springs", 0, 0, ends,
+                                    &view->springs_there, &wide);
+  if (status == HOOKE_OK && view->springs_there > 0 && wide != 2)
+    status = refuse(view, "dataset /connectivity/springs has not two ends in a row");
+  for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++) {
+    if (!((*ends)[k] >= 0.0) || (*ends)[k] >= (double)view->particles_there)
+      status = refuse(view, "dataset /connectivity/springs names a particle that is not there");
+  }
+  return status;
+}
+
+static int32_t read_species(struct hooke_view *view, double **species) {
+  int64_t wide = 0;
+  const int32_t status = hooke_array_read(hooke_record_path(view->record), "/particles/all/species", 0, 0,
+                                          species, &view->particles_there, &wide);
+  return status == HOOKE_OK && wide != 1 ? refuse(view, "dataset /particles/all/species is no column")
+                                         : status;
+}
+
+static int32_t read_columns(struct hooke_view *view) {
+  static const char *const names[HOOKE_VIEW_ENERGIES] = {"/observables/kinetic_energy/value",
+                                                         "/observables/potential_energy/value",
+                                                         "/observables/total_energy/value"};
+  view->frames_there = hooke_record_frame_count(view->record);
+  int32_t status =
+      hooke_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
+  for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
+    status = hooke_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
+  return status;
+}
+
+/* Files of before there were rest lengths in them have those of their first frame. */
+static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
+  int32_t status =
+      hooke_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
+  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
+  double *q = NULL;
+  status = hooke_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
+  view->rest_length = hooke_new(view->springs_there, sizeof(double));
+  if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {
+    const double *a = q + 3 * (int64_t)ends[2 * k], *b = q + 3 * (int64_t)ends[2 * k + 1];
+    view->rest_length[k] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+  }
+  view->by_first_frame = 1;
+  hooke_free(q);
+  return status;
+}
+
+/* ---- choosing ---- */
+
+/* The smallest whole stride by which `count` things become no more than `room`. */
+static int64_t stride_for(int64_t count, int64_t room) {
+  return count > room ? 1 + (count - 1) / room : 1;
+}
+
+/* Particles in their order: the ends of springs that are shown, those that are held, and those without any spring. */
+static int32_t choose_particles(struct hooke_view *view, const double *ends, const double *species) {
+  const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
+  char *tied = hooke_new(all, 1);
+  int64_t *place = hooke_new(all, sizeof *place), loose = 0;
+  view->particle = hooke_new(all, sizeof *view->particle);
+  view->mark = hooke_new(all, 1);
+  int32_t status = tied && place && view->particle && view->mark ? HOOKE_OK : HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++)
+    tied[(int64_t)ends[k]] |= (k / 2 % view->spring_stride == 0) ? 2 : 1;
+  for (int64_t k = 0; k < all && status == HOOKE_OK; k++)
+    view->loose_there += tied[k] == 0 && species[k] == 0.0;
+  view->loose_stride = stride_for(view->loose_there, room);
+  for (int64_t k = 0; k < all && status == HOOKE_OK; k++) {
+    const int is_loose = tied[k] == 0 && species[k] == 0.0;
+    if (species[k] == 0.0 && !(tied[k] & 2) && !(is_loose && loose++ % view->loose_stride == 0)) continue;
+    view->mark[view->particles] = species[k] == 1.0   ? HOOKE_VIEW_PINNED
+                                  : species[k] == 2.0 ? HOOKE_VIEW_DRIVEN
+                                  : is_loose          ? HOOKE_VIEW_LOOSE
+                                                      : HOOKE_VIEW_FREE;
+    place[k] = view->particles;
+    view->particle[view->particles++] = k;
+  }
+  for (int64_t k = 0; k < 2 * view->springs && status == HOOKE_OK; k++)
+    view->end[k] = place[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
+  hooke_free(place);
+  hooke_free(tied);
+  return status;
+}
+
+static int32_t choose_springs(struct hooke_view *view) {
+  const int64_t room = (int64_t)hooke_options_number(view->options, "springs");
+  view->spring_stride = stride_for(view->springs_there, room);
+  view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
+  view->spring = hooke_new(view->springs, sizeof *view->spring);
+  view->end = hooke_new(2 * view->springs, sizeof *view->end);
+  if (!view->spring || !view->end) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < view->springs; k++)
+    view->spring[k] = k * view->spring_stride;
+  return HOOKE_OK;
+}
+
+/* What the page takes besides its frames, with room for words. */
+static int32_t measure_page(const struct hooke_view *view, double *bytes) {
+  static const char *const parts[] = {"view.html", "view.css",       "view.js", "view_scene.js",
+                                      "three.js",  "three_orbit.js", "chart.js"};
+  struct hooke_text text = {.bytes = NULL};
+  int32_t status = HOOKE_OK;
+  for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
+    status = hooke_share_read(parts[k], &text);
+  *bytes = (double)(text.length + hooke_base64_length(8 * view->springs + view->particles)) + 20e3;
+  hooke_text_release(&text);
+  return status;
+}
+
+/* All frames, or as few as the option says and the size allows: every k-th and the last. */
+static int32_t choose_frames(struct hooke_view *view) {
+  enum { NUMBERS_OF_FRAME = 300 }; /* bytes, as text */
+  double fixed;
+  const int32_t status = measure_page(view, &fixed);
+  if (status != HOOKE_OK) return status;
+  const double size = 1e6 * hooke_options_number(view->options, "size");
+  const double each = (double)hooke_base64_length(hooke_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
+  const int64_t least = view->frames_there < 2 ? view->frames_there : 2;
+  double room = floor((size - fixed) / each);
+  if (room < (double)least) {
+    return hooke_fail(
+        HOOKE_BAD_VALUE, "size",
+        "%g MB are too few for this trajectory: its page takes %.3g MB and %.3g MB for each frame; allow "
+        "%.3g MB or more, or draw fewer springs",
+        size / 1e6, fixed / 1e6, each / 1e6, ceil((fixed + (double)least * each) / 1e5) / 10.0);
+  }
+  if (hooke_options_is_set(view->options, "frames"))
+    room = fmin(room, hooke_options_number(view->options, "frames"));
+  const int64_t gaps = view->frames_there - 1;
+  view->frame_stride = room > (double)gaps ? 1 : stride_for(gaps, (int64_t)room - 1);
+  view->frames = 1 + (gaps + view->frame_stride - 1) / view->frame_stride;
+  return HOOKE_OK;
+}
+
+static int32_t choose(struct hooke_view *view) {
+  double *ends = NULL, *species = NULL;
+  int32_t status = read_species(view, &species);
+  if (status == HOOKE_OK) status = read_ends(view, &ends);
+  if (status == HOOKE_OK) status = read_columns(view);
+  if (status == HOOKE_OK) status = read_rest_lengths(view, ends);
+  if (status == HOOKE_OK) status = choose_springs(view);
+  if (status == HOOKE_OK) status = choose_particles(view, ends, species);
+  if (status == HOOKE_OK) status = choose_frames(view);
+  hooke_free(species);
+  hooke_free(ends);
+  return status;
+}
+
+/* ---- a view ---- */
+
+static int32_t check_built(void) {
+  if (hooke_build_fact("threejs")[0] && hooke_build_fact("chartjs")[0]) return HOOKE_OK;
+  return hooke_fail(
+      HOOKE_NOT_BUILT, NULL,
+      "pages that play a trajectory need three.js and Chart.js (on Debian: apt-get install libjs-three "
+      "libjs-chart.js, then configure again), and this build of the library is without");
+}
+
+static int32_t check_record(const struct hooke_view *view) {
+  if (!hooke_record_is_run(view->record)) {
+    return refuse(view,
+                  "holds several runs, and a view shows one; write the one to look at with 'hooke run -o'");
+  }
+  return hooke_record_frame_count(view->record) > 0 ? HOOKE_OK : refuse(view, "has no frames yet");
+}
+
+int32_t hooke_view_create(const hooke_record *record, const hooke_options *options, hooke_view **out) {
+  *out = NULL;
+  int32_t status = check_built();
+  if (status != HOOKE_OK) return status;
+  struct hooke_view *view = hooke_handle_new("hooke_view", sizeof *view);
+  if (view == NULL) return HOOKE_NO_MEMORY;
+  view->record = record;
+  view->bytes = NAN;
+  if (options && hooke_options_table(options) != &table)
+    status = hooke_fail(HOOKE_BAD_CALL, "options", "are not those of hooke_view_options_create()");
+  if (status == HOOKE_OK) status = check_record(view);
+  if (status == HOOKE_OK)
+    status =
+        options ? hooke_options_copy(options, &view->options) : hooke_view_options_create(&view->options);
+  if (status == HOOKE_OK) status = choose(view);
+  if (status == HOOKE_OK) status = hooke_view_find_strain(view);
+  if (status == HOOKE_OK)
+    *out = view;
+  else
+    hooke_view_destroy(view);
+  return status;
+}
+
+void hooke_view_destroy(hooke_view *view) {
+  if (view == NULL) return;
+  hooke_options_destroy(view->options);
+  hooke_free(view->rest_length);
+  hooke_free(view->spring);
+  hooke_free(view->end);
+  hooke_free(view->particle);
+  hooke_free(view->mark);
+  hooke_free(view->time);
+  for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
+    hooke_free(view->energy[k]);
+  hooke_handle_free(view);
+}
+
+double hooke_view_number(const hooke_view *view, const char *what) {
+  const struct {
+    const char *name;
+    double value;
+  } numbers[] = {
+      {"frames", (double)view->frames},
+      {"frames_there", (double)view->frames_there},
+      {"frame_stride", (double)view->frame_stride},
+      {"springs", (double)view->springs},
+      {"springs_there", (double)view->springs_there},
+      {"spring_stride", (double)view->spring_stride},
+      {"particles", (double)view->particles},
+      {"particles_there", (double)view->particles_there},
+      {"time_first", view->time[0]},
+      {"time_last", view->time[view->frames_there - 1]},
+      {"strain", view->strain},
+      {"strain_low", view->strain_low},
+      {"strain_high", view->strain_high},
+      {"bytes", view->bytes},
+  };
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    if (strcmp(numbers[k].name, what) == 0)
+      return isfinite(numbers[k].value) ? numbers[k].value : (double)NAN;
+  }
+  return NAN;
+}

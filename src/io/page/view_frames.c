@@ -1,0 +1,158 @@
+/* Frames of a page as bytes. */
+#include "io/page/view.h"
+
+#include "core/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of each frame so many springs are looked at for the scale of colours; of them so many, and of the frames so many, have a
+ * strain within it. Of a run that blew up only frames count that are not much wider than the first, since what comes after
+ * them leaves no colours for the others. */
+enum { LOOKED_AT = 4096, WIDEST = 65535, MIDDLE = 127, NO_STRAIN = 255 };
+static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
+
+static const char position[] = "/particles/all/position/value";
+
+int64_t hooke_view_frame(const struct hooke_view *view, int64_t k) {
+  const int64_t frame = k * view->frame_stride;
+  return frame < view->frames_there ? frame : view->frames_there - 1;
+}
+
+int64_t hooke_view_frame_bytes(const struct hooke_view *view) {
+  return 6 * view->particles + view->springs;
+}
+
+double hooke_view_strain(const struct hooke_view *view, const double *q, int64_t k) {
+  const double rest = view->rest_length[view->spring[k]];
+  const double *a = q + 3 * view->particle[view->end[2 * k]];
+  const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
+  const double length = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+  return rest > 0.0 ? length / rest - 1.0 : (double)NAN;
+}
+
+/* ---- the box ---- */
+
+static void find_box(const struct hooke_view *view, const double *q, struct hooke_view_box *box) {
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t k = 0; k < view->particles; k++) {
+      const double x = q[3 * view->particle[k] + axis];
+      if (!isfinite(x)) continue;
+      low = fmin(low, x);
+      high = fmax(high, x);
+    }
+    box->low[axis] = low <= high ? low : 0.0;
+    box->high[axis] = low <= high ? high : 0.0;
+  }
+}
+
+/* ---- the scale of colours ---- */
+
+static int compare(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* The value that a share of the others is not above. */
+static double quantile(double *values, int64_t count, double share) {
+  if (count == 0) return 0.0;
+  qsort(values, (size_t)count, sizeof *values, compare);
+  return values[(int64_t)(share * (double)(count - 1))];
+}
+
+/* 1, 2 or 5 times a power of ten, not below `value`. */
+static double round_up(double value) {
+  const double power = pow(10.0, floor(log10(value)));
+  const double head = value / power;
+  return (head <= 1.0 ? 1.0 : head <= 2.0 ? 2.0 : head <= 5.0 ? 5.0 : 10.0) * power;
+}
+
+static double largest_of_most(struct hooke_view *view, const double *q, double *sizes) {
+  const int64_t stride = 1 + (view->springs - 1) / LOOKED_AT;
+  int64_t count = 0;
+  for (int64_t k = 0; k < view->springs; k++) {
+    const double strain = hooke_view_strain(view, q, k);
+    if (!isfinite(strain)) continue;
+    view->strain_low = fmin(view->strain_low, strain);
+    view->strain_high = fmax(view->strain_high, strain);
+    if (k % stride == 0) sizes[count++] = fabs(strain);
+  }
+  return quantile(sizes, count, SPRING_SHARE);
+}
+
+static double extent_of(const struct hooke_view *view, const double *q) {
+  struct hooke_view_box box;
+  double extent = 0.0;
+  find_box(view, q, &box);
+  for (int axis = 0; axis < 3; axis++)
+    extent = fmax(extent, box.high[axis] - box.low[axis]);
+  return extent;
+}
+
+static int blew_up(const struct hooke_view *view) {
+  const char *status = hooke_record_text(view->record, "status");
+  return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
+}
+
+int32_t hooke_view_find_strain(struct hooke_view *view) {
+  double *sizes = hooke_new(LOOKED_AT + 1, sizeof *sizes);
+  double *largest = hooke_new(view->frames, sizeof *largest);
+  int32_t status = sizes && largest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  int64_t count = 0;
+  double widest = INFINITY;
+  view->strain_low = INFINITY;
+  view->strain_high = -INFINITY;
+  for (int64_t k = 0; k < view->frames && view->springs > 0 && status == HOOKE_OK; k++) {
+    double *q = NULL;
+    status = hooke_view_read(view, position, hooke_view_frame(view, k), view->particles_there, 3, &q);
+    if (status == HOOKE_OK) {
+      const double most = largest_of_most(view, q, sizes), extent = extent_of(view, q);
+      if (k == 0 && extent > 0.0 && blew_up(view)) widest = WIDENED * extent;
+      if (extent <= widest) largest[count++] = most;
+    }
+    hooke_free(q);
+  }
+  if (status == HOOKE_OK) {
+    const double most = quantile(largest, count, FRAME_SHARE);
+    const double any = fmax(-view->strain_low, view->strain_high); /* where most springs are slack */
+    view->strain = most > 0.0 ? round_up(most) : any > 0.0 ? round_up(any) : 1.0;
+  }
+  hooke_free(largest);
+  hooke_free(sizes);
+  return status;
+}
+
+/* ---- packing ---- */
+
+/* Halves, since the whole may be too large for a number. */
+static uint32_t place_in(double x, double low, double high) {
+  const double span = 0.5 * high - 0.5 * low;
+  if (!(span > 0.0) || !isfinite(x)) return 0;
+  const double share = (0.5 * x - 0.5 * low) / span * WIDEST + 0.5;
+  return share >= WIDEST ? WIDEST : share > 0.0 ? (uint32_t)share : 0;
+}
+
+static uint8_t colour_of(const struct hooke_view *view, double strain) {
+  if (isnan(strain)) return NO_STRAIN;
+  const double place = rint(MIDDLE + MIDDLE * (strain / view->strain));
+  return (uint8_t)fmin(fmax(place, 0.0), 2 * MIDDLE);
+}
+
+int32_t hooke_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes,
+                        struct hooke_view_box *box) {
+  double *q = NULL;
+  const int32_t status = hooke_view_read(view, position, frame, view->particles_there, 3, &q);
+  if (status != HOOKE_OK) return status;
+  find_box(view, q, box);
+  for (int64_t k = 0; k < 3 * view->particles; k++) {
+    const uint32_t place = place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]);
+    *bytes++ = (uint8_t)(place & 255);
+    *bytes++ = (uint8_t)(place >> 8);
+  }
+  for (int64_t k = 0; k < view->springs; k++)
+    *bytes++ = colour_of(view, hooke_view_strain(view, q, k));
+  hooke_free(q);
+  return HOOKE_OK;
+}

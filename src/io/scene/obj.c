@@ -1,0 +1,248 @@
+/* v and f with all forms of corners, negative numbers and polygons; lines that go on after a backslash; any line ends. What
+ * has nothing to do with the surface is passed over, and what would be lost is refused. */
+#include "io/scene/obj.h"
+
+#include "core/memory.h"
+#include "core/number.h"
+#include "core/option.h"
+#include "core/status.h"
+
+#include <string.h>
+
+static const char allowed[] =
+    "allowed: v and f; vt, vn, vp, g, o, s, mg, usemtl, mtllib and comments are passed over";
+
+struct reader {
+  const char *at, *end;
+  int64_t line;
+  struct hooke_obj *obj;
+};
+
+/* A word of a line. */
+struct word {
+  const char *text;
+  int64_t length;
+};
+
+/* ---- words ---- */
+
+static int is_end_of_line(char c) {
+  return c == '\n' || c == '\r';
+}
+
+/* Past one end of line: LF, CR LF or CR. */
+static void end_line(struct reader *reader) {
+  if (reader->at == reader->end) return;
+  const char first = *reader->at++;
+  if (first == '\r' && reader->at < reader->end && *reader->at == '\n') reader->at++;
+  reader->line++;
+}
+
+/* A backslash at the end of a line takes the next one along. */
+static int goes_on(const struct reader *reader) {
+  return *reader->at == '\\' && reader->at + 1 < reader->end && is_end_of_line(reader->at[1]);
+}
+
+static void skip_blanks(struct reader *reader) {
+  while (reader->at < reader->end) {
+    if (*reader->at == ' ' || *reader->at == '\t') {
+      reader->at++;
+    } else if (goes_on(reader)) {
+      reader->at++;
+      end_line(reader);
+    } else {
+      break;
+    }
+  }
+}
+
+/* The next word of the line; 0 at its end, or at a comment. */
+static int next_word(struct reader *reader, struct word *word) {
+  skip_blanks(reader);
+  word->text = reader->at;
+  while (reader->at < reader->end && !is_end_of_line(*reader->at) && *reader->at != ' ' &&
+         *reader->at != '\t' && !goes_on(reader) && *word->text != '#')
+    reader->at++;
+  word->length = reader->at - word->text;
+  return word->length > 0;
+}
+
+/* A comment ends with its line, whatever it ends with. */
+static void skip_line(struct reader *reader) {
+  const int comment = reader->at < reader->end && *reader->at == '#';
+  while (reader->at < reader->end && !is_end_of_line(*reader->at)) {
+    if (!comment && goes_on(reader)) {
+      reader->at++;
+      end_line(reader);
+    } else {
+      reader->at++;
+    }
+  }
+}
+
+static int is(const struct word *word, const char *text) {
+  return word->length == (int64_t)strlen(text) && memcmp(word->text, text, (size_t)word->length) == 0;
+}
+
+static int32_t refuse(const struct word *word, const char *what) {
+  char shown[HOOKE_OPTION_SHOWN];
+  hooke_option_show(word->text, word->length, shown);
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "\"%s\" is not allowed; %s", shown, what);
+}
+
+/* ---- lists that grow ---- */
+
+static int32_t grow(void **block, int64_t used, int64_t *capacity, size_t size, void **lines) {
+  const int64_t wanted = *capacity > 0 ? 2 * *capacity : 1024;
+  int32_t status = hooke_grow(block, used, wanted, size);
+  if (status == HOOKE_OK) status = hooke_grow(lines, used, wanted, sizeof(int32_t));
+  if (status == HOOKE_OK) *capacity = wanted;
+  return status;
+}
+
+static int32_t add_vertex(struct hooke_obj *obj, const double *place, int64_t line) {
+  if (obj->vertex_count == INT32_MAX)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "one vertex too many; allowed: up to 2147483647");
+  if (obj->vertex_count == obj->vertex_capacity) {
+    const int32_t status = grow((void **)&obj->vertex, obj->vertex_count, &obj->vertex_capacity,
+                                3 * sizeof(double), (void **)&obj->vertex_line);
+    if (status != HOOKE_OK) return status;
+  }
+  memcpy(obj->vertex + 3 * obj->vertex_count, place, 3 * sizeof(double));
+  obj->vertex_line[obj->vertex_count++] = (int32_t)line;
+  return HOOKE_OK;
+}
+
+static int32_t add_triangle(struct hooke_obj *obj, int64_t a, int64_t b, int64_t c, int64_t line) {
+  if (obj->triangle_count == INT32_MAX / 3)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "one triangle too many; allowed: up to 715827882");
+  if (obj->triangle_count == obj->triangle_capacity) {
+    const int32_t status = grow((void **)&obj->triangle, obj->triangle_count, &obj->triangle_capacity,
+                                3 * sizeof(int64_t), (void **)&obj->triangle_line);
+    if (status != HOOKE_OK) return status;
+  }
+  const int64_t corner[3] = {a, b, c};
+  memcpy(obj->triangle + 3 * obj->triangle_count, corner, sizeof corner);
+  obj->triangle_line[obj->triangle_count++] = (int32_t)line;
+  return HOOKE_OK;
+}
+
+/* ---- elements ---- */
+
+/* Three coordinates; a weight and a colour may follow. */
+static int32_t read_vertex(struct reader *reader, int64_t line) {
+  double number[7];
+  int count = 0;
+  for (struct word word; next_word(reader, &word); count++) {
+    if (count == 7) return refuse(&word, "allowed: x y z, which a weight and a colour may follow");
+    const enum hooke_number_result result = hooke_number_parse(word.text, word.length, &number[count]);
+    if (result == HOOKE_NUMBER_NO_MEMORY) return HOOKE_NO_MEMORY;
+    if (result != HOOKE_NUMBER_FINE) return refuse(&word, "allowed: a finite decimal number");
+  }
+  if (count < 3)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a vertex of %d numbers; allowed: x y z, three numbers", count);
+  return add_vertex(reader->obj, number, line);
+}
+
+/* The vertex of a corner v, v/vt, v//vn or v/vt/vn; negative numbers count back from the last vertex so far. */
+static int32_t read_corner(const struct reader *reader, const struct word *word, int64_t *vertex) {
+  static const char form[] = "allowed: v, v/vt, v//vn or v/vt/vn, whole numbers";
+  const int64_t count = reader->obj->vertex_count;
+  int64_t k = 0, number = 0, digits = 0, slashes = 0;
+  const int negative = word->text[0] == '-';
+  for (k = negative; k < word->length && word->text[k] >= '0' && word->text[k] <= '9'; k++, digits++) {
+    if (number < (int64_t)1 << 40) number = 10 * number + (word->text[k] - '0');
+  }
+  for (int64_t rest = k; rest < word->length; rest++) {
+    slashes += word->text[rest] == '/';
+    if (memchr("0123456789-/", word->text[rest], 12) == NULL || word->text[k] != '/')
+      return refuse(word, form);
+  }
+  if (digits == 0 || slashes > 2) return refuse(word, form);
+  *vertex = negative ? count - number : number - 1;
+  if (number > 0 && number <= count) return HOOKE_OK;
+  if (count == 0) return refuse(word, "there is no vertex before this line");
+  return hooke_fail(
+      HOOKE_BAD_VALUE, NULL,
+      "there is no vertex %s%lld yet; allowed: 1 to %lld, or -1 to -%lld from the last one back",
+      negative ? "-" : "", (long long)number, (long long)count, (long long)count);
+}
+
+static int32_t read_face(struct reader *reader, int64_t line) {
+  int64_t first = 0, before = 0, vertex = 0, corners = 0;
+  int32_t status = HOOKE_OK;
+  for (struct word word; status == HOOKE_OK && next_word(reader, &word); corners++) {
+    status = read_corner(reader, &word, &vertex);
+    if (status != HOOKE_OK) return status;
+    if (corners == 0) first = vertex;
+    if (corners >= 2) status = add_triangle(reader->obj, first, before, vertex, line);
+    before = vertex;
+  }
+  if (status == HOOKE_OK && corners < 3)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a face of %lld corners; allowed: three or more",
+                      (long long)corners);
+  return status;
+}
+
+static int is_passed_over(const struct word *word) {
+  static const char *const names[] = {"vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib"};
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+    if (is(word, names[k])) return 1;
+  return 0;
+}
+
+static int32_t read_line(struct reader *reader) {
+  struct word word;
+  int32_t status = HOOKE_OK;
+  const int found = next_word(reader, &word);
+  const int64_t line = reader->line;
+  if (found && is(&word, "v"))
+    status = read_vertex(reader, line);
+  else if (found && is(&word, "f"))
+    status = read_face(reader, line);
+  else if (found && !is_passed_over(&word))
+    status = refuse(&word, allowed);
+  if (status != HOOKE_OK) reader->line = line;
+  skip_line(reader);
+  return status;
+}
+
+int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj, int64_t *line) {
+  struct reader reader = {.at = text, .end = text + length, .line = 1, .obj = obj};
+  *obj = (struct hooke_obj){.vertex_count = 0};
+  int32_t status = HOOKE_OK;
+  while (status == HOOKE_OK && reader.at < reader.end) {
+    status = read_line(&reader);
+    if (status == HOOKE_OK) end_line(&reader);
+  }
+  *line = reader.line;
+  if (status != HOOKE_OK || obj->triangle_count > 0) return status;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                    "the file ends with %lld vertices and no face; allowed: faces, lines \"f 1 2 3\"",
+                    (long long)obj->vertex_count);
+}
+
+/* A vertex is a line, a triangle at least a blank before its last corner. */
+double hooke_obj_bytes(const char *text, int64_t length) {
+  static const double per_vertex = 200.0, per_triangle = 340.0;
+  double vertices = 0.0, triangles = 0.0;
+  int in_face = 0;
+  for (int64_t k = 0; k < length; k++) {
+    const int starts = k == 0 || is_end_of_line(text[k - 1]);
+    const int blank = text[k] == ' ' || text[k] == '\t' || text[k] == '\\';
+    if (starts && !(k > 1 && memchr(text + (k > 2 ? k - 3 : 0), '\\', (size_t)(k > 2 ? 3 : k))) && !blank)
+      in_face = text[k] == 'f';
+    if (starts && blank) in_face = 1; /* whatever comes */
+    vertices += text[k] == 'v';
+    triangles += in_face && blank;
+  }
+  return per_vertex * vertices + per_triangle * triangles + 3.0 * (double)length;
+}
+
+void hooke_obj_release(struct hooke_obj *obj) {
+  hooke_free(obj->vertex);
+  hooke_free(obj->triangle);
+  hooke_free(obj->vertex_line);
+  hooke_free(obj->triangle_line);
+  *obj = (struct hooke_obj){.vertex_count = 0};
+}

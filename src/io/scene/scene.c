@@ -1,0 +1,199 @@
+/* Scenes: loading, and messages that give the place in the file. */
+#include "io/scene/scene.h"
+
+#include "core/handle.h"
+#include "core/keep_errno.h"
+#include "core/memory.h"
+#include "core/room.h"
+#include "core/status.h"
+#include "io/scene/json_place.h"
+#include "io/trajectory/record.h"
+#include "io/scene/scene_file.h"
+
+#include <string.h>
+
+enum { NAME_SHOWN = 200 };
+
+/* Long paths lose their beginning, so that line and column stay. */
+static const char *short_name(const char *name, const char **dots) {
+  size_t length = strlen(name);
+  *dots = length > NAME_SHOWN ? "..." : "";
+  return length > NAME_SHOWN ? name + length - NAME_SHOWN : name;
+}
+
+static int32_t in_file(int32_t status, const char *name) {
+  const char *dots, *shown = short_name(name, &dots);
+  return hooke_fail_before(status, "%s%s: ", dots, shown);
+}
+
+static int32_t in_line(int32_t status, const char *name, int64_t line, int64_t column) {
+  const char *dots, *shown = short_name(name, &dots);
+  if (column < 1) column = 1; /* at the end of a line, before its first character */
+  return hooke_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
+}
+
+static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
+  int64_t line, column;
+  hooke_json_line(scene->text, at, &line, &column);
+  return in_line(status, scene->name, line, column);
+}
+
+static int32_t at_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
+  return in_text(status, scene, hooke_json_find(scene->text, scene->length, hooke_fail_place(), at_key));
+}
+
+/* The text is in `scene` and passed the guard. */
+static int32_t read_text(hooke_scene *scene, const char *folder) {
+  const char *at = NULL;
+  int32_t status = hooke_json_check_tokens(scene->text, scene->length, &at);
+  if (status == HOOKE_BAD_VALUE) return in_text(status, scene, at);
+  if (status) return status;
+  struct hooke_scene_trouble trouble = {0};
+  status = hooke_scene_build(scene, folder, &trouble);
+  if (status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hooke_fail_place()[0] == '\0')) return status;
+  if (trouble.line) return in_line(status, scene->name, trouble.line, trouble.column);
+  return at_place(status, scene, trouble.at_key);
+}
+
+static int32_t require_jansson(void) {
+#if HOOKE_HAVE_JANSSON
+  return HOOKE_OK;
+#else
+  return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson, which this one is not");
+#endif
+}
+
+static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
+  hooke_scene *scene = hooke_handle_new("hooke_scene", sizeof *scene);
+  if (scene && (scene->name = hooke_copy_text(name)) == NULL) {
+    hooke_handle_free(scene);
+    return NULL;
+  }
+  if (scene && limits) {
+    if (hooke_options_is_set(limits, "memory"))
+      scene->memory_limit = 1e9 * hooke_options_number(limits, "memory");
+    scene->outside = hooke_options_number(limits, "outside") != 0.0;
+  }
+  return scene;
+}
+
+/* Hands the scene over, or takes it apart. */
+static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
+  if (status)
+    hooke_scene_destroy(made);
+  else
+    *scene = made;
+  return status;
+}
+
+/* The scene that a trajectory was made from, as it was run. */
+static int32_t load_record(const char *path, const hooke_options *limits, hooke_scene **scene) {
+  hooke_record *record = NULL;
+  int32_t status = hooke_record_open(path, &record);
+  if (status != HOOKE_OK) return status;
+  const char *text = hooke_record_text(record, "scene");
+  char *folder = hooke_scene_folder(path);
+  if (folder == NULL) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK && text[0] == '\0')
+    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
+  if (status == HOOKE_OK)
+    status = hooke_scene_parse_within(text, (int64_t)strlen(text), path, folder, limits, scene);
+  if (status == HOOKE_OK) {
+    hooke_options *run = NULL;
+    status = hooke_options_copy(hooke_record_options(record), &run);
+    if (status == HOOKE_OK) {
+      hooke_options_destroy((*scene)->run);
+      (*scene)->run = run;
+    } else {
+      hooke_scene_destroy(*scene);
+      *scene = NULL;
+    }
+  }
+  hooke_free(folder);
+  hooke_record_close(record);
+  return status;
+}
+
+int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
+  return hooke_scene_load_within(path, NULL, scene);
+}
+
+int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene) {
+  HOOKE_KEEP_ERRNO;
+  if (scene) *scene = NULL;
+  if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
+  if (require_jansson()) return HOOKE_NOT_BUILT;
+  if (hooke_record_is_one(path)) return load_record(path, limits, scene);
+  hooke_scene *made = new_scene(path, limits);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  struct hooke_json_guard guard = {.memory_limit = made->memory_limit};
+  int32_t status = hooke_scene_read_file(path, &guard, &made->text, &made->length);
+  if (status == HOOKE_BAD_VALUE && guard.line)
+    in_line(status, path, guard.line, guard.column);
+  else if (status)
+    in_file(status, path);
+  if (status == HOOKE_OK) {
+    char *folder = hooke_scene_folder(path);
+    status = folder ? read_text(made, folder) : HOOKE_NO_MEMORY;
+    hooke_free(folder);
+  }
+  return finish(status, made, scene);
+}
+
+int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
+                          hooke_scene **scene) {
+  return hooke_scene_parse_within(text, length, name, folder, NULL, scene);
+}
+
+int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name, const char *folder,
+                                 const hooke_options *limits, hooke_scene **scene) {
+  if (scene) *scene = NULL;
+  if (text == NULL || length < 0 || scene == NULL)
+    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
+  if (require_jansson()) return HOOKE_NOT_BUILT;
+  if (name == NULL) name = "scene";
+  struct hooke_json_guard guard = {0};
+  int32_t status = hooke_json_guard_feed(&guard, text, length);
+  if (status == HOOKE_OK) status = hooke_json_guard_end(&guard);
+  if (status) return in_line(status, name, guard.line, guard.column);
+  hooke_scene *made = new_scene(name, limits);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  status = hooke_room_require(made->memory_limit, hooke_json_guard_bytes(&guard, length), "this scene");
+  if (status) return finish(in_file(status, name), made, scene);
+  made->text = hooke_new(length + 1, 1);
+  made->length = length;
+  if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);
+  memcpy(made->text, text, (size_t)length);
+  return finish(read_text(made, folder), made, scene);
+}
+
+int32_t hooke_scene_commit(hooke_scene *scene) {
+  int32_t status = hooke_system_commit(scene->system);
+  return status == HOOKE_BAD_VALUE ? at_place(status, scene, 0) : status;
+}
+
+void hooke_scene_destroy(hooke_scene *scene) {
+  if (scene == NULL) return;
+  hooke_system_destroy(scene->system);
+  hooke_options_destroy(scene->run);
+  hooke_free(scene->title);
+  hooke_free(scene->text);
+  hooke_free(scene->name);
+  hooke_handle_free(scene);
+}
+
+hooke_system *hooke_scene_system(hooke_scene *scene) {
+  return scene->system;
+}
+
+hooke_options *hooke_scene_run_options(hooke_scene *scene) {
+  return scene->run;
+}
+
+const char *hooke_scene_title(const hooke_scene *scene) {
+  return scene->title ? scene->title : "";
+}
+
+const char *hooke_scene_text(const hooke_scene *scene) {
+  return scene->text;
+}

@@ -1,0 +1,221 @@
+/* The top level of a scene. */
+#include "io/scene/scene_json.h"
+
+#include "core/keep_errno.h"
+#include "core/memory.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_JANSSON
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { METHODS_SIZE = 512 };
+
+static const char other_keys[] = "hooke particles springs parts driven run";
+
+/* ---- syntax ---- */
+
+static const char *advice(enum json_error_code code) {
+  switch (code) {
+  case json_error_duplicate_key:
+    return "allowed: each key once";
+  case json_error_premature_end_of_input:
+    return "the text ends too early; allowed: one whole JSON object";
+  case json_error_end_of_input_expected:
+    return "allowed: one JSON object and nothing after it";
+  case json_error_null_character:
+  case json_error_null_byte_in_key:
+    return "allowed: texts without the character \\u0000";
+  default:
+    return "allowed: JSON (RFC 8259), without comments and trailing commas";
+  }
+}
+
+/* jansson tells of missing memory in three ways: a code, no text, or a refusal of a token that is
+ * fine, as all are once their check has passed. */
+static int ran_out_of_memory(const json_error_t *error) {
+  return json_error_code(error) == json_error_out_of_memory || error->text[0] == '\0' ||
+         strstr(error->text, "string or '}' expected near '\"") || strstr(error->text, "invalid token");
+}
+
+static int32_t no_memory(void) {
+  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
+}
+
+static int32_t syntax_error(const json_error_t *error, struct hooke_scene_trouble *trouble) {
+  enum json_error_code code = json_error_code(error);
+  if (ran_out_of_memory(error)) return no_memory();
+  char text[JSON_ERROR_TEXT_LENGTH];
+  int null_character = code == json_error_null_character || code == json_error_null_byte_in_key;
+  snprintf(text, sizeof text, "%s", null_character ? "the character \\u0000 in a text" : error->text);
+  for (char *c = text; *c; c++)
+    if ((unsigned char)*c < 32 || *c == 127) *c = '?';
+  trouble->line = error->line > 0 ? error->line : 1;
+  trouble->column = error->column;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+}
+
+struct source {
+  const char *next;
+  int64_t left;
+  int32_t starved; /* something could not be allocated */
+};
+
+/* jansson leaves out what it has no memory for, of a word or of a number, and goes on. All that tells of it is `errno`,
+ * and only until the next number; so it is given a byte at a time. */
+static size_t give_byte(void *buffer, size_t size, void *ctx) {
+  struct source *source = ctx;
+  source->starved |= errno == ENOMEM;
+  if (size == 0 || source->left == 0) return 0;
+  *(char *)buffer = *source->next++;
+  source->left--;
+  return 1;
+}
+
+/* NULL, with the failure in `status`, if it cannot be had. */
+static json_t *load(const char *text, int64_t length, struct hooke_scene_trouble *trouble, int32_t *status) {
+  struct source source = {.next = text, .left = length};
+  const int kept = errno;
+  json_error_t error;
+  errno = 0;
+  json_t *root = json_load_callback(give_byte, &source, JSON_REJECT_DUPLICATES, &error);
+  source.starved |= errno == ENOMEM;
+  errno = kept;
+  *status = HOOKE_OK;
+  if (source.starved) {
+    json_decref(root);
+    root = NULL;
+    *status = no_memory();
+  } else if (root == NULL) {
+    *status = syntax_error(&error, trouble);
+  }
+  return root;
+}
+
+/* ---- the parts of a scene ---- */
+
+static int32_t check_version(const json_t *root) {
+  const json_t *version = json_object_get(root, "hooke");
+  if (version == NULL)
+    return hooke_fail(HOOKE_BAD_VALUE, "hooke",
+                      "is required but missing; allowed: 1, the version of the format");
+  if (!json_is_integer(version)) return hooke_scene_refuse(version, "hooke", "1, the version of the format");
+  if (json_integer_value(version) == 1) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "hooke", "%lld is not a known version of the format; allowed: 1",
+                    (long long)json_integer_value(version));
+}
+
+static int32_t read_top(struct hooke_scene_reader *reader, const json_t *root) {
+  hooke_options *options = NULL;
+  int32_t status = hooke_scene_options_create("scene", &options);
+  if (status == HOOKE_OK) status = hooke_scene_read_options(reader, root, other_keys, options);
+  if (status == HOOKE_OK) status = hooke_scene_options_apply(options, reader->scene->system);
+  if (status == HOOKE_OK &&
+      (reader->scene->title = hooke_copy_text(hooke_options_text(options, "title"))) == NULL)
+    status = HOOKE_NO_MEMORY;
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* The table of a run takes any text as method; a scene that names none that exists is wrong at once. */
+static int32_t check_method(const hooke_options *run) {
+  const char *method = hooke_options_text(run, "method");
+  if (!hooke_options_is_set(run, "method") || hooke_method_is_adaptive(method) >= 0) return HOOKE_OK;
+  char methods[METHODS_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    size_t used = strlen(methods);
+    snprintf(methods + used, sizeof methods - used, "%s%s", k ? ", " : "", hooke_method_name(k));
+  }
+  hooke_option_show(method, (int64_t)strlen(method), shown);
+  return hooke_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method; allowed: %s", shown, methods);
+}
+
+static int32_t read_run(struct hooke_scene_reader *reader, const json_t *run) {
+  int32_t status = hooke_run_options_create(&reader->scene->run);
+  if (status || run == NULL) return status;
+  status = hooke_scene_require_object(run, NULL);
+  if (status == HOOKE_OK) status = hooke_scene_read_some_options(reader, run, NULL, reader->scene->run);
+  if (status == HOOKE_OK) status = check_method(reader->scene->run);
+  return status ? hooke_fail_within(status, "run") : HOOKE_OK;
+}
+
+/* Particles first, then parts, so that springs can name them all. */
+static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root) {
+  const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
+  const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
+  int32_t status = check_version(root);
+  if (status == HOOKE_OK) status = read_top(reader, root);
+  if (status == HOOKE_OK && particles) status = hooke_scene_add_particles(reader, particles);
+  if (status == HOOKE_OK && parts) status = hooke_scene_add_parts(reader, parts);
+  if (status == HOOKE_OK && hooke_system_particle_count(reader->scene->system) == 0)
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
+  if (status == HOOKE_OK && springs) status = hooke_scene_add_springs(reader, springs);
+  if (status == HOOKE_OK && driven) status = hooke_scene_add_driven(reader, driven);
+  if (status == HOOKE_OK) status = read_run(reader, json_object_get(root, "run"));
+  return status;
+}
+
+int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+  HOOKE_KEEP_ERRNO;
+  int32_t status;
+  json_t *root = load(scene->text, scene->length, trouble, &status);
+  if (root == NULL) return status;
+  struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
+  status = hooke_system_create(&scene->system);
+  if (status == HOOKE_OK) status = hooke_system_limit_memory(scene->system, scene->memory_limit);
+  if (status == HOOKE_OK) status = read_scene(&reader, root);
+  hooke_part_names_release(&reader.parts);
+  json_decref(root);
+  trouble->at_key = reader.at_key;
+  return status;
+}
+
+/* ---- files ---- */
+
+static int names_file(const json_t *value) {
+  const char *key;
+  json_t *member;
+  size_t k;
+  if (json_is_string(json_object_get(value, "file"))) return 1;
+  json_object_foreach((json_t *)value, key, member) if (names_file(member)) return 1;
+  json_array_foreach(value, k, member) if (names_file(member)) return 1;
+  return 0;
+}
+
+int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+  HOOKE_KEEP_ERRNO;
+  struct hooke_scene_trouble trouble = {0};
+  int32_t status;
+  *names = 0;
+  *title = NULL;
+  if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* most scenes, without being parsed */
+  json_t *root = load(text, (int64_t)strlen(text), &trouble, &status);
+  if (root == NULL) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+  const char *found = json_string_value(json_object_get(root, "title"));
+  *names = names_file(root);
+  if (*names && (*title = hooke_copy_text(found ? found : "")) == NULL) status = HOOKE_NO_MEMORY;
+  json_decref(root);
+  return status;
+}
+
+#else
+
+int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+  (void)scene;
+  (void)folder;
+  (void)trouble;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
+}
+
+int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+  (void)text;
+  *names = 0;
+  *title = NULL;
+  return HOOKE_OK;
+}
+
+#endif

@@ -1,0 +1,62 @@
+/* Tables as CSV, in the same bytes whatever the locale. */
+#include "core/number.h"
+#include "hooke/io.h"
+#include "io/file/place.h"
+#include "io/file/text.h"
+#include "measure/study/study.h"
+
+#include <math.h>
+#include <string.h>
+
+static void add(struct hooke_text *text, const char *words) {
+  hooke_text_add(text, words, (int64_t)strlen(words));
+}
+
+/* A name in quotes, with those in it doubled. */
+static void add_name(struct hooke_text *text, const char *name) {
+  add(text, ",\"");
+  for (; *name; name++)
+    hooke_text_add(text, *name == '"' ? "\"\"" : name, *name == '"' ? 2 : 1);
+  add(text, "\"");
+}
+
+static void add_number(struct hooke_text *text, double value) {
+  char number[HOOKE_NUMBER_SIZE] = "";
+  if (isfinite(value)) hooke_number_print(value, number);
+  add(text, ",");
+  add(text, number);
+}
+
+static void add_watched(struct hooke_text *text, const hooke_study *study, int64_t row) {
+  for (int64_t k = 0; k < study->watched.count; k++)
+    add_number(text,
+               hooke_watched_series_figure(&study->row[row].trial.watched, study->watched.item[k].text));
+}
+
+static void add_row(struct hooke_text *text, const hooke_study *study, int64_t row) {
+  add(text, hooke_study_text(study, row, "method"));
+  for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++)
+    add_number(text, hooke_study_number(study, row, hooke_study_row_number[k]));
+  add_watched(text, study, row);
+  add(text, ",");
+  add(text, hooke_study_text(study, row, "status"));
+  add(text, "\n");
+}
+
+int32_t hooke_study_write_csv(const hooke_study *study, const char *path) {
+  struct hooke_text text = {.bytes = NULL};
+  add(&text, "method");
+  for (int k = 0; k < HOOKE_STUDY_ROW_NUMBERS; k++) {
+    add(&text, ",");
+    add(&text, hooke_study_row_number[k]);
+  }
+  for (int64_t k = 0; k < study->watched.count; k++)
+    add_name(&text, study->watched.item[k].text);
+  add(&text, ",status\n");
+  for (int64_t row = 0; row < hooke_study_row_count(study); row++)
+    add_row(&text, study, row);
+  const int32_t status =
+      text.status == HOOKE_OK ? hooke_place_write(path, text.bytes, text.length) : text.status;
+  hooke_text_release(&text);
+  return status;
+}

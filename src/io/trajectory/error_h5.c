@@ -1,0 +1,82 @@
+/* The error of a run, put into its trajectory file after the run. */
+#include "hooke/io.h"
+
+#include "core/keep_errno.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/file/bytes.h"
+#include "io/trajectory/error_h5.h"
+#include "io/hdf5/file_h5.h"
+#include "io/trajectory/h5md_h5.h"
+#include "io/file/place.h"
+
+#include <stdio.h>
+
+const char *const hooke_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
+                                                           "energy_rise", "wanted",     "met"};
+
+struct places {
+  int64_t numbers, by, note;
+};
+
+static int32_t find_places(struct hooke_h5_guard *guard, const struct hooke_h5_file *file,
+                           struct places *at) {
+  hid_t id;
+  const int32_t status = hooke_h5_file_open(guard, file, &id);
+  if (status != HOOKE_OK) return status;
+  at->numbers = hooke_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
+  at->by = hooke_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
+  at->note = hooke_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
+  H5Fclose(id);
+  if (guard->no_memory) return hooke_h5_fail(guard, file->place.path, "find the room for the error");
+  if (at->numbers >= 0 && at->by >= 0 && at->note >= 0) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
+                    file->place.path);
+}
+
+static int write_at(int descriptor, const struct places *at, const hooke_estimate *estimate) {
+  double number[HOOKE_ERROR_COUNT];
+  char by[HOOKE_ERROR_BY] = {0}, note[HOOKE_ERROR_NOTE] = {0};
+  const char *source = hooke_estimate_text(estimate, "by");
+  for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
+    number[k] = hooke_estimate_number(estimate, hooke_error_number[k]);
+  snprintf(by, sizeof by, "%s", source ? source : "");
+  snprintf(note, sizeof note, "%s", hooke_estimate_text(estimate, "note"));
+  int error = hooke_bytes_write(descriptor, at->note, sizeof note, note);
+  if (error == 0) error = hooke_bytes_write(descriptor, at->numbers, sizeof number, number);
+  return error ? error : hooke_bytes_write(descriptor, at->by, sizeof by, by);
+}
+
+static int32_t write_to(struct hooke_h5_guard *guard, struct hooke_h5_file *file,
+                        const hooke_estimate *estimate) {
+  struct places at;
+  const int32_t status = find_places(guard, file, &at);
+  if (status != HOOKE_OK) return status;
+  const int error = write_at(file->place.descriptor, &at, estimate);
+  return error ? hooke_place_fail(file->place.path, "write the error of the run", error)
+               : hooke_h5_file_close(file);
+}
+
+int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
+  HOOKE_KEEP_ERRNO;
+  struct hooke_h5_file file = HOOKE_NO_H5_FILE;
+  struct hooke_h5_guard guard;
+  hooke_h5_guard_begin(&guard);
+  int32_t status = hooke_place_hold(path, &file.place);
+  if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
+  hooke_h5_file_release(&file);
+  hooke_h5_guard_end(&guard);
+  return status;
+}
+
+#else
+
+int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
+  (void)estimate, (void)path;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "trajectories need HDF5, and this build of the library is without it");
+}
+
+#endif

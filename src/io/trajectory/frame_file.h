@@ -1,0 +1,48 @@
+/* Frames as plain bytes in a file whose arrays are contiguous and of their final size. No HDF5 is called, which one thread
+ * at a time may use and which may be the caller's own at any time; so this may be done by a thread of ours. */
+#ifndef HOOKE_IO_TRAJECTORY_FRAME_FILE_H
+#define HOOKE_IO_TRAJECTORY_FRAME_FILE_H
+
+#include "hooke/state.h"
+
+enum { HOOKE_OBSERVABLE_COUNT = 6 };
+
+/* The arrays that have a row for each frame, in the order in which the check value goes over their rows. */
+enum hooke_frame_array {
+  HOOKE_FRAME_STEP,
+  HOOKE_FRAME_TIME,
+  HOOKE_FRAME_POSITION,
+  HOOKE_FRAME_VELOCITY,
+  HOOKE_FRAME_OBSERVABLE, /* the first of them */
+  HOOKE_FRAME_CHECK = HOOKE_FRAME_OBSERVABLE + HOOKE_OBSERVABLE_COUNT,
+  HOOKE_FRAME_ARRAY_COUNT
+};
+
+struct hooke_frame_file {
+  const hooke_system *system;
+  int descriptor; /* -1: none */
+  int64_t particle_count;
+  int64_t at[HOOKE_FRAME_ARRAY_COUNT]; /* first bytes of the arrays */
+};
+
+struct hooke_observable {
+  const char *name;
+  int32_t columns;
+};
+extern const struct hooke_observable hooke_observables[HOOKE_OBSERVABLE_COUNT];
+
+/* Numbers in a row of an array, and its bytes. */
+int64_t hooke_frame_numbers(int64_t particle_count, int array);
+int64_t hooke_frame_bytes(int64_t particle_count, int array);
+
+/* Writes a frame: its numbers, their check value, and its time last. 0, or the number of the system's error. */
+int hooke_frame_write(const struct hooke_frame_file *file, int64_t frame, int64_t step,
+                      const hooke_state *state);
+
+/* `whole`: 1 if the frame has a time and its numbers have the check value that stands beside them. */
+int hooke_frame_look(const struct hooke_frame_file *file, int64_t frame, int32_t *whole);
+
+/* Copies the first `count` frames as they are. */
+int hooke_frame_copy(const struct hooke_frame_file *from, const struct hooke_frame_file *to, int64_t count);
+
+#endif

@@ -1,0 +1,103 @@
+#include "io/trajectory/frame_thread.h"
+
+#include "core/memory.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+struct hooke_frame_thread {
+  const struct hooke_frame_file *file;
+  hooke_state *state; /* the frame on its way */
+  int64_t step, written;
+  int32_t busy, ending; /* a frame is on its way; there will be no more */
+  int error;
+  pthread_t thread;
+  pthread_mutex_t mutex;
+  pthread_cond_t changed;
+};
+
+static void *work(void *own) {
+  struct hooke_frame_thread *thread = own;
+  pthread_mutex_lock(&thread->mutex);
+  for (;;) {
+    while (!thread->busy && !thread->ending)
+      pthread_cond_wait(&thread->changed, &thread->mutex);
+    if (!thread->busy) break;
+    pthread_mutex_unlock(&thread->mutex);
+    const int error = hooke_frame_write(thread->file, thread->written, thread->step, thread->state);
+    pthread_mutex_lock(&thread->mutex);
+    thread->error = error;
+    thread->written += error == 0;
+    thread->busy = 0;
+    pthread_cond_signal(&thread->changed);
+  }
+  pthread_mutex_unlock(&thread->mutex);
+  return NULL;
+}
+
+/* Signals are for the threads of the program. */
+static int start(struct hooke_frame_thread *thread) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const int error = pthread_create(&thread->thread, NULL, work, thread);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  return error;
+}
+
+struct hooke_frame_thread *hooke_frame_thread_create(const struct hooke_frame_file *file, int64_t first) {
+  struct hooke_frame_thread *thread = hooke_new(1, sizeof *thread);
+  if (thread == NULL) return NULL;
+  thread->file = file;
+  thread->written = first;
+  pthread_mutex_init(&thread->mutex, NULL);
+  pthread_cond_init(&thread->changed, NULL);
+  if (hooke_state_create(file->system, &thread->state) == HOOKE_OK && start(thread) == 0) return thread;
+  pthread_cond_destroy(&thread->changed);
+  pthread_mutex_destroy(&thread->mutex);
+  hooke_state_destroy(thread->state);
+  hooke_free(thread);
+  return NULL;
+}
+
+/* Returns with the mutex, and no frame on its way. */
+static void wait_for_frame(struct hooke_frame_thread *thread) {
+  pthread_mutex_lock(&thread->mutex);
+  while (thread->busy)
+    pthread_cond_wait(&thread->changed, &thread->mutex);
+}
+
+int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, const hooke_state *state) {
+  wait_for_frame(thread);
+  const int error = thread->error;
+  if (error == 0) {
+    hooke_state_copy(state, thread->state);
+    thread->step = step;
+    thread->busy = 1;
+    pthread_cond_signal(&thread->changed);
+  }
+  pthread_mutex_unlock(&thread->mutex);
+  return error;
+}
+
+int hooke_frame_thread_wait(struct hooke_frame_thread *thread) {
+  wait_for_frame(thread);
+  const int error = thread->error;
+  pthread_mutex_unlock(&thread->mutex);
+  return error;
+}
+
+int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written) {
+  wait_for_frame(thread);
+  thread->ending = 1;
+  pthread_cond_signal(&thread->changed);
+  pthread_mutex_unlock(&thread->mutex);
+  pthread_join(thread->thread, NULL);
+  const int error = thread->error;
+  *written = thread->written;
+  pthread_cond_destroy(&thread->changed);
+  pthread_mutex_destroy(&thread->mutex);
+  hooke_state_destroy(thread->state);
+  hooke_free(thread);
+  return error;
+}

@@ -1,0 +1,59 @@
+/* What an H5MD file says of itself, and the springs. Layout (H5MD 1.1):
+ *
+ *   /h5md                    version [1, 1]; author, creator
+ *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units, method, of a single run `run`, which no other run has;
+ * `scene`: the text of the scene;
+ * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
+ *   /hooke/rest_length       [springs]
+ *   /hooke/error             of a single run: HOOKE_ERROR_NUMBERS, NaN until they are known; texts `error_by`, `error_note`
+ *   /particles/<group>       frames (recording_h5.h)
+ *   /connectivity/springs    [springs][2] particle numbers
+ *   /observables             frames (recording_h5.h)
+ *
+ * The status is raw data of fixed length, like everything that is written after the first frame: metadata
+ * that change in place could be torn when the process is killed. */
+#ifndef HOOKE_IO_TRAJECTORY_H5MD_H5_H
+#define HOOKE_IO_TRAJECTORY_H5MD_H5_H
+
+#include "hooke/integrator.h"
+#include "io/hdf5/copy_h5.h"
+
+#include <hdf5.h>
+
+/* Everything but particles and observables. `method`, `options` and `scene_text` may be NULL. Negative on
+ * failure. */
+herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
+                           const char *scene_text);
+
+/* A group `options` with an attribute for each option that has a value. Negative on failure. */
+herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options);
+
+/* /connectivity/springs and /hooke/rest_length; the particles group has to be there. */
+herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group);
+
+/* The attribute `run` of /hooke: 32 random hexadecimal digits, and their end. */
+enum { HOOKE_RUN_SIZE = 33 };
+int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]);
+herr_t hooke_h5md_write_run(hid_t file, const char *run);
+
+/* Makes everything but particles, observables and check values again in another file; hooke_h5md_refer() has to follow when
+ * the particles group is there. */
+herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy);
+herr_t hooke_h5md_refer(hid_t file, const char *group);
+
+/* Room for the error of a run. Negative on failure. */
+herr_t hooke_h5md_write_error_room(hid_t file);
+
+/* Where in the file an array of so many bytes is; -1 if there is none. */
+int64_t hooke_h5md_place(hid_t file, const char *name, hsize_t bytes);
+
+/* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a
+ * status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's error. */
+enum { HOOKE_H5MD_RUNNING = 1000 };
+herr_t hooke_h5md_find_status(hid_t file, int64_t *at);
+int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
+
+/* The same while HDF5 has the file. */
+herr_t hooke_h5md_set_status(hid_t file, int32_t outcome);
+
+#endif

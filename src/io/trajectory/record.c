@@ -1,0 +1,24 @@
+/* What a file is, told by its first bytes, and whether it will do. */
+#include "io/trajectory/record.h"
+
+#include "core/status.h"
+#include "io/file/place.h"
+
+#include <string.h>
+#include <unistd.h>
+
+int32_t hooke_record_is_one(const char *path) {
+  static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  char begin[sizeof signature] = {0};
+  const int file = hooke_place_open(path);
+  if (file < 0) return 0;
+  const ssize_t got = read(file, begin, sizeof begin);
+  close(file);
+  return got == (ssize_t)sizeof begin && memcmp(begin, signature, sizeof begin) == 0;
+}
+
+int32_t hooke_record_require_run(const hooke_record *record) {
+  if (hooke_record_is_run(record)) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run",
+                    hooke_record_path(record));
+}

@@ -1,0 +1,382 @@
+/* Trajectory files read back: scene, options, outcome and frames. */
+#include "hooke/io.h"
+
+#include "core/handle.h"
+#include "core/keep_errno.h"
+#include "core/memory.h"
+#include "core/status.h"
+#include "io/trajectory/record.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/hdf5/array_open_h5.h"
+#include "io/hdf5/dataset_h5.h"
+#include "io/trajectory/frame_check_h5.h"
+#include "io/hdf5/object_h5.h"
+#include "io/trajectory/record_h5.h"
+
+#include <math.h>
+#include <string.h>
+
+static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
+
+/* ---- texts and options ---- */
+
+/* 1 for one text of fixed length, whose bytes are in this very file. */
+static int is_text_here(hid_t data) {
+  if (H5Iget_type(data) != H5I_DATASET || hooke_h5_foreign(data)) return 0;
+  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
+  const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
+  const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
+                   H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
+  hooke_h5_drop(list);
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return fits;
+}
+
+/* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
+static int32_t read_text(hid_t group, const char *name, char **out) {
+  int32_t status = HOOKE_OK;
+  hid_t data = hooke_h5_open_own(group, name);
+  hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
+  const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
+  char *text = NULL;
+  if (type >= 0 && length == stored && length < LONGEST_TEXT) {
+    text = hooke_new((int64_t)length + 1, 1);
+    if (text == NULL) status = HOOKE_NO_MEMORY;
+  }
+  if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
+    hooke_free(text);
+    text = NULL;
+  }
+  hooke_h5_drop(type);
+  hooke_h5_drop(data);
+  *out = text;
+  return status;
+}
+
+/* Of variable length; NULL if it cannot be read, else for H5free_memory(). */
+static char *attribute_text(hid_t attribute) {
+  char *word = NULL;
+  hid_t memory = H5Tcopy(H5T_C_S1);
+  if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
+      H5Aread(attribute, memory, &word) < 0)
+    word = NULL;
+  hooke_h5_drop(memory);
+  return word;
+}
+
+/* To leave it out would be to tell of another run. */
+static int32_t refuse_option(const char *name) {
+  return hooke_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
+}
+
+static int32_t unreadable(const char *name) {
+  return hooke_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
+}
+
+static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
+  char *word = attribute_text(attribute);
+  const int32_t status = word ? hooke_options_set_text(options, name, word) : unreadable(name);
+  if (word) H5free_memory(word);
+  return status;
+}
+
+static int is_text(hid_t attribute) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const int fits = type >= 0 && space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return fits;
+}
+
+static int has_attribute(hid_t group, const char *name) {
+  return group >= 0 && H5Aexists(group, name) > 0;
+}
+
+/* "" if there is none. NULL without memory. */
+static char *read_attribute(hid_t group, const char *name) {
+  hid_t attribute = has_attribute(group, name) ? H5Aopen(group, name, H5P_DEFAULT) : -1;
+  char *word = attribute >= 0 && is_text(attribute) ? attribute_text(attribute) : NULL;
+  char *text = hooke_copy_text(word ? word : "");
+  if (word) H5free_memory(word);
+  hooke_h5_drop(attribute);
+  return text;
+}
+
+static int32_t read_option(hid_t attribute, hooke_options *options, const char *name) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const int single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+  const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  const int is_number = class == H5T_FLOAT || class == H5T_INTEGER;
+  double number = NAN;
+  int32_t status;
+  if (single && is_number)
+    status = H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0
+                 ? hooke_options_set_number(options, name, number)
+                 : unreadable(name);
+  else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0)
+    status = read_word(attribute, options, name);
+  else
+    status = refuse_option(name);
+  hooke_h5_drop(space);
+  hooke_h5_drop(type);
+  return status;
+}
+
+static int32_t read_options(hid_t group, hooke_options *options) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; group >= 0 && k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
+    const char *name = hooke_options_row(options, k, "name");
+    if (H5Aexists(group, name) <= 0) continue;
+    hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
+    status = attribute >= 0 ? read_option(attribute, options, name) : refuse_option(name);
+    hooke_h5_drop(attribute);
+  }
+  return status;
+}
+
+/* ---- a record ---- */
+
+static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
+                                                      "machine"};
+
+/* What hooke keeps in a group of its own. */
+static int32_t read_own(struct hooke_record *record, hid_t file) {
+  hid_t group = hooke_h5_open_own(file, "hooke"), options = hooke_h5_open_own(group, "options");
+  int32_t status = read_text(group, "scene", &record->scene);
+  if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
+  if (status == HOOKE_OK) status = read_text(group, "error_by", &record->error_by);
+  if (status == HOOKE_OK) status = read_text(group, "error_note", &record->error_note);
+  record->run = read_attribute(group, "run");
+  if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
+  for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
+    record->fact[k] = read_attribute(group, facts[k]);
+    if (record->fact[k] == NULL) status = HOOKE_NO_MEMORY;
+  }
+  record->is_run = has_attribute(group, "method");
+  if (status == HOOKE_OK) status = read_options(options, record->options);
+  hooke_h5_drop(options);
+  hooke_h5_drop(group);
+  return status;
+}
+
+static int32_t read_times(struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file) {
+  static const char times[] = "/particles/all/position/time";
+  int64_t rows = 0, columns = 0;
+  const int32_t status =
+      hooke_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
+  if (status == HOOKE_OK && columns != 1) return hooke_dataset_refuse(record->path, times, "is no column");
+  while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
+    record->frame_count++;
+  return status;
+}
+
+/* close_file() has to follow in any case. */
+static int32_t open_file(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t *file) {
+  hooke_h5_guard_begin(guard);
+  return hooke_dataset_file(guard, record->path, file);
+}
+
+static void close_file(const struct hooke_h5_guard *guard, hid_t file) {
+  if (file >= 0) H5Fclose(file);
+  hooke_h5_guard_end(guard);
+}
+
+static int32_t read_file(struct hooke_record *record) {
+  struct hooke_h5_guard guard;
+  hid_t file;
+  int32_t status = open_file(record, &guard, &file);
+  if (status == HOOKE_OK) status = read_own(record, file);
+  if (status == HOOKE_BAD_VALUE) status = hooke_fail_before(status, "%s: ", record->path);
+  /* what could not be read is not what is not there */
+  if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
+  if (status == HOOKE_OK) status = read_times(record, &guard, file);
+  if (status == HOOKE_OK) hooke_record_find_places(record, file);
+  close_file(&guard, file);
+  return status;
+}
+
+int32_t hooke_record_open(const char *path, hooke_record **out) {
+  HOOKE_KEEP_ERRNO;
+  *out = NULL;
+  struct hooke_record *record = hooke_handle_new("hooke_record", sizeof *record);
+  if (record == NULL) return HOOKE_NO_MEMORY;
+  record->path = hooke_copy_text(path);
+  int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = read_file(record);
+  if (status == HOOKE_OK && record->status == NULL)
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
+  if (status == HOOKE_OK)
+    *out = record;
+  else
+    hooke_record_close(record);
+  return status;
+}
+
+void hooke_record_close(hooke_record *record) {
+  if (record == NULL) return;
+  hooke_options_destroy(record->options);
+  hooke_free(record->path);
+  hooke_free(record->scene);
+  hooke_free(record->status);
+  hooke_free(record->run);
+  hooke_free(record->error_by);
+  hooke_free(record->error_note);
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    hooke_free(record->fact[k]);
+  hooke_free(record->time);
+  hooke_free(record->kept.value);
+  hooke_handle_free(record);
+}
+
+const char *hooke_record_text(const hooke_record *record, const char *what) {
+  if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
+  if (strcmp(what, "run") == 0) return record->run;
+  if (strcmp(what, "error_by") == 0) return record->error_by ? record->error_by : "";
+  if (strcmp(what, "error_note") == 0) return record->error_note ? record->error_note : "";
+  for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
+    if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
+  return strcmp(what, "status") == 0 ? record->status : NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  return record->path;
+}
+
+double hooke_record_time(const hooke_record *record, int64_t frame) {
+  return record->time[frame];
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  return record->is_run;
+}
+
+const hooke_options *hooke_record_options(const hooke_record *record) {
+  return record->options;
+}
+
+int64_t hooke_record_frame_count(const hooke_record *record) {
+  return record->frame_count;
+}
+
+static const char position[] = "/particles/all/position/value", velocity[] = "/particles/all/velocity/value";
+
+static int32_t find_frame(const hooke_record *record, int64_t frame, int64_t *at) {
+  *at = frame < 0 ? record->frame_count + frame : frame;
+  if (*at >= 0 && *at < record->frame_count) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
+                    record->path, (long long)record->frame_count);
+}
+
+int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
+  int64_t at;
+  int32_t status = find_frame(record, frame, &at);
+  if (status != HOOKE_OK) return status;
+  struct hooke_h5_guard guard;
+  hid_t file;
+  status = open_file(record, &guard, &file);
+  if (status == HOOKE_OK) status = hooke_frame_check(&guard, file, record->path, position, at, NULL);
+  close_file(&guard, file);
+  return status;
+}
+
+/* For hooke_free(). The first of a frame's arrays to be read is where the frame is checked. */
+static int32_t read_rows(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file,
+                         const char *dataset, int64_t frame, int64_t size, double **values) {
+  int64_t rows = 0, columns = 0;
+  const int32_t status = hooke_array_read_open(guard, file, record->path, dataset, frame, 1,
+                                               dataset == position, values, &rows, &columns);
+  if (status != HOOKE_OK || rows * columns == size) return status;
+  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
+                    record->path, dataset, (long long)(rows * columns), (long long)size);
+}
+
+/* A state is never half of a frame. */
+static void take_frame(hooke_state *state, double time, const double *q, const double *v) {
+  const size_t bytes = (size_t)hooke_state_size(state) * sizeof *q;
+  memcpy(hooke_state_position(state), q, bytes);
+  if (v) memcpy(hooke_state_velocity(state), v, bytes);
+  hooke_state_set_time(state, time);
+}
+
+int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
+  int64_t at;
+  const int64_t size = hooke_state_size(state);
+  double *q = NULL, *v = NULL;
+  int32_t status = find_frame(record, frame, &at);
+  if (status != HOOKE_OK) return status;
+  struct hooke_h5_guard guard;
+  hid_t file;
+  status = open_file(record, &guard, &file);
+  if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, &q);
+  if (status == HOOKE_OK && hooke_state_velocity(state))
+    status = read_rows(record, &guard, file, velocity, at, size, &v);
+  close_file(&guard, file);
+  if (status == HOOKE_OK) take_frame(state, record->time[at], q, v);
+  hooke_free(v);
+  hooke_free(q);
+  return status;
+}
+
+#else
+
+#include <stddef.h>
+
+int32_t hooke_record_open(const char *path, hooke_record **record) {
+  *record = NULL;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "%s: reading it needs HDF5, which this build of the library is without", path);
+}
+
+void hooke_record_close(hooke_record *record) {
+  (void)record;
+}
+
+const char *hooke_record_text(const hooke_record *record, const char *what) {
+  (void)record, (void)what;
+  return NULL;
+}
+
+const char *hooke_record_path(const hooke_record *record) {
+  (void)record;
+  return NULL;
+}
+
+double hooke_record_time(const hooke_record *record, int64_t frame) {
+  (void)record, (void)frame;
+  return 0.0;
+}
+
+int32_t hooke_record_is_run(const hooke_record *record) {
+  (void)record;
+  return 0;
+}
+
+const hooke_options *hooke_record_options(const hooke_record *record) {
+  (void)record;
+  return NULL;
+}
+
+int64_t hooke_record_frame_count(const hooke_record *record) {
+  (void)record;
+  return 0;
+}
+
+int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
+  (void)record, (void)frame;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "reading trajectories needs HDF5, which this build of the library is without");
+}
+
+int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
+  (void)record, (void)frame, (void)state;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL,
+                    "reading trajectories needs HDF5, which this build of the library is without");
+}
+
+#endif

@@ -1,0 +1,55 @@
+/* A verification, and the passes over its slice. */
+#ifndef HOOKE_IO_VERIFY_VERIFY_H
+#define HOOKE_IO_VERIFY_VERIFY_H
+
+#include "hooke/verify.h"
+#include "measure/trial/balance.h"
+
+enum { HOOKE_FACT_COUNT = 5 };
+extern const char *const hooke_verify_facts[HOOKE_FACT_COUNT];
+
+struct hooke_verify {
+  char *path;
+  hooke_options *options;
+  hooke_record *record;
+  hooke_scene *scene;
+  const hooke_system *system;
+  hooke_progress *progress;
+  void *progress_ctx;
+  hooke_state *first;       /* of the run, as the file has it */
+  int64_t from, to;         /* frames of the slice; `to` shrinks to where the budget ends */
+  int32_t by_budget, fixed; /* fixed: a fixed step */
+  int32_t may_differ;       /* in bits, other versions or another machine having made it */
+
+  const char *verdict, *balance;
+  char difference[512];
+  int64_t checked;
+  double time_from, time_to; /* of the frames `from` and `to` */
+  double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
+  double check_scene, check_last;
+};
+
+/* What a pass over the slice found. */
+struct hooke_verify_pass {
+  int32_t refined;  /* how often the step was halved, or tolerances tightened */
+  int64_t count;    /* frames after the first */
+  double *residual; /* one a frame */
+  struct hooke_balance balance;
+  double steps;
+  double apart[2]; /* the largest distance of a coordinate [m] and a velocity [m/s] from the file's */
+  double error[2]; /* of a refined pass, the same from the first pass */
+  double *
+      own; /* q and v of each frame of the first pass, where the file's may be others; NULL: they are the file's */
+};
+
+/* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the like only of
+ * refined passes. */
+int32_t hooke_verify_pass(struct hooke_verify *verify, struct hooke_verify_pass *pass);
+void hooke_verify_pass_release(struct hooke_verify_pass *pass);
+
+/* Frame 0 against the scene's own beginning. */
+int32_t hooke_verify_first(struct hooke_verify *verify);
+
+int32_t hooke_verify_tell(const struct hooke_verify *verify, double done, const char *what);
+
+#endif

@@ -1,0 +1,128 @@
+/* The rows of a cost: which there are, which of them are looked at, and reading them. */
+#include "measure/cost/cost.h"
+
+#include "core/figure.h"
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int32_t hooke_cost_row_is(const struct hooke_cost_row *row, const char *kind) {
+  return strcmp(row->kind, kind) == 0;
+}
+
+/* ---- listing ---- */
+
+static void add_row(hooke_cost *cost, const char *kind, int64_t group, int64_t size) {
+  if (size > 0)
+    cost->row[cost->row_count++] =
+        (struct hooke_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
+}
+
+static void add_groups(hooke_cost *cost) {
+  const hooke_system *system = cost->system;
+  for (int64_t g = 0; g < system->group_count; g++)
+    add_row(cost, "springs", g, system->group[g].count);
+  for (int64_t g = 0; g < system->bending_group_count; g++)
+    add_row(cost, "bending", g, system->bending_group[g].count);
+  for (int64_t g = 0; g < system->altitude_group_count; g++)
+    add_row(cost, "altitude", g, system->altitude_group[g].count);
+}
+
+static void add_others(hooke_cost *cost) {
+  const hooke_system *system = cost->system;
+  add_row(cost, "damping", -1, hooke_springs_are_damped(&system->springs) || system->altitudes.damped);
+  add_row(cost, "drag", -1, system->drag > 0.0);
+  add_row(cost, "callback", -1, system->force != NULL);
+  add_row(cost, "gravity", -1, system->has_gravity);
+}
+
+/* The largest first; of one size in the order of the rows. */
+static int compare_sizes(const void *one, const void *two) {
+  const struct hooke_cost_row *a = *(struct hooke_cost_row *const *)one,
+                              *b = *(struct hooke_cost_row *const *)two;
+  if (a->size != b->size) return a->size < b->size ? 1 : -1;
+  return (a > b) - (a < b);
+}
+
+/* Every group makes the scene again, so that the time for all of very many would grow with their square. The rows are those of
+ * groups so far. */
+static int32_t leave_small_groups_out(hooke_cost *cost) {
+  const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
+  if (count <= most) return HOOKE_OK;
+  struct hooke_cost_row **sorted = hooke_new(count, sizeof *sorted);
+  if (sorted == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < count; k++)
+    sorted[k] = &cost->row[k];
+  qsort(sorted, (size_t)count, sizeof *sorted, compare_sizes);
+  for (int64_t k = most; k < count; k++)
+    sorted[k]->chosen = 0;
+  hooke_free(sorted);
+  return HOOKE_OK;
+}
+
+int32_t hooke_cost_list_rows(hooke_cost *cost) {
+  enum { OTHERS = 4 };
+  const hooke_system *system = cost->system;
+  cost->row =
+      hooke_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
+                sizeof *cost->row);
+  if (cost->row == NULL) return HOOKE_NO_MEMORY;
+  add_groups(cost);
+  const int32_t status = leave_small_groups_out(cost);
+  add_others(cost);
+  for (int64_t k = 0; k < cost->row_count; k++)
+    cost->chosen_count += cost->row[k].chosen;
+  return status;
+}
+
+/* ---- reading ---- */
+
+const char *hooke_cost_method(const hooke_cost *cost) {
+  return cost->method;
+}
+
+double hooke_cost_figure(const hooke_cost *cost, const char *what) {
+  const struct hooke_figure figures[] = {{"step", cost->step},
+                                         {"nanoseconds", cost->nanoseconds},
+                                         {"resolution", cost->resolution},
+                                         {"memory_bytes", cost->memory},
+                                         {"step_limit", cost->limit}};
+  return HOOKE_FIGURE(figures, what);
+}
+
+int64_t hooke_cost_row_count(const hooke_cost *cost) {
+  return cost->row_count;
+}
+
+static const struct hooke_cost_row *row_at(const hooke_cost *cost, int64_t row) {
+  return row >= 0 && row < cost->row_count ? &cost->row[row] : NULL;
+}
+
+const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what) {
+  const struct hooke_cost_row *r = row_at(cost, row);
+  if (r == NULL) return NULL;
+  if (strcmp(what, "kind") == 0) return r->kind;
+  if (strcmp(what, "name") != 0) return NULL;
+  if (r->group < 0) return r->kind;
+  if (hooke_cost_row_is(r, "altitude")) return hooke_system_altitude_group_name(cost->system, r->group);
+  return hooke_cost_row_is(r, "bending") ? hooke_system_bending_group_name(cost->system, r->group)
+                                         : hooke_system_group_name(cost->system, r->group);
+}
+
+double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
+  const struct hooke_cost_row *r = row_at(cost, row);
+  if (r == NULL) return NAN;
+  const struct hooke_figure figures[] = {
+      {"group", r->group >= 0 ? (double)r->group : (double)NAN},
+      {"springs", hooke_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
+      {"nanoseconds", r->nanoseconds},
+      {"resolution", r->resolution},
+      {"memory_bytes", r->memory},
+      {"step_limit_without", r->limit},
+  };
+  return HOOKE_FIGURE(figures, what);
+}

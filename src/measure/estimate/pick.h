@@ -1,0 +1,47 @@
+/* Picking a method and its step or tolerance for a wanted error: a reference no tighter than that takes, and for each
+ * method the few runs that find its cheapest row within the wanted error. Where there is no time for all of a run, its
+ * beginning is studied, for the same share of the error: errors grow at least in proportion to time. */
+#ifndef HOOKE_MEASURE_ESTIMATE_PICK_H
+#define HOOKE_MEASURE_ESTIMATE_PICK_H
+
+#include "measure/trial/reference.h"
+
+/* A row that was run: a method with a step or tolerance. */
+struct hooke_pick_row {
+  const char *method; /* NULL: none */
+  double value;       /* step [s] or rtol */
+  double error;       /* largest over the frames that are judged [m] */
+  double seconds;     /* for the time that is studied */
+};
+
+struct hooke_pick {
+  const hooke_system *system;
+  hooke_options *run;     /* of the runs: duration and frames as they are studied */
+  double want;            /* over the whole run [m] */
+  double duration, share; /* of the run [s]; of it, what is studied */
+  double unit;            /* the largest step that fits frames and duration [s] */
+  const char *method;     /* the only one that may be taken; NULL: any */
+  struct hooke_reference reference;
+  struct hooke_pick_row best; /* the cheapest that meets the want, or else the closest */
+  int32_t met;                /* 1: `best` does, over what is studied and judged */
+  double evaluation;          /* of the forces, about [s] */
+  double begun, deadline;     /* by the clock [s] */
+  hooke_progress *progress;
+  void *ctx;
+};
+
+/* Picks. `run` has the duration and what methods take besides steps and tolerances. To be released in either case.
+ * HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+int32_t hooke_pick_run(struct hooke_pick *pick, const hooke_system *system, const hooke_options *run,
+                       double want, const char *method, hooke_progress *progress, void *ctx);
+void hooke_pick_release(struct hooke_pick *pick);
+
+/* Time up to which the reference can be trusted, from the start of the run [s]. */
+double hooke_pick_trusted(const struct hooke_pick *pick);
+
+/* Searches all methods for the cheapest row within the wanted error, and puts it into `best` (pick_search.c). */
+int32_t hooke_pick_search(struct hooke_pick *pick);
+/* Options of a run by a method with a step or tolerance. */
+int32_t hooke_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
+
+#endif

@@ -1,0 +1,280 @@
+#include "measure/limit/growth.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/random.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Windows of equal length cover a run. Each has the mean logarithm of the amplitude (the root of the energy) over some
+ * samples at irregular times, so that no oscillation hides between them. When all are full, pairs of them become one. */
+enum { WINDOWS = 96, FIRST_WINDOW = 32, SAMPLES = 4, BLOCKS = 3 };
+static const double RANDOM_SHARE = 1e-3;
+static const double SCALE_DOWN = 5.0; /* log of the amplitude at which displacements are scaled back */
+/* Less than that in the log of the amplitude may be part of a slow oscillation, unless all steps are taken. */
+static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
+/* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same for speed:
+ * particles that have turned about others, which costs no energy, are not quite where linear motion would have them. */
+static const double NOTHING_LEFT = -12.0;
+
+struct course {
+  double mean[WINDOWS]; /* of full windows */
+  int64_t count, length;
+  int64_t steps;   /* in the window that is being filled, */
+  double sum;      /* the sum over its samples, */
+  int64_t samples; /* and their number */
+  double first;    /* log of the amplitude at the start */
+  double offset;   /* what scaling has taken away from the log of the amplitude */
+  double last;
+};
+
+/* ---- what a course says ---- */
+
+static void fill(struct course *course, int64_t steps, double value) {
+  course->steps += steps;
+  course->sum += value;
+  course->samples++;
+  course->last = value;
+  if (course->steps < course->length) return;
+  course->mean[course->count++] = course->sum / (double)course->samples;
+  course->steps = course->samples = 0;
+  course->sum = 0.0;
+  if (course->count < WINDOWS) return;
+  for (int64_t w = 0; w < WINDOWS / 2; w++)
+    course->mean[w] = 0.5 * (course->mean[2 * w] + course->mean[2 * w + 1]);
+  course->count = WINDOWS / 2;
+  course->length *= 2;
+}
+
+/* The change of the mean from block to block, three of them over the last three quarters, and the scatter of the windows
+ * about a straight line. */
+struct trend {
+  double change[BLOCKS - 1], scatter;
+  int steady; /* the changes are alike, and well above the scatter */
+};
+
+static struct trend find_trend(const struct course *course) {
+  struct trend trend = {{0.0, 0.0}, INFINITY, 0};
+  const int64_t size = course->count / 4, begin = course->count - BLOCKS * size;
+  if (size < 4) return trend;
+  double mean[BLOCKS] = {0.0, 0.0, 0.0}, square = 0.0;
+  for (int64_t w = 0; w < BLOCKS * size; w++)
+    mean[w / size] += course->mean[begin + w] / (double)size;
+  trend.change[0] = mean[1] - mean[0];
+  trend.change[1] = mean[2] - mean[1];
+  const double slope = (mean[2] - mean[0]) / (double)(2 * size);
+  const double middle = 0.5 * (double)(BLOCKS * size - 1), level = (mean[0] + mean[1] + mean[2]) / 3.0;
+  for (int64_t w = 0; w < BLOCKS * size; w++) {
+    const double off = course->mean[begin + w] - level - slope * ((double)w - middle);
+    square += off * off;
+  }
+  trend.scatter = sqrt(square / (double)(BLOCKS * size));
+  const double total = trend.change[0] + trend.change[1];
+  trend.steady = fabs(trend.change[0] - trend.change[1]) < 0.2 * fabs(total) &&
+                 fabs(total) > 4.0 * trend.scatter && fabs(total) > 1e-5;
+  return trend;
+}
+
+/* ---- one run ---- */
+
+static double kinetic(const hooke_system *system, const double *v) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    sum += system->held[k / 3] ? 0.0 : system->mass[k / 3] * (v[k] * v[k]);
+  return sum;
+}
+
+/* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as would a free scene,
+ * and turn the springs. */
+static void start_randomly(struct hooke_growth *growth, double *x, double *v) {
+  const hooke_system *system = growth->frozen->system;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    x[k] = hooke_random_uniform(&growth->random) * sqrt(system->inverse_mass[k / 3]);
+  hooke_frozen_push(growth->frozen, x, v);
+}
+
+/* Displacements of one step are at most 1 m. */
+static void start(struct hooke_growth *growth, double step, int random_only) {
+  const hooke_system *system = growth->frozen->system;
+  double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
+  const int64_t size = 3 * system->particle_count;
+  start_randomly(growth, q, v);
+  memcpy(q, growth->frozen->place, (size_t)size * sizeof(double));
+  if (growth->has_direction && !random_only) {
+    const double have = kinetic(system, v), want = kinetic(system, growth->direction);
+    const double share = have > 0.0 ? RANDOM_SHARE * sqrt(want / have) : 0.0;
+    for (int64_t k = 0; k < size; k++)
+      v[k] = system->held[k / 3] ? 0.0 : growth->direction[k] + share * v[k];
+  }
+  for (int64_t k = 0; k < size; k++)
+    most = fmax(most, fabs(v[k]));
+  for (int64_t k = 0; k < size && most > 0.0; k++)
+    v[k] /= most * step;
+}
+
+static double log_amplitude(const struct hooke_growth *growth) {
+  return 0.5 * log(hooke_frozen_energy(growth->frozen, hooke_state_position(growth->state),
+                                       hooke_state_velocity(growth->state)));
+}
+
+/* Displacements stay where springs are linear. */
+static void scale(const struct hooke_growth *growth, struct course *course) {
+  const double off = course->last - course->offset - course->first, *place = growth->frozen->place;
+  if (!isfinite(off) || off < SCALE_DOWN) return;
+  double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state);
+  const double factor = exp(-off);
+  for (int64_t k = 0; k < hooke_state_size(growth->state); k++) {
+    q[k] = place[k] + factor * (q[k] - place[k]);
+    v[k] *= factor;
+  }
+  course->offset += off;
+}
+
+static int32_t watch(double done, const char *method, void *ctx) {
+  struct hooke_growth *growth = ctx;
+  (void)done;
+  growth->out_of_time = hooke_clock_seconds() > growth->deadline;
+  return growth->out_of_time ||
+         (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
+}
+
+/* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped mode swings by
+ * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told apart. */
+static double certain_rise(const struct hooke_growth *growth) {
+  return log(30.0 / sqrt(0.5 * growth->accuracy));
+}
+
+/* Two swings of a mode at such a distance below the limit. */
+static int64_t least_steps(const struct hooke_growth *growth) {
+  return 256 + (int64_t)(10.0 / sqrt(growth->accuracy));
+}
+
+static int judge(const struct hooke_growth *growth, const struct course *course, int64_t taken, int thorough,
+                 enum hooke_verdict *verdict) {
+  const double rise = course->last - course->first;
+  const double speed = kinetic(growth->frozen->system, hooke_state_velocity(growth->state));
+  if (rise > certain_rise(growth)) {
+    *verdict = HOOKE_GROWS;
+    return 1;
+  }
+  if (rise < NOTHING_LEFT || 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT) {
+    *verdict = HOOKE_HOLDS;
+    return 1;
+  }
+  if (course->steps > 0 || course->count < 16 || taken < least_steps(growth)) return 0;
+  const struct trend trend = find_trend(course);
+  if (!trend.steady || fabs(trend.change[0] + trend.change[1]) < LEAST_CHANGE) return 0;
+  *verdict = trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
+  return *verdict == HOOKE_GROWS || (!thorough && growth->has_direction);
+}
+
+/* What is said of a run that has taken all its steps. */
+static enum hooke_verdict last_word(const struct course *course) {
+  const struct trend trend = find_trend(course);
+  if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
+    return trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
+  if (trend.change[0] > 0.0 && trend.change[1] > 1.0) return HOOKE_GROWS;
+  return HOOKE_STEADY;
+}
+
+/* `count` steps, beginning anew: the integrator then looks for numbers that are not finite and for no rise of energy. */
+static int32_t take(struct hooke_growth *growth, hooke_integrator *integrator, int64_t count,
+                    enum hooke_verdict *verdict, int *ended) {
+  hooke_state_set_time(growth->state, 0.0);
+  const int32_t status = hooke_integrator_step(integrator, growth->state, count);
+  growth->steps_run += count;
+  *ended = status != HOOKE_OK;
+  if (status == HOOKE_STOPPED && !growth->out_of_time)
+    return hooke_fail(status, NULL, "the progress callback asked to stop while a limit was measured");
+  if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STOPPED) return status;
+  *verdict = status == HOOKE_DIVERGED  ? HOOKE_GROWS
+             : status == HOOKE_STOPPED ? HOOKE_OUT_OF_TIME
+                                       : HOOKE_UNSOLVED;
+  return HOOKE_OK;
+}
+
+static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int thorough, int64_t most_steps,
+                  enum hooke_verdict *verdict) {
+  struct course course = {.length = FIRST_WINDOW};
+  course.first = course.last = log_amplitude(growth);
+  *verdict = HOOKE_HOLDS;
+  if (!isfinite(course.first)) return HOOKE_OK; /* nothing can move */
+  int64_t taken = 0, longest = 1;
+  while (taken < most_steps) {
+    const int64_t twice_the_mean = 2 * course.length / SAMPLES;
+    int64_t count =
+        1 + (int64_t)(0.5 * (hooke_random_uniform(&growth->random) + 1.0) * (double)twice_the_mean);
+    count = count < longest ? count : longest;
+    count = count < course.length - course.steps ? count : course.length - course.steps;
+    int ended;
+    const int32_t status = take(growth, integrator, count, verdict, &ended);
+    if (ended) return status;
+    const double before = course.last, now = log_amplitude(growth) + course.offset;
+    taken += count;
+    if (!isfinite(now)) { /* overflow, or nothing left */
+      *verdict = now < 0.0 ? HOOKE_HOLDS : HOOKE_GROWS;
+      return HOOKE_OK;
+    }
+    longest = fabs(now - before) > 2.0 ? (longest + 1) / 2 : longest < 900 ? longest + 1 : longest;
+    fill(&course, count, now);
+    scale(growth, &course);
+    if (judge(growth, &course, taken, thorough, verdict)) return HOOKE_OK;
+  }
+  *verdict = last_word(&course);
+  return HOOKE_OK;
+}
+
+int32_t hooke_growth_see(struct hooke_growth *growth, double step, int32_t thorough, int64_t most_steps,
+                         enum hooke_verdict *verdict) {
+  hooke_integrator *integrator = NULL;
+  int32_t status = hooke_options_set_number(growth->run, "step", step);
+  if (status == HOOKE_OK) status = hooke_integrator_create(growth->frozen->system, growth->run, &integrator);
+  if (status != HOOKE_OK) return status;
+  hooke_integrator_on_progress(integrator, 0.0, watch, growth);
+  start(growth, step, thorough);
+  status = go(growth, integrator, thorough, most_steps, verdict);
+  hooke_integrator_destroy(integrator);
+  if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction)) {
+    const double *v = hooke_state_velocity(growth->state);
+    const double sum = kinetic(growth->frozen->system, v);
+    if (isfinite(sum) && sum > 0.0) {
+      memcpy(growth->direction, v, (size_t)hooke_state_size(growth->state) * sizeof(double));
+      growth->has_direction = 1;
+    }
+  }
+  return status;
+}
+
+/* ---- making ---- */
+
+int32_t hooke_growth_create(const struct hooke_frozen *frozen, const hooke_options *run, const char *method,
+                            const double *mode, double accuracy, double deadline,
+                            struct hooke_growth *growth) {
+  const int64_t size = 3 * frozen->system->particle_count;
+  *growth = (struct hooke_growth){.frozen = frozen, .accuracy = accuracy, .deadline = deadline, .random = 1};
+  int32_t status = run ? hooke_options_copy(run, &growth->run) : hooke_run_options_create(&growth->run);
+  if (status == HOOKE_OK) status = hooke_options_set_text(growth->run, "method", method);
+  if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "duration");
+  if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "every");
+  if (status == HOOKE_OK) status = hooke_state_create(frozen->system, &growth->state);
+  if (status == HOOKE_OK) {
+    growth->direction = hooke_new(size, sizeof(double));
+    if (growth->direction == NULL) status = HOOKE_NO_MEMORY;
+  }
+  if (status == HOOKE_OK && mode) {
+    memcpy(growth->direction, mode, (size_t)size * sizeof(double));
+    const double sum = kinetic(frozen->system, mode);
+    growth->has_direction = isfinite(sum) && sum > 0.0;
+  }
+  if (status != HOOKE_OK) hooke_growth_release(growth);
+  return status;
+}
+
+void hooke_growth_release(struct hooke_growth *growth) {
+  hooke_options_destroy(growth->run);
+  hooke_state_destroy(growth->state);
+  hooke_free(growth->direction);
+  memset(growth, 0, sizeof *growth);
+}

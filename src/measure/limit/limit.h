@@ -1,0 +1,60 @@
+/* What a limit holds. */
+#ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
+#define HOOKE_MEASURE_LIMIT_LIMIT_H
+
+#include "hooke/limit.h"
+#include "measure/limit/limit_blame.h"
+#include "measure/spectrum/limit_rules.h"
+
+enum { HOOKE_LIMIT_METHODS = 32, HOOKE_LIMIT_NOTE = 640 };
+
+struct hooke_limit_row {
+  const char *method;
+  double bound, predicted, measured; /* [s] */
+  double steps_run, smallest, smallest_time;
+  int32_t exact, never_stable, has_mode;
+  double *mode; /* 3n, in rows of x y z */
+  char note[HOOKE_LIMIT_NOTE];
+};
+
+struct hooke_limit_mode {
+  double real, imaginary;  /* of its eigenvalue */
+  double frequency, decay; /* x'' + 2 decay x' + frequency^2 x = 0 */
+};
+
+struct hooke_limit {
+  const hooke_system *system;
+  hooke_options *run, *options; /* `run` may be NULL */
+  int32_t row_count;
+  struct hooke_limit_row row[HOOKE_LIMIT_METHODS];
+
+  /* of the last state */
+  int32_t found;
+  double frequency, decay; /* [rad/s], [1/s] */
+  int64_t products, clamped;
+  int64_t mode_count;
+  struct hooke_limit_mode *mode;
+  double *shape, *stiffest; /* 3n; the second, a start for the next state, x, y and z apart */
+  int32_t has_stiffest;
+  struct hooke_blame blame;
+  struct hooke_remedy remedy;
+
+  struct hooke_patience endless;   /* which only the caller ends */
+  struct hooke_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
+  double room;
+  hooke_progress *progress;
+  void *progress_ctx;
+  double share, width; /* of all work, where the part under way begins and how much of it it is */
+  const char *under_way;
+};
+
+/* Bounds, predictions and modes at positions q (3n), in place of those before. */
+int32_t hooke_limit_predict_rows(hooke_limit *limit, const double *q);
+
+/* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none has. */
+const struct hooke_limit_row *hooke_limit_blamed(const hooke_limit *limit);
+
+/* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the context. */
+int32_t hooke_limit_tell(double done, const char *what, void *limit);
+
+#endif

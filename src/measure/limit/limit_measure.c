@@ -1,0 +1,300 @@
+#include "measure/limit/limit_measure.h"
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "measure/trial/bracket.h"
+#include "measure/limit/growth.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static const char OUT_OF_TIME[] = "the budget ended before the limit was found";
+static const char WITHIN[] = "the budget ended early: the limit measured is certain to 5 % only";
+static const char TOO_SLOW[] = "growth near the limit is too slow to be seen within the budget";
+static const char TOO_SLOW_WITHIN[] = "growth near the limit is too slow to be seen within the budget: the "
+                                      "limit measured is certain to 5 % only";
+static const char UNSOLVED[] = "the method did not solve its step while the limit was measured";
+static const char DIFFERS[] = "a mode that the prediction did not name limits the step";
+static const char WITHOUT_DIRECTION[] =
+    "springs whose ends coincide have no force, and were left out of the measurement";
+static const char TURNING[] =
+    "springs of length 0 are damped along their motion, which the linearised system leaves out";
+
+/* ---- the frozen system ---- */
+
+enum { STEPS_OF_VIOLENCE = 300 };
+
+struct trial {
+  struct hooke_growth *growth;
+  int64_t most_steps;
+  int32_t slow; /* forward Euler: steadiness means that growth is too slow to be seen */
+  const char *note;
+  int32_t tries;
+};
+
+static int32_t try_frozen(void *ctx, double step, enum hooke_trial_end *end) {
+  struct trial *trial = ctx;
+  enum hooke_verdict verdict;
+  trial->growth->done = 1.0 - 1.0 / (1.0 + 0.2 * (double)trial->tries++);
+  const int32_t status = hooke_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
+  if (status != HOOKE_OK) return status;
+  *end = verdict == HOOKE_GROWS ? HOOKE_TRIAL_FAILS : HOOKE_TRIAL_HOLDS;
+  if (verdict == HOOKE_OUT_OF_TIME) trial->note = OUT_OF_TIME;
+  if (verdict == HOOKE_UNSOLVED) trial->note = UNSOLVED;
+  if (verdict == HOOKE_STEADY && trial->slow) trial->note = TOO_SLOW;
+  if (trial->note) *end = HOOKE_TRIAL_UNKNOWN;
+  return HOOKE_OK;
+}
+
+/* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or somewhat less, and
+ * forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
+static int64_t steps_for(const struct hooke_growth *growth, int slow) {
+  const double accuracy = growth->accuracy;
+  const double steps = slow                     ? 4000.0 / accuracy
+                       : growth->frozen->damped ? 40.0 / accuracy
+                                                : 40.0 / sqrt(2.0 * accuracy);
+  return 1000 + (int64_t)fmin(steps, 1e15);
+}
+
+/* Is there a mode that the search did not see? It has a run just below what was found. */
+static int32_t confirm(struct trial *trial, struct hooke_bracket *bracket) {
+  for (int k = 0; k < 5 && !bracket->unknown && bracket->holds > 0.0 && isfinite(bracket->fails); k++) {
+    const double found = bracket->holds;
+    enum hooke_verdict verdict;
+    const int64_t steps = 1000 + (int64_t)fmin(8.0 / bracket->accuracy, 1e15);
+    const int32_t status =
+        hooke_growth_see(trial->growth, found * (1.0 - 0.5 * bracket->accuracy), 1, steps, &verdict);
+    if (status != HOOKE_OK) return status;
+    if (verdict == HOOKE_OUT_OF_TIME) {
+      trial->note = "the budget ended before the limit was confirmed";
+      return HOOKE_OK;
+    }
+    if (verdict != HOOKE_GROWS) return HOOKE_OK;
+    trial->note = NULL;
+    bracket->fails = found;
+    bracket->holds = 0.0;
+    const int32_t searched = hooke_bracket_search(bracket, found);
+    if (searched != HOOKE_OK) return searched;
+    if (!trial->note) trial->note = DIFFERS;
+  }
+  return HOOKE_OK;
+}
+
+/* What a search that ended early has to be certain to, if its result is to be told at all. */
+static const double CERTAIN = 0.05;
+
+static void read_bracket(const struct hooke_bracket *bracket, struct hooke_measurement *out) {
+  const int both = bracket->holds > 0.0 && isfinite(bracket->fails);
+  if (both && (!bracket->unknown || bracket->fails - bracket->holds < 2.0 * CERTAIN * bracket->fails))
+    out->step = 0.5 * (bracket->holds + bracket->fails);
+  else if (bracket->unknown)
+    out->step = NAN;
+  else if (isinf(bracket->fails))
+    out->step = INFINITY;
+  else
+    out->step = 0.0, out->never_stable = 1;
+}
+
+/* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none may be seen at
+ * large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
+static int32_t try_extremes(struct trial *trial, struct hooke_bracket *bracket, int small, int *confirmed) {
+  static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
+  const int64_t most_steps = trial->most_steps;
+  *confirmed = 1;
+  if (!small) trial->most_steps = STEPS_OF_VIOLENCE;
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
+    const double step = share[small][k] * trial->growth->frozen->slow_step;
+    enum hooke_trial_end end = HOOKE_TRIAL_UNKNOWN;
+    status = try_frozen(trial, step, &end);
+    if (end == HOOKE_TRIAL_UNKNOWN) bracket->unknown = 1;
+    if (end == HOOKE_TRIAL_HOLDS) bracket->holds = fmax(step, bracket->holds);
+    if (end == HOOKE_TRIAL_FAILS) bracket->fails = fmin(step, bracket->fails);
+    *confirmed = end == (small ? HOOKE_TRIAL_FAILS : HOOKE_TRIAL_HOLDS);
+  }
+  trial->most_steps = most_steps;
+  return status;
+}
+
+static int32_t measure(struct trial *trial, double predicted, struct hooke_measurement *out) {
+  const double slow_step = trial->growth->frozen->slow_step;
+  struct hooke_bracket bracket = {.try_step = try_frozen,
+                                  .ctx = trial,
+                                  .accuracy = trial->growth->accuracy,
+                                  .least = 1e-6 * slow_step,
+                                  .most = 2e3 * slow_step,
+                                  .fails = INFINITY};
+  if (isinf(slow_step)) {
+    out->step = INFINITY;
+    return HOOKE_OK;
+  }
+  double guess = predicted;
+  if (predicted == 0.0 || isinf(predicted)) {
+    int confirmed;
+    const int32_t status = try_extremes(trial, &bracket, predicted == 0.0, &confirmed);
+    if (status != HOOKE_OK || confirmed || bracket.unknown) {
+      read_bracket(&bracket, out);
+      return status;
+    }
+    guess = predicted == 0.0 ? bracket.holds : bracket.fails;
+  } else if (isnan(predicted)) {
+    guess = slow_step;
+  } else {
+    bracket.least = fmin(bracket.least, 1e-3 * predicted);
+    bracket.most = fmax(bracket.most, 1e3 * predicted);
+  }
+  int32_t status = hooke_bracket_search(&bracket, guess);
+  if (status == HOOKE_OK) status = confirm(trial, &bracket);
+  read_bracket(&bracket, out);
+  return status;
+}
+
+static int32_t check(const char *method, double accuracy) {
+  const int32_t adaptive = hooke_method_is_adaptive(method);
+  if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+  if (adaptive)
+    return hooke_fail(HOOKE_BAD_VALUE, "method",
+                      "%s chooses its steps; the limit of a fixed step was asked for", method);
+  if (accuracy > 0.0 && accuracy <= 0.1) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, "accuracy", "%g is not allowed; a number > 0 and <= 0.1 is", accuracy);
+}
+
+int32_t hooke_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
+                            const char *method, double predicted, const double *mode, double accuracy,
+                            double budget, hooke_progress *progress, void *ctx,
+                            struct hooke_measurement *out) {
+  *out = (struct hooke_measurement){.step = NAN, .note = ""};
+  int32_t status = check(method, accuracy);
+  if (status != HOOKE_OK) return status;
+  struct hooke_frozen frozen;
+  struct hooke_growth growth;
+  status = hooke_frozen_create(system, q, &frozen);
+  if (status != HOOKE_OK) return status;
+  status = hooke_growth_create(&frozen, run, method, mode, accuracy, hooke_clock_seconds() + budget, &growth);
+  if (status == HOOKE_OK) {
+    growth.progress = progress;
+    growth.ctx = ctx;
+    const int slow = strcmp(method, "forward-euler") == 0;
+    struct trial trial = {.growth = &growth, .slow = slow, .most_steps = steps_for(&growth, slow)};
+    status = measure(&trial, predicted, out);
+    out->steps_run = growth.steps_run;
+    if (trial.note == OUT_OF_TIME && !isnan(out->step))
+      out->note = WITHIN;
+    else if (trial.note == TOO_SLOW && !isnan(out->step))
+      out->note = TOO_SLOW_WITHIN;
+    else if (trial.note)
+      out->note = trial.note;
+    else if (frozen.left_out > 0)
+      out->note = WITHOUT_DIRECTION;
+    else if (frozen.turning > 0)
+      out->note = TURNING;
+    hooke_growth_release(&growth);
+  }
+  hooke_frozen_release(&frozen);
+  return status;
+}
+
+/* ---- the scene itself ---- */
+
+struct whole {
+  const hooke_system *system;
+  const hooke_state *start;
+  hooke_options *run;
+  hooke_state *state;
+  double duration, deadline;
+  int64_t steps_run;
+  int32_t tries, out_of_time, asked_to_stop;
+  hooke_progress *progress;
+  void *ctx;
+};
+
+static int32_t watch(double done, const char *method, void *ctx) {
+  struct whole *whole = ctx;
+  (void)done;
+  whole->out_of_time = hooke_clock_seconds() > whole->deadline;
+  whole->asked_to_stop = whole->progress && whole->progress(1.0 - 1.0 / (1.0 + 0.2 * (double)whole->tries),
+                                                            method, whole->ctx) != 0;
+  return whole->out_of_time || whole->asked_to_stop;
+}
+
+/* The whole duration, rounded up to whole steps. */
+static int32_t try_whole(void *ctx, double step, enum hooke_trial_end *end) {
+  struct whole *whole = ctx;
+  hooke_integrator *integrator = NULL;
+  const double duration = step * fmax(1.0, ceil(whole->duration / step * (1.0 - 1e-12)));
+  whole->tries++;
+  int32_t status = hooke_options_set_number(whole->run, "step", step);
+  if (status == HOOKE_OK) status = hooke_options_set_number(whole->run, "duration", duration);
+  if (status == HOOKE_OK) status = hooke_options_unset(whole->run, "every");
+  if (status == HOOKE_OK) status = hooke_integrator_create(whole->system, whole->run, &integrator);
+  if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, watch, whole);
+  if (status == HOOKE_OK) status = hooke_state_copy(whole->start, whole->state);
+  if (status == HOOKE_OK) status = hooke_integrator_run(integrator, whole->state);
+  if (integrator) whole->steps_run += hooke_integrator_count(integrator, "steps");
+  hooke_integrator_destroy(integrator);
+  *end = status == HOOKE_OK ? HOOKE_TRIAL_HOLDS : HOOKE_TRIAL_FAILS;
+  if (status == HOOKE_STOPPED && whole->out_of_time) {
+    *end = HOOKE_TRIAL_UNKNOWN;
+    return HOOKE_OK;
+  }
+  if (status == HOOKE_STOPPED && whole->asked_to_stop)
+    return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
+  return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
+}
+
+static int32_t prepare(struct whole *whole, const hooke_options *run, const char *method) {
+  whole->duration = run ? hooke_options_number(run, "duration") : NAN;
+  if (!(whole->duration > 0.0))
+    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  int32_t status = hooke_options_copy(run, &whole->run);
+  if (status == HOOKE_OK) status = hooke_options_set_text(whole->run, "method", method);
+  if (status == HOOKE_OK) status = hooke_state_create(whole->system, &whole->state);
+  return status;
+}
+
+static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
+                             struct hooke_measurement *out) {
+  struct hooke_frozen frozen;
+  int32_t status =
+      hooke_frozen_create(whole->system, hooke_state_position((hooke_state *)whole->start), &frozen);
+  if (status != HOOKE_OK) return status;
+  const double guess =
+      fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : frozen.slow_step);
+  hooke_frozen_release(&frozen);
+  struct hooke_bracket bracket = {.try_step = try_whole,
+                                  .ctx = whole,
+                                  .accuracy = accuracy,
+                                  .least = 1e-4 * guess,
+                                  .most = whole->duration,
+                                  .fails = INFINITY};
+  status = hooke_bracket_search(&bracket, guess);
+  out->steps_run = whole->steps_run;
+  read_bracket(&bracket, out);
+  if (bracket.unknown)
+    out->note = isnan(out->step) ? OUT_OF_TIME : WITHIN;
+  else if (isinf(out->step))
+    out->note = "the run holds even as a single step";
+  else if (out->step == 0.0)
+    out->note = "the run diverged at every step that was tried";
+  return status;
+}
+
+int32_t hooke_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
+                                      const hooke_options *run, const char *method, double predicted,
+                                      double accuracy, double budget, hooke_progress *progress, void *ctx,
+                                      struct hooke_measurement *out) {
+  *out = (struct hooke_measurement){.step = NAN, .note = ""};
+  int32_t status = check(method, accuracy);
+  if (status != HOOKE_OK) return status;
+  struct whole whole = {.system = system,
+                        .start = start,
+                        .deadline = hooke_clock_seconds() + budget,
+                        .progress = progress,
+                        .ctx = ctx};
+  status = prepare(&whole, run, method);
+  if (status == HOOKE_OK) status = measure_whole(&whole, predicted, accuracy, out);
+  hooke_options_destroy(whole.run);
+  hooke_state_destroy(whole.state);
+  return status;
+}

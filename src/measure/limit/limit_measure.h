@@ -1,0 +1,33 @@
+/* Limits found by running: the step is bisected between one at which real runs hold and one at which they grow. */
+#ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
+#define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
+
+#include "hooke/measure.h"
+
+struct hooke_measurement {
+  double
+      step; /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
+  int64_t steps_run;    /* steps that it took */
+  int32_t never_stable; /* growth was seen at every step tried, ever smaller ones */
+  const char *note;     /* what to know about it, "" if nothing */
+};
+
+/* The limit of `method` on the system linearised and frozen at q (see frozen.h), to the relative `accuracy`, within
+ * `budget` [s]. The search starts at `predicted` (NaN: not known; 0 and infinity are put to the test), with runs that start
+ * in `mode` (3n displacements, or NULL) and some random motion. What is found is confirmed by a run just below it that starts
+ * from random motion alone. `run` (options of a run) and `progress` may be NULL. A budget that ends too early is told in
+ * the note. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
+int32_t hooke_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
+                            const char *method, double predicted, const double *mode, double accuracy,
+                            double budget, hooke_progress *progress, void *ctx,
+                            struct hooke_measurement *out);
+
+/* The largest step at which the scene itself runs from `start` through the `duration` of `run` without divergence. With
+ * callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE without a duration; HOOKE_STOPPED
+ * also where a callback of the scene asked for it. */
+int32_t hooke_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
+                                      const hooke_options *run, const char *method, double predicted,
+                                      double accuracy, double budget, hooke_progress *progress, void *ctx,
+                                      struct hooke_measurement *out);
+
+#endif

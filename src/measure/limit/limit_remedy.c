@@ -1,0 +1,294 @@
+/* What it would buy to change the few springs or particles that a limit hangs on. */
+#include "core/memory.h"
+#include "core/print.h"
+#include "core/utf8.h"
+#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_predict.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A set has to have that share of the mode, and to be no more than that share of the scene. */
+static const double MOST_OF_THE_MODE = 0.9, SMALL = 0.1;
+/* What gets as good as nothing of a spring's stiffness, or of a particle's motion. */
+static const double NOTHING = 1e-6;
+/* Below that a set costs too little to be told of. */
+static const double LEAST_COST = 1.1;
+static const double ACCURACY = 1e-3;
+
+/* A set to change: springs, or particles. */
+struct set {
+  int springs;
+  int64_t count, of;
+  double share, stiffness_share; /* of the whole mode */
+  double odd;                    /* how far the first one is off the ordinary, as a factor */
+};
+
+static int is_small(int64_t count, int64_t of) {
+  return count > 0 && of > 1 && (double)count <= fmax(1.0, SMALL * (double)of);
+}
+
+static struct set spring_set(const hooke_system *system, const struct hooke_blame *blame) {
+  struct set set = {.springs = 1, .of = system->springs.count};
+  while (set.share < MOST_OF_THE_MODE && set.count < blame->spring_count) {
+    set.share += blame->spring[set.count].share;
+    set.stiffness_share += blame->spring[set.count++].stiffness_share;
+  }
+  if (set.share < MOST_OF_THE_MODE) set.count = 0;
+  return set;
+}
+
+static struct set particle_set(const hooke_system *system, const struct hooke_blame *blame) {
+  struct set set = {.of = system->particle_count - system->held_count};
+  while (set.share < MOST_OF_THE_MODE && set.count < blame->particle_count)
+    set.share += blame->particle[set.count++].share;
+  if (set.share < MOST_OF_THE_MODE) set.count = 0;
+  return set;
+}
+
+/* ---- how far off the ordinary ---- */
+
+static double find_kappa(const hooke_system *system, int64_t number, double *mean_log) {
+  double found = 0.0, sum = 0.0;
+  int64_t count = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hooke_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const double kappa = hooke_run_spring(run, k).kappa;
+      if (run->first + k == number) found = kappa;
+      if (kappa > 0.0) sum += log(kappa), count++;
+    }
+  }
+  *mean_log = count > 0 ? sum / (double)count : 0.0;
+  return found;
+}
+
+/* Geometric means: a few odd ones hardly move them. */
+static void find_oddness(const hooke_system *system, const struct hooke_blame *blame, struct set *springs,
+                         struct set *particles) {
+  double mean, sum = 0.0;
+  const double kappa = find_kappa(system, blame->spring[0].spring, &mean);
+  springs->odd = kappa > 0.0 ? log(kappa) - mean : 0.0;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    sum += system->held[p] ? 0.0 : log(system->mass[p]);
+  particles->odd = sum / (double)particles->of - log(blame->particle[0].mass);
+}
+
+/* ---- what a change does ---- */
+
+/* The limit with the set changed by `factor`: stiffness and damping over it, or masses times it. */
+static int32_t limit_with(const hooke_system *system, const double *q, const char *method,
+                          const struct hooke_blame *blame, const struct set *set, double factor,
+                          double *limit) {
+  const int64_t size = set->springs ? system->springs.count : system->particle_count;
+  double *scale = hooke_new(size, sizeof(double));
+  if (scale == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < size; k++)
+    scale[k] = 1.0;
+  for (int64_t k = 0; k < set->count; k++) {
+    if (set->springs)
+      scale[blame->spring[k].spring] = 1.0 / factor;
+    else
+      scale[blame->particle[k].particle] = factor;
+  }
+  const int32_t status =
+      hooke_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
+                                 ACCURACY, blame->room, blame->patience, limit);
+  hooke_free(scale);
+  return status;
+}
+
+/* By how much the mode as it is would be slower: the positive root g of g^2 k + g c = m, all over the whole. */
+static double perturbed(const struct hooke_blame *blame, const struct set *set, double factor) {
+  const double cut = set->springs ? 1.0 - 1.0 / factor : 0.0;
+  const double k = blame->stiffness_share - cut * set->stiffness_share;
+  const double c = (1.0 - blame->stiffness_share) - cut * (set->share - set->stiffness_share);
+  const double m = set->springs ? 1.0 : 1.0 - set->share + factor * set->share;
+  return 2.0 * m / (c + sqrt(c * c + 4.0 * k * m));
+}
+
+/* The factor that makes the set as slow as the rest, for a step `gain` times larger: g^2 k + g c of its own k and c. */
+static double fitting_factor(const struct hooke_blame *blame, const struct set *set, double gain) {
+  const double stiff = set->springs ? set->stiffness_share / set->share : blame->stiffness_share;
+  const double factor = gain * gain * stiff + gain * (1.0 - stiff);
+  const double unit = pow(10.0, floor(log10(factor)) - 1.0);
+  return ceil(factor / unit * (1.0 - 1e-9)) * unit;
+}
+
+/* ---- in words ---- */
+
+static void add(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void add(char *text, size_t size, const char *format, ...) {
+  const size_t used = strlen(text);
+  va_list arguments;
+  va_start(arguments, format);
+  hooke_print_list(text + used, size - used, format, arguments);
+  va_end(arguments);
+}
+
+/* Two digits, and no exponent up to a million: "3.5", "72", "5100". */
+static const char *figure(double value, char text[24]) {
+  const double unit = value >= 10.0 && value < 1e6 ? pow(10.0, floor(log10(value)) - 1.0) : 0.0;
+  if (unit > 0.0)
+    hooke_print(text, 24, "%.0f", round(value / unit) * unit);
+  else
+    hooke_print(text, 24, "%.2g", value);
+  return text;
+}
+
+/* ", group `hem`" if all are of one that has a name; a single one by its number else. */
+static void add_place(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
+                      char *text, size_t size) {
+  if (!set->springs) {
+    if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->particle[0].particle);
+    return;
+  }
+  const int64_t group = blame->spring[0].group;
+  int one = hooke_blame_group_name(system, group)[0] != '\0';
+  for (int64_t k = 0; k < set->count; k++)
+    one &= blame->spring[k].group == group;
+  if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->spring[0].spring);
+  if (one)
+    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", hooke_blame_group_name(system, group));
+}
+
+static void tell(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
+                 struct hooke_remedy *remedy) {
+  char *text = remedy->sentence;
+  const size_t size = sizeof remedy->sentence;
+  const int one = set->count == 1;
+  char cost[24], factor[24], gain[24];
+  figure(remedy->cost, cost);
+  figure(remedy->factor, factor);
+  figure(remedy->gain, gain);
+  add(text, size, "%lld of %lld %s", (long long)set->count, (long long)set->of,
+      set->springs ? "springs" : "free particles");
+  add_place(system, blame, set, text, size);
+  add(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
+  if (set->springs)
+    add(text, size, "softening %s by %s", one ? "it" : "them", factor);
+  else
+    add(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
+  add(text, size, " allows a step %s times larger", gain);
+}
+
+/* No small set: shares by group, the largest first. */
+static void tell_groups(const hooke_system *system, const struct hooke_blame *blame,
+                        struct hooke_remedy *remedy) {
+  char *text = remedy->sentence;
+  const size_t size = sizeof remedy->sentence;
+  if (!(blame->stiffness_share > 0.0) && blame->spring_count == 0) {
+    add(text, size, "no spring limits the step");
+    return;
+  }
+  add(text, size, "no few springs or particles limit the step: the limiting mode is spread over the scene");
+  double before = INFINITY;
+  for (int k = 0; k < 3; k++) {
+    int64_t best = -1;
+    for (int64_t g = 0; g < blame->group_count; g++) {
+      if (blame->group_share[g] < before && (best < 0 || blame->group_share[g] > blame->group_share[best]))
+        best = g;
+    }
+    if (best < 0 || blame->group_share[best] < 0.01) break;
+    before = blame->group_share[best];
+    add(text, size, k == 0 ? " (" : ", ");
+    if (hooke_blame_group_name(system, best)[0] != '\0')
+      add(text, size, "group `%.60s`", hooke_blame_group_name(system, best));
+    else if (best < system->group_count)
+      add(text, size, "group %lld", (long long)best);
+    else if (best < system->group_count + system->bending_group_count)
+      add(text, size, "group %lld of triples", (long long)(best - system->group_count));
+    else
+      add(text, size, "group %lld of tetrahedra",
+          (long long)(best - system->group_count - system->bending_group_count));
+    add(text, size, " has %.0f %% of it", 100.0 * before);
+  }
+  if (isfinite(before)) add(text, size, ")");
+}
+
+/* ---- drag and damping ---- */
+
+/* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it either way. */
+static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
+                             const struct hooke_blame *blame, int32_t force, double *limit) {
+  hooke_system without = *system;
+  without.drag = 0.0;
+  const int drag = force == HOOKE_BLAME_DRAG;
+  const int32_t status = hooke_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL,
+                                                    ACCURACY, blame->room, blame->patience, limit);
+  if (!drag && strcmp(method, "rk4") == 0) *limit *= sqrt(2.0);
+  if (!drag && strcmp(method, "forward-euler") == 0) *limit = 0.0;
+  return status;
+}
+
+static int32_t tell_force(const hooke_system *system, const double *q, const char *method, double limit,
+                          const struct hooke_blame *blame, int32_t force, struct hooke_remedy *remedy) {
+  double without = 0.0;
+  const int32_t status = limit_without(system, q, method, blame, force, &without);
+  if (status != HOOKE_OK) return status;
+  add(remedy->sentence, sizeof remedy->sentence, "%s%s limits the step", remedy->kind ? "; " : "",
+      force == HOOKE_BLAME_DRAG ? "drag" : "damping along springs");
+  if (without > LEAST_COST * limit && isfinite(without)) {
+    add(remedy->sentence, sizeof remedy->sentence, ": without it %s would be stable up to %.6g s", method,
+        without);
+  } else if (isinf(without)) {
+    add(remedy->sentence, sizeof remedy->sentence, ": without it nothing would limit that of %s", method);
+  }
+  add(remedy->sentence, sizeof remedy->sentence, "; verlet takes %s implicitly, and has no limit by it",
+      force == HOOKE_BLAME_DRAG ? "drag" : "damping");
+  remedy->force = 1;
+  return HOOKE_OK;
+}
+
+/* ---- the whole ---- */
+
+/* Fills in the remedy if changing the set buys anything; `kind` stays NULL if not. */
+static int32_t try_set(const hooke_system *system, const double *q, const char *method, double limit,
+                       const struct hooke_blame *blame, const struct set *set, struct hooke_remedy *remedy) {
+  double without, changed;
+  int32_t status = limit_with(system, q, method, blame, set, 1.0 / NOTHING, &without);
+  if (status != HOOKE_OK) return status;
+  if (!isfinite(without) || !(without > LEAST_COST * limit)) return HOOKE_OK;
+  const double factor = fitting_factor(blame, set, without / limit);
+  status = limit_with(system, q, method, blame, set, factor, &changed);
+  if (status != HOOKE_OK || !(changed > LEAST_COST * limit)) return status;
+  remedy->kind = set->springs ? "soften" : "heavier";
+  remedy->count = set->count;
+  remedy->cost = without / limit;
+  remedy->factor = factor;
+  remedy->gain = changed / limit;
+  remedy->gain_predicted = perturbed(blame, set, factor);
+  tell(system, blame, set, remedy);
+  return HOOKE_OK;
+}
+
+int32_t hooke_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
+                          const struct hooke_blame *blame, struct hooke_remedy *remedy) {
+  *remedy = (struct hooke_remedy){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
+  struct set first = spring_set(system, blame), second = particle_set(system, blame);
+  const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
+  if (springs && particles) find_oddness(system, blame, &first, &second);
+  /* one particle and all of its springs, or one spring and its two particles: the smaller set is the odd one */
+  if (particles &&
+      (!springs || second.count < first.count || (second.count == first.count && second.odd > first.odd))) {
+    const struct set other = first;
+    first = second;
+    second = other;
+  }
+  int32_t status = HOOKE_OK;
+  if (limit > 0.0 && isfinite(limit)) {
+    if (springs || particles) status = try_set(system, q, method, limit, blame, &first, remedy);
+    if (status == HOOKE_OK && remedy->kind == NULL && springs && particles)
+      status = try_set(system, q, method, limit, blame, &second, remedy);
+  }
+  const int32_t force = hooke_blame_force(blame);
+  if (status == HOOKE_OK && (force == HOOKE_BLAME_DRAG || force == HOOKE_BLAME_DAMPING))
+    status = tell_force(system, q, method, limit, blame, force, remedy);
+  else if (status == HOOKE_OK && remedy->kind == NULL)
+    tell_groups(system, blame, remedy);
+  hooke_utf8_make_plain(remedy->sentence);
+  return status;
+}

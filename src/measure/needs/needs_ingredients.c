@@ -1,0 +1,203 @@
+/* What a scene is made of, as rows of what may be left out. */
+#include "measure/needs/needs.h"
+
+#include "core/memory.h"
+#include "core/print.h"
+#include "core/status.h"
+#include "measure/spectrum/naming.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The last row, made from the words. */
+static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_row **row, const char *format,
+                       ...) __attribute__((format(printf, 4, 5)));
+static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_row **row, const char *format,
+                       ...) {
+  if (needs->row_count == needs->row_capacity) {
+    const int64_t capacity = 2 * needs->row_capacity + 8;
+    const int32_t status = hooke_grow((void **)&needs->row, needs->row_count, capacity, sizeof *needs->row);
+    if (status != HOOKE_OK) return status;
+    needs->row_capacity = capacity;
+  }
+  struct hooke_needs_row *made = &needs->row[needs->row_count];
+  *made = (struct hooke_needs_row){.kind = kind, .needed = 1};
+  va_list args;
+  va_start(args, format);
+  hooke_print_list(made->without, sizeof made->without, format, args);
+  va_end(args);
+  const int32_t status = hooke_variant_create(needs->system, &made->variant);
+  if (status != HOOKE_OK) return status;
+  needs->row_count++;
+  *row = made;
+  return HOOKE_OK;
+}
+
+/* A group may be called as another ingredient is. */
+static int32_t is_taken(const char *name) {
+  static const char *const taken[] = {"damping", "drag", "gravity", "callback"};
+  for (size_t k = 0; k < sizeof taken / sizeof taken[0]; k++) {
+    if (strcmp(name, taken[k]) == 0) return 1;
+  }
+  return 0;
+}
+
+static int32_t list_groups(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hooke_group *group = &system->group[g];
+    struct hooke_needs_row *row;
+    if (group->count == 0) continue;
+    const int32_t status = group->name[0] ? add_row(needs, "springs", &row, "%s%s",
+                                                    is_taken(group->name) ? "springs " : "", group->name)
+                                          : add_row(needs, "springs", &row, "springs[%lld]", (long long)g);
+    if (status != HOOKE_OK) return status;
+    row->variant.group[g] = 1;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t list_bending(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t g = 0; g < system->bending_group_count; g++) {
+    const struct hooke_bending_group *group = &system->bending_group[g];
+    struct hooke_needs_row *row;
+    if (group->count == 0) continue;
+    const int32_t status = group->name[0] ? add_row(needs, "bending", &row, "%s", group->name)
+                                          : add_row(needs, "bending", &row, "bending[%lld]", (long long)g);
+    if (status != HOOKE_OK) return status;
+    row->variant.bending[g] = 1;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t list_altitude(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t g = 0; g < system->altitude_group_count; g++) {
+    const struct hooke_altitude_group *group = &system->altitude_group[g];
+    struct hooke_needs_row *row;
+    if (group->count == 0) continue;
+    const int32_t status = group->name[0] ? add_row(needs, "altitude", &row, "%s", group->name)
+                                          : add_row(needs, "altitude", &row, "altitude[%lld]", (long long)g);
+    if (status != HOOKE_OK) return status;
+    row->variant.altitude[g] = 1;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t resists_compression(const hooke_system *system) {
+  int32_t resists = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++)
+    resists |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    resists |= !system->altitudes.tetrahedron[k].pull_only;
+  return resists;
+}
+
+static int32_t list_whole_forces(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  struct hooke_needs_row *row;
+  int32_t status = HOOKE_OK;
+  if (hooke_springs_are_damped(&system->springs) || system->altitudes.damped) {
+    status = add_row(needs, "damping", &row, "damping");
+    if (status == HOOKE_OK) row->variant.damping = 1;
+  }
+  if (status == HOOKE_OK && system->drag != 0.0) {
+    status = add_row(needs, "drag", &row, "drag");
+    if (status == HOOKE_OK) row->variant.drag = 1;
+  }
+  if (status == HOOKE_OK && system->has_gravity) {
+    status = add_row(needs, "gravity", &row, "gravity");
+    if (status == HOOKE_OK) row->variant.gravity = 1;
+  }
+  if (status == HOOKE_OK && system->force) {
+    status = add_row(needs, "callback", &row, "callback");
+    if (status == HOOKE_OK) row->variant.force = 1;
+  }
+  if (status == HOOKE_OK && resists_compression(system)) {
+    status = add_row(needs, "compression", &row, "resistance to compression");
+    if (status == HOOKE_OK) row->variant.compression = 1;
+  }
+  return status;
+}
+
+static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
+  const hooke_system *system = needs->system;
+  uint8_t *touched = hooke_new(system->particle_count, 1);
+  if (touched == NULL) return HOOKE_NO_MEMORY;
+  hooke_system_mark_touched(system, touched);
+  for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
+    memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
+  int64_t loose = 0;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    loose += !touched[p] && !watched[p];
+  struct hooke_needs_row *row;
+  int32_t status = HOOKE_OK;
+  if (loose > 0) {
+    status = loose == 1
+                 ? add_row(needs, "loose", &row, "a particle that touches nothing")
+                 : add_row(needs, "loose", &row, "%lld particles that touch nothing", (long long)loose);
+    for (int64_t p = 0; p < system->particle_count && status == HOOKE_OK; p++)
+      row->variant.particle[p] = !touched[p] && !watched[p];
+  }
+  hooke_free(touched);
+  return status;
+}
+
+static int32_t list_parts(hooke_needs *needs, const uint8_t *watched) {
+  const hooke_system *system = needs->system;
+  for (int64_t k = 0; k < system->part_count; k++) {
+    const struct hooke_part_record *part = &system->part[k];
+    struct hooke_needs_row *row;
+    if (memchr(watched + part->first, 1, (size_t)part->count)) continue;
+    const int32_t status = add_row(needs, "part", &row, "%s", part->name);
+    if (status != HOOKE_OK) return status;
+    row->variant.part[k] = 1;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t list_resolutions(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t k = 0; k < system->part_count; k++) {
+    int64_t cells[3], made[3];
+    struct hooke_needs_row *row;
+    const int32_t axes = hooke_variant_cells(&system->part[k], 0.5, cells, made);
+    if (axes == 0 || memcmp(cells, made, (size_t)axes * sizeof *cells) == 0) continue;
+    const int32_t status =
+        add_row(needs, "resolution", &row, "half the resolution of %s", system->part[k].name);
+    if (status != HOOKE_OK) return status;
+    row->variant.scale[k] = 0.5;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_needs_list(hooke_needs *needs) {
+  uint8_t *watched = hooke_new(needs->system->particle_count, 1);
+  if (watched == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < needs->watch_count; k++)
+    watched[needs->watch[k]] = 1;
+  int32_t status = list_groups(needs);
+  if (status == HOOKE_OK) status = list_bending(needs);
+  if (status == HOOKE_OK) status = list_altitude(needs);
+  if (status == HOOKE_OK) status = list_whole_forces(needs);
+  struct hooke_needs_row *row;
+  if (status == HOOKE_OK && needs->system->springs.count > 0) {
+    status = add_row(needs, "idle", &row, "springs whose force stays small");
+  }
+  if (status == HOOKE_OK) status = list_loose(needs, watched);
+  if (status == HOOKE_OK) status = list_parts(needs, watched);
+  if (status == HOOKE_OK) status = list_resolutions(needs);
+  hooke_free(watched);
+  return status;
+}
+
+int64_t hooke_needs_mark_idle(const hooke_needs *needs, double force, struct hooke_needs_row *row) {
+  int64_t count = 0;
+  for (int64_t s = 0; s < needs->system->springs.count; s++) {
+    row->variant.spring[s] = needs->largest_force[s] <= force;
+    count += row->variant.spring[s];
+  }
+  return count;
+}

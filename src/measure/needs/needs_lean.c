@@ -1,0 +1,259 @@
+/* Leaving out together what is not needed. */
+#include "measure/needs/needs.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "core/utf8.h"
+#include "integrate/method.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double CLEARLY_LESS = 0.8; /* of a time: more may be noise */
+static const double WORTH_SPLITTING =
+    0.5; /* of the work, which is left if a part is written spring by spring */
+
+/* What a run of a lean system found. */
+struct candidate {
+  struct hooke_variant variant;
+  hooke_system *system;
+  struct hooke_variant_map map;
+  struct hooke_needs_cost cost;
+  struct hooke_needs_path path; /* of the run that is recommended */
+  double error;
+};
+
+static void release(struct candidate *candidate) {
+  hooke_variant_release(&candidate->variant);
+  hooke_variant_map_release(&candidate->map);
+  hooke_needs_path_release(&candidate->path);
+  hooke_system_destroy(candidate->system);
+  memset(candidate, 0, sizeof *candidate);
+}
+
+/* The run to recommend of it; NaN where it has none. */
+static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
+  candidate->error = NAN;
+  int32_t status =
+      hooke_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
+  if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
+  if (status != HOOKE_OK) return status;
+  const struct hooke_needs_trial trial = {candidate->system, &candidate->map};
+  return hooke_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
+}
+
+static int32_t take(hooke_needs *needs, struct candidate *candidate) {
+  hooke_variant_release(&needs->lean_variant);
+  hooke_variant_map_release(&needs->lean_map);
+  hooke_system_destroy(needs->lean);
+  hooke_options_destroy(needs->lean_run);
+  hooke_needs_path_release(&needs->lean_path);
+  needs->lean_variant = candidate->variant;
+  needs->lean_map = candidate->map;
+  needs->lean = candidate->system;
+  needs->lean_cost = candidate->cost;
+  needs->lean_path = candidate->path;
+  needs->lean_error = candidate->error;
+  memset(candidate, 0, sizeof *candidate);
+  const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
+  return status == HOOKE_OK ? hooke_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
+}
+
+/* In evaluations of springs and particles: unlike time, the same whenever it is counted. */
+static double work(const struct hooke_needs_cost *cost) {
+  return cost->force_evaluations * (cost->springs + cost->particles);
+}
+
+/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out break
+ * up runs of others, whose ends are then looked up. */
+static int32_t may_save(const hooke_needs *needs, const struct hooke_needs_row *row) {
+  if (strcmp(row->kind, "compression") == 0) return 0;
+  return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
+}
+
+static int32_t is_split(const hooke_needs *needs, const struct hooke_variant *variant) {
+  return hooke_variant_next_split(needs->system, variant, 0) >= 0;
+}
+
+/* What a part has no words for comes last: the part may have lost more by then. */
+static int32_t comes_before(const hooke_needs *needs, const struct hooke_needs_row *a,
+                            const struct hooke_needs_row *b) {
+  const int32_t split = is_split(needs, &a->variant);
+  if (split != is_split(needs, &b->variant)) return !split;
+  if (a->error != b->error) return a->error < b->error;
+  return a->cost.particles + a->cost.springs < b->cost.particles + b->cost.springs;
+}
+
+/* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left out or tried;
+ * -1 if there is none. */
+static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
+  int64_t found = -1;
+  for (int64_t k = 0; k < needs->row_count; k++) {
+    const struct hooke_needs_row *row = &needs->row[k];
+    if (tried[k] || !row->measured || row->needed || !may_save(needs, row)) continue;
+    if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
+    if (found < 0 || comes_before(needs, row, &needs->row[found])) found = k;
+  }
+  return found;
+}
+
+static int32_t is_worth_it(const hooke_needs *needs, const struct candidate *candidate) {
+  const double share = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
+  return work(&candidate->cost) <= share * work(&needs->lean_cost);
+}
+
+static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
+  struct candidate candidate = {.system = NULL};
+  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  if (status == HOOKE_OK) {
+    hooke_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
+    hooke_variant_join(needs->system, &candidate.variant, &row->variant);
+    status = try_variant(needs, &candidate);
+  }
+  if (status == HOOKE_OK && candidate.error <= needs->want && is_worth_it(needs, &candidate)) {
+    row->left_out = 1;
+    status = take(needs, &candidate);
+  }
+  release(&candidate);
+  return status;
+}
+
+static int32_t begin_with_everything(hooke_needs *needs) {
+  struct candidate candidate = {.system = NULL};
+  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  if (status == HOOKE_OK) status = try_variant(needs, &candidate);
+  if (status == HOOKE_OK) {
+    needs->cheapest = candidate.cost;
+    needs->cheapest_error = candidate.error;
+    status = take(needs, &candidate);
+  }
+  release(&candidate);
+  return status;
+}
+
+/* What went with another row is not told twice. */
+static void tidy_up(hooke_needs *needs) {
+  for (int64_t k = 0; k < needs->row_count; k++) {
+    struct hooke_needs_row *row = &needs->row[k];
+    for (int64_t other = 0; other < needs->row_count && row->left_out; other++) {
+      row->left_out = other == k || !needs->row[other].left_out ||
+                      !hooke_variant_covers(needs->system, &needs->row[other].variant, &row->variant);
+    }
+  }
+}
+
+/* Why a row that is not needed stays in the lean system, where it has nothing else to say. */
+static void say_why_it_stays(const hooke_needs *needs, struct hooke_needs_row *row) {
+  if (row->needed || row->left_out || row->note[0]) return;
+  if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
+  snprintf(row->note, sizeof row->note, "%s",
+           !may_save(needs, row)            ? "saves nothing, so it stays"
+           : is_split(needs, &row->variant) ? "saves too little to write a part spring by spring"
+                                            : "saves no work, or not together with the rest");
+}
+
+/* Groups of parts that the lean scene cannot say as a part. */
+static void note_splits(hooke_needs *needs) {
+  const hooke_system *system = needs->system;
+  char names[HOOKE_NEEDS_NAME] = "";
+  int64_t count = 0;
+  for (int64_t g = -1; (g = hooke_variant_next_split(system, &needs->lean_variant, g + 1)) >= 0; count++) {
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", system->group[g].name);
+  }
+  if (count == 0) return;
+  snprintf(needs->lean_note, sizeof needs->lean_note,
+           "%s: written spring by spring, not as a part has it, since single springs of %s are left out",
+           names, count == 1 ? "it" : "them");
+  hooke_utf8_make_plain(needs->lean_note);
+}
+
+/* Once more, in turns, so that the two times may be compared. */
+static int32_t compare_times(hooke_needs *needs) {
+  const struct hooke_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
+  struct hooke_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
+  return hooke_needs_time_in_turns(needs, trial, cost);
+}
+
+static int32_t is_to_try(const hooke_needs *needs, const char *method) {
+  return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
+         !hooke_method_find(method)->reference;
+}
+
+/* So that what another method would save is not put down to what was left out. */
+static int32_t find_other_method(hooke_needs *needs) {
+  double most = CLEARLY_LESS * needs->cheapest.wall_seconds;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
+    const char *method = hooke_method_name(k);
+    double seconds = NAN;
+    if (is_to_try(needs, method)) status = hooke_needs_try_method(needs, method, most, &seconds);
+    if (!(seconds < most)) continue;
+    needs->other_method = method;
+    needs->other_seconds = most = seconds;
+  }
+  return status;
+}
+
+static int32_t has_left_out(const hooke_needs *needs) {
+  int32_t some = 0;
+  for (int64_t k = 0; k < needs->row_count; k++)
+    some |= needs->row[k].left_out;
+  return some;
+}
+
+int32_t hooke_needs_find_lean(hooke_needs *needs) {
+  uint8_t *tried = hooke_new(needs->row_count, 1);
+  if (tried == NULL) return HOOKE_NO_MEMORY;
+  needs->under_way = "the lean scene";
+  int32_t status = begin_with_everything(needs);
+  needs->pieces_done++;
+  for (int64_t k; status == HOOKE_OK && (k = next_row(needs, tried)) >= 0;) {
+    tried[k] = 1;
+    status = add_row(needs, &needs->row[k]);
+    needs->pieces_done++;
+  }
+  hooke_free(tried);
+  tidy_up(needs);
+  if (status != HOOKE_OK) return status;
+  note_splits(needs);
+  for (int64_t k = 0; k < needs->row_count; k++)
+    say_why_it_stays(needs, &needs->row[k]);
+  if (has_left_out(needs)) status = compare_times(needs);
+  if (has_left_out(needs) && status == HOOKE_OK) status = find_other_method(needs);
+  needs->pieces_done++;
+  return status;
+}
+
+/* As it was before the table was begun. */
+static void forget(hooke_needs *needs) {
+  for (int64_t k = 0; k < needs->row_count; k++)
+    hooke_variant_release(&needs->row[k].variant);
+  needs->row_count = 0;
+  hooke_needs_path_release(&needs->lean_path);
+  hooke_variant_release(&needs->lean_variant);
+  hooke_variant_map_release(&needs->lean_map);
+  hooke_system_destroy(needs->lean);
+  hooke_options_destroy(needs->lean_run);
+  needs->lean = NULL;
+  needs->lean_run = NULL;
+  needs->lean_error = needs->cheapest_error = NAN;
+  needs->lean_note[0] = '\0';
+  needs->other_method = NULL;
+  needs->other_seconds = NAN;
+  memset(&needs->lean_cost, 0, sizeof needs->lean_cost);
+}
+
+int32_t hooke_needs_find(hooke_needs *needs) {
+  if (needs->row_count > 0 || needs->lean) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
+  }
+  int32_t status = hooke_needs_list(needs);
+  needs->pieces += 2 * needs->row_count + 2;
+  if (status == HOOKE_OK) status = hooke_needs_run_full(needs);
+  if (status == HOOKE_OK) status = hooke_needs_run_rows(needs);
+  if (status == HOOKE_OK) status = hooke_needs_find_lean(needs);
+  if (status < 0) forget(needs);
+  return status;
+}

@@ -1,0 +1,396 @@
+/* Finding the step with which a variant is off by a tenth of the want at most. */
+#include "measure/needs/needs_run.h"
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "integrate/method.h"
+#include "measure/limit/limit_predict.h"
+
+#include <math.h>
+
+static const double BELOW_LIMIT = 0.9; /* where the search begins */
+static const double DIFFERENCE_FACTOR =
+    2.0; /* error of a step over the change when it is halved, at order 1 or more */
+static const double FINE_FACTOR =
+    1.25; /* error of the finer of two runs over their change: 1 at order 1, and room for what is beyond it */
+static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
+static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
+static const double LEAST_GAIN =
+    1.12; /* factor on the time that can be followed, by a finer step worth its time */
+static const double WELL_BEGUN =
+    0.25; /* of the duration: beyond it one step without gain is enough to know */
+static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
+static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
+static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
+enum { REPEATS = 20, HALVINGS = 3 };
+static const double TRIES = 4.0,
+                    AT_LEAST = 0.01; /* times what a run may take, and [s]: for all runs of another method */
+static const double SHORT = 0.02;    /* [s]: runs are repeated that long for their time */
+
+/* Steps are unit / value, tolerances 10^-value. */
+struct search {
+  struct hooke_needs_recorder recorder;
+  hooke_options *options;
+  int32_t adaptive;
+  double ratio; /* atol / rtol */
+  double value; /* of the coarser of two runs */
+  double first_stable;
+  int32_t has_limit; /* 0: nothing is known of a stable step, as in a build without LAPACK */
+  double error;      /* of the last pair; how far it agreed; how often in a row that did not improve */
+  int64_t frames;
+  int32_t stalls;
+  struct hooke_needs_path path[2];
+  struct hooke_needs_cost cost[2];
+  int32_t finished[2];
+};
+
+int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run) {
+  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
+  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}
+
+static double finer(const struct search *search, double value) {
+  return search->adaptive ? value + 1.0 : 2.0 * value;
+}
+
+/* Variants are run as far as they are judged; how long a whole run takes is found at the end. */
+static int32_t is_shortened(const struct search *search) {
+  const hooke_needs *needs = search->recorder.needs;
+  return search->recorder.trial->map != NULL && needs->judged < needs->frame_count;
+}
+
+static int32_t run_at(struct search *search, double value, int32_t which) {
+  struct hooke_needs_cost *cost = &search->cost[which];
+  cost->step = search->adaptive ? NAN : search->recorder.needs->unit / value;
+  cost->rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
+  cost->atol = cost->rtol * search->ratio;
+  search->recorder.path = &search->path[which];
+  const int32_t status = hooke_needs_set_step(cost, search->options);
+  return status == HOOKE_OK
+             ? hooke_needs_run_once(&search->recorder, search->options, &search->finished[which], cost)
+             : status;
+}
+
+static int32_t is_exhausted(const struct search *search) {
+  if (search->adaptive) return 1.0 / pow(10.0, search->value + 1.0) < FINEST_RTOL;
+  return search->value > FINEST * search->first_stable;
+}
+
+/* Frames up to which the two runs stay within `bound` of each other. */
+static int64_t agreed(const struct search *search, double bound) {
+  return hooke_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
+                            bound / DIFFERENCE_FACTOR);
+}
+
+/* 1 if the step is not yet as small as that of the full system. */
+static int32_t is_coarser_than_full(const struct search *search) {
+  const struct hooke_needs_cost *full = &search->recorder.needs->full, *own = &search->cost[0];
+  if (search->recorder.trial->map == NULL) return 0;
+  return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
+}
+
+static int32_t has_finished(const struct search *search) {
+  return search->finished[0] && search->finished[1];
+}
+
+/* 1 while steps may be so coarse that the whole motion is wrong, and halving them still shows nothing. */
+static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
+  if (search->has_limit && (double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count)
+    return 0;
+  return search->adaptive ? search->value < 8.0 : search->value < COARSE * search->first_stable;
+}
+
+/* 1 if smaller steps no longer help: differences grow too fast for any step to be small enough. */
+static int32_t has_stalled(struct search *search, double error, int64_t frames) {
+  const double all = (double)search->recorder.needs->frame_count;
+  const int32_t idle = (double)frames < LEAST_GAIN * (double)search->frames &&
+                       !is_coarser_than_full(search) && !may_be_too_coarse(search, frames);
+  search->stalls = idle ? search->stalls + 1 : 0;
+  search->error = error;
+  search->frames = frames;
+  return search->stalls >= ((double)frames < WELL_BEGUN * all ? 2 : 1);
+}
+
+static void swap_runs(struct search *search) {
+  const struct hooke_needs_path path = search->path[0];
+  const struct hooke_needs_cost cost = search->cost[0];
+  search->path[0] = search->path[1];
+  search->cost[0] = search->cost[1];
+  search->finished[0] = search->finished[1];
+  search->path[1] = path;
+  search->cost[1] = cost;
+}
+
+/* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as small as that
+ * of the full system. */
+static int32_t is_needed_for_certain(const struct search *search, double error) {
+  const hooke_needs *needs = search->recorder.needs;
+  if (search->recorder.trial->map == NULL) return 0;
+  const double distance = hooke_needs_distance(needs, &needs->path, &search->path[1]);
+  if (!(distance - error > needs->want)) return 0;
+  return error <= CERTAIN * distance || !is_coarser_than_full(search);
+}
+
+/* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place 1. */
+static int32_t find_step(struct search *search) {
+  const hooke_needs *needs = search->recorder.needs;
+  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
+  int32_t status = run_at(search, search->value, 0);
+  for (search->error = INFINITY; status == HOOKE_OK;) {
+    status = run_at(search, finer(search, search->value), 1);
+    if (status != HOOKE_OK) break;
+    if (has_finished(search)) {
+      const double error =
+          DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+      if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
+      if (is_needed_for_certain(search, error)) break;
+    } else {
+      search->first_stable = finer(search, search->value);
+    }
+    if (is_exhausted(search)) break;
+    search->value = finer(search, search->value);
+    swap_runs(search);
+    search->recorder.share_begun += (1.0 - search->recorder.share_begun) / 3.0;
+  }
+  return status;
+}
+
+static int32_t tell_limit(double done, const char *what, void *needs) {
+  (void)what;
+  return hooke_needs_tell(needs, done);
+}
+
+/* Whoever stops it here stops the run after it. */
+static double step_limit(hooke_needs *needs, const hooke_system *system) {
+  const char *method = hooke_options_text(needs->run, "method");
+  hooke_state *state = NULL;
+  double limit = NAN;
+  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
+  const double *q = hooke_state_position(state);
+  if (hooke_limit_predict(system, q, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
+      hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
+    limit = NAN;
+  }
+  hooke_state_destroy(state);
+  return limit;
+}
+
+static void begin_search(struct search *search, double limit) {
+  search->frames = search->stalls = 0;
+  search->has_limit = search->adaptive || !isnan(limit);
+  const hooke_needs *needs = search->recorder.needs;
+  const double unit = needs->unit;
+  search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
+  search->recorder.share = 0.25;
+  if (search->adaptive) {
+    search->value = -log10(COARSEST_RTOL);
+    return;
+  }
+  double start = BELOW_LIMIT * limit;
+  if (limit == 0.0) start = unit / 64.0; /* stable at no step: a run is short enough or not */
+  search->value = start < unit ? ceil(unit / start) : 1.0;
+  search->first_stable = search->value;
+}
+
+/* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if it does not
+ * come to its end, beyond what was judged. */
+static int32_t find_time(struct search *search, struct hooke_needs_cost *cost, int32_t *finished) {
+  const hooke_needs *needs = search->recorder.needs;
+  double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
+  search->recorder.path = NULL;
+  if (is_shortened(search)) cost->wall_seconds = INFINITY;
+  int32_t status = hooke_options_set_number(search->options, "duration", needs->duration);
+  if (status == HOOKE_OK) status = hooke_needs_set_step(cost, search->options);
+  for (int k = 0; k < REPEATS && spent < SHORT && *finished && status == HOOKE_OK; k++) {
+    struct hooke_needs_cost again = *cost;
+    status = hooke_needs_run_once(&search->recorder, search->options, finished, &again);
+    if (again.wall_seconds < cost->wall_seconds) *cost = again;
+    spent += again.wall_seconds;
+  }
+  return status;
+}
+
+static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to) {
+  hooke_needs_path_release(to);
+  *to = *from;
+  from->position = NULL;
+}
+
+/* The full system is judged, and all others against it, up to where the best step can be trusted with a margin: variants
+ * grow differences about as fast. Up to there a larger step may do. */
+static int32_t judge_full(struct search *search, double limit, struct hooke_needs_path *fine) {
+  hooke_needs *needs = search->recorder.needs;
+  const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
+  if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
+  needs->judged = agreed(search, bound / MARGIN);
+  needs->own_error = FINE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+  hand_over(&search->path[1], fine);
+  const int32_t status = hooke_needs_path_create(needs, &search->path[1]);
+  begin_search(search, limit);
+  return status == HOOKE_OK ? find_step(search) : status;
+}
+
+static int32_t start(struct search *search, double limit) {
+  const hooke_needs *needs = search->recorder.needs;
+  begin_search(search, limit);
+  int32_t status = hooke_options_copy(needs->run, &search->options);
+  if (status == HOOKE_OK && is_shortened(search))
+    status =
+        hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
+  for (int k = 0; k < 2 && status == HOOKE_OK; k++)
+    status = hooke_needs_path_create(needs, &search->path[k]);
+  return status;
+}
+
+static void end(struct search *search) {
+  for (int k = 0; k < 2; k++)
+    hooke_needs_path_release(&search->path[k]);
+  hooke_options_destroy(search->options);
+}
+
+static struct search new_search(hooke_needs *needs, const struct hooke_needs_trial *trial) {
+  const char *method = hooke_options_text(needs->run, "method");
+  return (struct search){.recorder = {.needs = needs, .trial = trial},
+                         .adaptive = hooke_method_find(method)->adaptive};
+}
+
+static void fill_cost(const struct search *search, double limit, struct hooke_needs_cost *cost) {
+  const hooke_system *system = search->recorder.trial->system;
+  *cost = search->cost[0];
+  cost->step_error = NAN;
+  cost->step_limit = limit;
+  cost->springs = (double)hooke_system_spring_count(system);
+  cost->indexed = system->springs.indexed_count;
+  cost->particles = (double)hooke_system_particle_count(system);
+}
+
+int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                            struct hooke_needs_cost *cost, struct hooke_needs_path *fine) {
+  const double limit = step_limit(needs, trial->system);
+  struct search search = new_search(needs, trial);
+  int32_t status = start(&search, limit);
+  if (status == HOOKE_OK) status = find_step(&search);
+  if (status == HOOKE_OK && has_finished(&search) && trial->map == NULL)
+    needs->own_error = FINE_FACTOR * search.error / DIFFERENCE_FACTOR;
+  if (status == HOOKE_OK && has_finished(&search)) status = judge_full(&search, limit, fine);
+  int32_t finished = has_finished(&search);
+  fill_cost(&search, limit, cost);
+  if (finished) cost->step_error = search.error;
+  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
+  if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.path[1], fine);
+  end(&search);
+  return status;
+}
+
+/* ---- within the want, all errors together ---- */
+
+static double error_of(const struct search *search, int32_t which) {
+  const hooke_needs *needs = search->recorder.needs;
+  if (!search->finished[which]) return NAN;
+  return hooke_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
+}
+
+/* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place 0. */
+static int32_t coarsen(struct search *search, double failed, double *error) {
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < HALVINGS && status == HOOKE_OK; k++) {
+    const double middle = 0.5 * (failed + search->value), between = search->adaptive ? middle : floor(middle);
+    if (between == failed) break;
+    status = run_at(search, between, 1);
+    if (status != HOOKE_OK) break;
+    const double found = error_of(search, 1);
+    if (!(found <= search->recorder.needs->want)) {
+      failed = between;
+      continue;
+    }
+    search->value = between;
+    *error = found;
+    swap_runs(search);
+  }
+  return status;
+}
+
+/* Leaves it in place 0; `error` is NaN, or above the want, where there is none. */
+static int32_t find_coarsest(struct search *search, double *error) {
+  const double want = search->recorder.needs->want;
+  double failed = NAN;
+  for (;;) {
+    const int32_t status = run_at(search, search->value, 0);
+    if (status != HOOKE_OK) return status;
+    *error = error_of(search, 0);
+    if (*error <= want || !is_coarser_than_full(search)) break;
+    failed = search->value;
+    search->value = finer(search, search->value);
+  }
+  return *error <= want && !isnan(failed) ? coarsen(search, failed, error) : HOOKE_OK;
+}
+
+int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
+                        struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error) {
+  const double limit = step_limit(needs, trial->system);
+  struct search search = new_search(needs, trial);
+  int32_t status = start(&search, limit);
+  *error = NAN;
+  if (status == HOOKE_OK) status = find_coarsest(&search, error);
+  fill_cost(&search, limit, cost);
+  int32_t finished = *error <= needs->want;
+  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
+  if (status == HOOKE_OK && finished)
+    hand_over(&search.path[0], path);
+  else
+    *error = NAN;
+  end(&search);
+  return status;
+}
+
+/* ---- the full system by another method ---- */
+
+static int32_t start_with(struct search *search, const char *method, double limit) {
+  int32_t status = start(search, limit);
+  if (status == HOOKE_OK) status = hooke_options_set_text(search->options, "method", method);
+  if (status == HOOKE_OK && search->adaptive) status = hooke_options_unset(search->options, "step");
+  return status;
+}
+
+/* Cheap, as it is for a run that may never be made. */
+static double safe_step(const hooke_system *system, const char *method) {
+  hooke_state *state = NULL;
+  double bound = NAN;
+  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
+  if (hooke_step_bound(system, method, hooke_state_position(state), &bound) != HOOKE_OK) bound = NAN;
+  hooke_state_destroy(state);
+  return bound;
+}
+
+/* As find_coarsest(), but no further than to runs that take longer than `most` [s]. */
+static int32_t find_quick(struct search *search, double most, double *error) {
+  search->recorder.deadline = hooke_clock_seconds() + TRIES * most + AT_LEAST;
+  for (;;) {
+    const int32_t status = run_at(search, search->value, 0);
+    if (status != HOOKE_OK) return status;
+    *error = error_of(search, 0);
+    if (*error <= search->recorder.needs->want || search->cost[0].wall_seconds > most ||
+        search->recorder.expired || is_exhausted(search))
+      return HOOKE_OK;
+    search->value = finer(search, search->value);
+  }
+}
+
+int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
+  const struct hooke_needs_trial trial = {needs->system, NULL};
+  const double limit = safe_step(trial.system, method);
+  struct search search = {.recorder = {.needs = needs, .trial = &trial},
+                          .adaptive = hooke_method_find(method)->adaptive};
+  double error = NAN;
+  *wall_seconds = NAN;
+  int32_t status = start_with(&search, method, limit), finished;
+  if (status == HOOKE_OK) status = find_quick(&search, most, &error);
+  finished = error <= needs->want;
+  search.recorder.deadline = 0.0;
+  if (status == HOOKE_OK && finished) status = find_time(&search, &search.cost[0], &finished);
+  if (status == HOOKE_OK && finished) *wall_seconds = search.cost[0].wall_seconds;
+  end(&search);
+  return status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED ? HOOKE_OK : status;
+}

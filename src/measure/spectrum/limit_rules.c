@@ -1,0 +1,239 @@
+#include "measure/spectrum/limit_rules.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "hooke/integrator.h"
+#include "hooke/limit.h"
+#include "measure/spectrum/top_mode.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const PART_KNOWN =
+    "only the fastest modes are known: the limit lies between the bound and the prediction";
+
+static void take_mode(const struct hooke_spectrum *s, const double *mode, struct hooke_prediction *out) {
+  out->has_mode = mode != NULL;
+  if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
+}
+
+/* ---- symplectic Euler ---- */
+
+enum { MOST_TURNS = 30 };
+/* From a good start a value rises little in its first turns, however much is missing. */
+static const double WARM = 0.1;
+
+/* The h of one mode of stiffness k and damping c: h^2 k + 2 h c = 4, written so that nothing cancels. */
+static double symplectic_step(double k, double c) {
+  return 4.0 / (c + sqrt(c * c + 4.0 * k));
+}
+
+/* x.Cx */
+static int32_t damping_of(struct hooke_linearised *lin, const double *x, double *room, double *c) {
+  *c = 0.0;
+  if (!lin->damped) return HOOKE_OK;
+  hooke_linearised_weigh(lin, 0.0, 1.0);
+  hooke_linearised_multiply(lin, x, room);
+  *c = hooke_linearised_dot(lin, x, room);
+  return HOOKE_OK;
+}
+
+/* h at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. From the mode of one h its own step, which is the next h: the
+ * eigenvalue is stationary in the mode, so this is Newton's iteration, from above after the first turn. */
+static int32_t symplectic_euler(struct hooke_spectrum *s, struct hooke_prediction *out) {
+  struct hooke_linearised *lin = s->linearised;
+  take_mode(s, s->stiffest_mode, out);
+  out->limit = symplectic_step(s->stiffest, s->beta * s->stiffest + s->delta);
+  if (s->proportional) return HOOKE_OK;
+  const double tolerance =
+      lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
+  double *room = hooke_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
+  if (room == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = damping_of(lin, out->mode, room, &c);
+  double h = symplectic_step(s->stiffest, c);
+  /* nothing stiff: the start is no mode at all */
+  if (!(h < INFINITY)) {
+    status = hooke_top_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
+    h = symplectic_step(0.0, c);
+  }
+  for (int k = 0; k < MOST_TURNS && status == HOOKE_OK && change > tolerance; k++) {
+    memcpy(room, out->mode, (size_t)lin->size * sizeof(double));
+    status = hooke_top_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
+    if (status == HOOKE_OK) status = damping_of(lin, out->mode, room, &c);
+    const double next = symplectic_step(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c);
+    change = fabs(next - h) / next;
+    h = next;
+  }
+  out->limit = h;
+  hooke_free(room);
+  return status;
+}
+
+/* ---- the others ---- */
+
+/* Damping is implicit: the limit is that of the undamped modes. */
+static double verlet_step(double k, double c) {
+  (void)c;
+  return 2.0 / sqrt(k);
+}
+
+static int32_t verlet(struct hooke_spectrum *s, struct hooke_prediction *out) {
+  out->limit = verlet_step(s->stiffest, 0.0);
+  take_mode(s, s->stiffest_mode, out);
+  return HOOKE_OK;
+}
+
+/* The smallest step over the eigenvalues that are known. */
+static void smallest(const struct hooke_spectrum *s,
+                     double (*step)(double real, double imaginary, double best),
+                     struct hooke_prediction *out) {
+  int64_t worst = -1;
+  out->limit = INFINITY;
+  for (int64_t k = 0; k < s->count; k++) {
+    const double h = step(s->real[k], s->imaginary[k], out->limit);
+    if (!(h < out->limit)) continue;
+    out->limit = h;
+    worst = k;
+  }
+  if (worst >= 0) take_mode(s, s->mode[worst], out);
+  out->exact = s->decisive;
+  if (!s->decisive) out->note = PART_KNOWN;
+}
+
+/* The smaller one of the two steps of a mode. */
+static double step_of_roots(double k, double c, double (*step)(double real, double imaginary, double best)) {
+  double real[2], imaginary[2], h = INFINITY;
+  hooke_spectrum_roots(c, k, real, imaginary);
+  for (int j = 0; j < 2; j++) {
+    if (real[j] != 0.0 || imaginary[j] != 0.0) h = fmin(h, step(real[j], imaginary[j], INFINITY));
+  }
+  return h;
+}
+
+static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 all is stable */
+
+static double rk4_step(double real, double imaginary, double best) {
+  const double size = hypot(real, imaginary);
+  if (best * size <= HALF_DISC) return INFINITY;
+  return hooke_rk4_reach(real, imaginary) / size;
+}
+
+static double rk4_mode(double k, double c) {
+  return step_of_roots(k, c, rk4_step);
+}
+
+/* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
+static int32_t rk4(struct hooke_spectrum *s, struct hooke_prediction *out) {
+  smallest(s, rk4_step, out);
+  if (!out->exact) out->sure = HALF_DISC / fmax(sqrt(s->stiffest), s->fastest_decay);
+  return HOOKE_OK;
+}
+
+/* |1 + h lambda| <= 1 */
+static double forward_euler_step(double real, double imaginary, double best) {
+  (void)best;
+  return -2.0 * real / (real * real + imaginary * imaginary);
+}
+
+static double forward_euler_mode(double k, double c) {
+  return step_of_roots(k, c, forward_euler_step);
+}
+
+static int32_t forward_euler(struct hooke_spectrum *s, struct hooke_prediction *out) {
+  smallest(s, forward_euler_step, out);
+  if (!s->linearised->damped && s->stiffest > 0.0) {
+    out->limit = 0.0; /* whatever modes are known */
+    out->exact = 1;
+    take_mode(s, s->stiffest_mode, out);
+  }
+  if (out->limit <= 0.0) {
+    out->limit = 0.0;
+    out->exact = out->never_stable = 1;
+    out->note = !s->linearised->damped
+                    ? "nothing damps the motion, and every step makes it grow"
+                    : "some motion is not damped, and every step makes it grow; damping along a "
+                      "spring does not damp motion across it";
+  } else if (s->decisive && s->stiffest > 0.0 && out->limit < 0.02 / sqrt(s->stiffest)) {
+    out->note =
+        "damping along a spring hardly damps motion across it; just above the limit that motion grows too "
+        "slowly to be seen in a short run";
+  }
+  return HOOKE_OK;
+}
+
+/* ---- the table ---- */
+
+static int32_t unlimited(struct hooke_spectrum *s, struct hooke_prediction *out) {
+  (void)s;
+  out->limit = INFINITY;
+  return HOOKE_OK;
+}
+
+static double unlimited_mode(double k, double c) {
+  (void)k, (void)c;
+  return INFINITY;
+}
+
+static const struct rule {
+  const char *method;
+  int32_t (*find)(struct hooke_spectrum *s, struct hooke_prediction *out);
+  double (*of_mode)(double k, double c); /* the step of one mode, x'' + c x' + k x = 0 */
+  int32_t needs_all, damps_implicitly;
+  const char *note;
+} rules[] = {
+    {"forward-euler", forward_euler, forward_euler_mode, 1, 0, ""},
+    {"symplectic-euler", symplectic_euler, symplectic_step, 0, 0, ""},
+    {"verlet", verlet, verlet_step, 0, 1, ""},
+    {"rk4", rk4, rk4_mode, 1, 0, ""},
+    {"backward-euler", unlimited, unlimited_mode, 0, 1,
+     "stable at every step; accuracy limits it, and in large steps whether the equations can be solved"},
+    {"cvode-bdf", unlimited, unlimited_mode, 0, 1, "chooses its steps; error control limits them"},
+    {"cvode-adams", unlimited, unlimited_mode, 0, 0,
+     "chooses its steps; error control limits them, and for fast motion also stability, which it sees as "
+     "error"},
+};
+
+static const struct rule *rule_of(const char *method) {
+  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
+    if (strcmp(rules[k].method, method) == 0) return &rules[k];
+  }
+  return NULL;
+}
+
+int32_t hooke_limit_rule_needs_all(const char *method) {
+  const struct rule *rule = rule_of(method);
+  return rule ? rule->needs_all : 0;
+}
+
+int32_t hooke_limit_rule_damps_implicitly(const char *method) {
+  const struct rule *rule = rule_of(method);
+  return rule ? rule->damps_implicitly : 0;
+}
+
+double hooke_limit_of_mode(const char *method, double frequency, double decay) {
+  const struct rule *rule = rule_of(method);
+  if (rule == NULL || !(frequency >= 0.0) || !(decay >= 0.0)) return NAN;
+  return rule->of_mode(frequency * frequency, 2.0 * decay);
+}
+
+int32_t hooke_limit_rule(struct hooke_spectrum *s, const char *method, struct hooke_prediction *out) {
+  const int32_t adaptive = hooke_method_is_adaptive(method);
+  if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+  out->limit = adaptive ? INFINITY : NAN;
+  out->exact = 1;
+  out->sure = NAN;
+  out->never_stable = out->has_mode = 0;
+  out->note = adaptive ? "chooses its steps; error control limits them" : "no rule is known for this method";
+  const struct rule *rule = rule_of(method);
+  if (rule == NULL) return HOOKE_OK;
+  out->note = rule->note;
+  const int32_t status = rule->find(s, out);
+  if (status != HOOKE_OK) return status;
+  out->limit /= s->linearised->rate;
+  out->sure = out->exact ? out->limit : out->sure / s->linearised->rate;
+  if (out->limit == INFINITY && rule->find != unlimited) {
+    out->has_mode = 0;
+    out->note = "nothing limits the step: there is no stiffness, and no damping that is explicit";
+  }
+  return HOOKE_OK;
+}

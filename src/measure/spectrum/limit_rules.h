@@ -1,0 +1,30 @@
+/* The largest stable step by the spectrum, one rule a method. */
+#ifndef HOOKE_MEASURE_SPECTRUM_LIMIT_RULES_H
+#define HOOKE_MEASURE_SPECTRUM_LIMIT_RULES_H
+
+#include "measure/spectrum/spectrum.h"
+
+struct hooke_prediction {
+  double
+      limit; /* [s]: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known */
+  double
+      sure; /* [s]: stable for certain up to here, by the extreme eigenvalues; not above `limit`, NaN where they do not tell */
+  int32_t exact, never_stable;
+  const char *note;
+  int32_t has_mode; /* `mode` was written */
+  double *mode;     /* 3n from the caller: the mode that limits, x.Mx = 1 */
+};
+
+/* 1 if the rule asks for eigenvalues other than the extreme ones of K and of h^2 K + 2 h C. */
+int32_t hooke_limit_rule_needs_all(const char *method);
+
+/* 1 if the method solves for damping, which then has no part in its limit. */
+int32_t hooke_limit_rule_damps_implicitly(const char *method);
+
+/* HOOKE_BAD_VALUE for an unknown method. */
+int32_t hooke_limit_rule(struct hooke_spectrum *spectrum, const char *method, struct hooke_prediction *out);
+
+/* How far from 0 Runge-Kutta 4 is stable on the ray to (real, imaginary), real <= 0 (stable_ray.c). */
+double hooke_rk4_reach(double real, double imaginary);
+
+#endif

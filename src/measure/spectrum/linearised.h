@@ -1,0 +1,82 @@
+/* A system frozen at given positions, at rest: M x'' + C x' + K x = 0 over the free particles.
+ *
+ *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
+ *
+ * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple of bending in
+ * K, the same in all directions; kappa (g g^T)(u u^T) in K and gamma (g g^T)(u u^T) in C of every altitude spring, g its
+ * weights, without what its tension adds. A compressed spring is clamped: its stiffness across, which
+ * is negative, counts as 0. A spring that only pulls counts as taut; one of no length as stiff in all directions.
+ *
+ * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues come in units
+ * of `rate`, a bound of the fastest motion, so that neither stiffness nor masses overflow: K is divided by rate^2, C by
+ * rate. */
+#ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
+#define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
+
+#include "kernel/tangent_loops.h"
+#include "measure/trial/patience.h"
+#include "model/system.h"
+
+struct hooke_linearised {
+  const hooke_system *system;
+  int64_t size;              /* 3n */
+  int64_t unknowns;          /* three a free particle */
+  double rate;               /* [1/s] */
+  int64_t clamped, products; /* springs clamped; products with K and C so far */
+  int32_t across_any, damped, bends;
+  double *mass, *inverse; /* n; the inverse is 0 where a particle is held */
+  /* springs: by their numbers, or in the order of batches, in one run of our own */
+  int64_t run_count;
+  const struct hooke_run *run;
+  struct hooke_run own;
+  int32_t *ends;                         /* of that */
+  double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
+  double drag, bending;                  /* of coefficients: 1 over rate^2 */
+  /* altitude springs that move something: their tangents, weighed too, kappa and gamma */
+  int64_t tetrahedra;
+  struct hooke_altitude_tangent *tetrahedron;
+  double *altitude_kappa, *altitude_gamma;
+  /* a K + b C, from the last hooke_linearised_weigh() */
+  struct hooke_tangent tangent;
+  double *g[3], *g_across, brake, bent;
+  /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with HOOKE_STOPPED (NULL:
+   * none); and bytes that a basis may take (0: as many as are usual) */
+  struct hooke_patience *patience;
+  double room;
+};
+
+/* Bytes that it takes at most, with what a search for the largest eigenvalue needs besides. */
+double hooke_linearised_bytes(const hooke_system *system);
+
+/* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL. HOOKE_BAD_VALUE for
+ * numbers that are not finite; HOOKE_NO_MEMORY. */
+int32_t hooke_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
+                                const double *mass_scale, struct hooke_linearised *linearised);
+void hooke_linearised_release(struct hooke_linearised *linearised);
+
+/* Makes products those with a K + b C; a, b >= 0. */
+void hooke_linearised_weigh(struct hooke_linearised *linearised, double a, double b);
+
+/* out += (a K + b C) x; what it has where a particle is held means nothing. */
+void hooke_linearised_add_product(struct hooke_linearised *linearised, const double *x, double *out);
+
+/* out = M^-1 (a K + b C) x. */
+void hooke_linearised_multiply(struct hooke_linearised *linearised, const double *x, double *out);
+
+/* The symmetric matrix M^-1/2 (a K + b C) M^-1/2 over the unknowns, in rows. HOOKE_NO_MEMORY. */
+int32_t hooke_linearised_assemble(struct hooke_linearised *linearised, double *matrix);
+
+/* x.(a K + b C) x */
+double hooke_linearised_energy(const struct hooke_linearised *linearised, const double *x);
+
+/* x.My */
+double hooke_linearised_dot(const struct hooke_linearised *linearised, const double *x, const double *y);
+
+/* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is held. */
+void hooke_linearised_start(const struct hooke_linearised *linearised, double *x);
+
+/* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns` long). */
+void hooke_linearised_pack(const struct hooke_linearised *linearised, const double *x, double *unknown);
+void hooke_linearised_unpack(const struct hooke_linearised *linearised, const double *unknown, double *x);
+
+#endif

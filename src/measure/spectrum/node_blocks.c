@@ -1,0 +1,206 @@
+#include "measure/spectrum/node_blocks.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "measure/spectrum/eigen.h"
+#include "model/sum/spring_batch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A stretch below this is rounding of positions, not tension. */
+static const double ROUNDING = 1e-9;
+
+/* block += along u u^T + across (I - u u^T) */
+static void add_axial(double block[6], const double u[3], double along, double across) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; k++) {
+    block[k] += (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
+  }
+}
+
+static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spring *spring, const double *q) {
+  const hooke_system *system = blocks->system;
+  struct hooke_stretch s;
+  hooke_spring_stretch_taut(spring, q, &s);
+  const int no_direction = s.length == 0.0;
+  const double across = no_direction ? spring->kappa : fmax(0.0, s.tension / s.length);
+  if (spring->kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, spring->gamma / spring->kappa);
+  blocks->across |= across > ROUNDING * spring->kappa;
+  const int64_t end[2] = {spring->head, spring->tail};
+  for (int k = 0; k < 2; k++) {
+    if (system->held[end[k]]) continue;
+    const double weight = system->held[end[1 - k]] ? 1.0 : 2.0;
+    add_axial(blocks->stiffness + 6 * end[k], s.direction, weight * spring->kappa, weight * across);
+    add_axial(blocks->damping + 6 * end[k], s.direction, weight * spring->gamma, 0.0);
+  }
+}
+
+static void add_triple(struct hooke_node_blocks *blocks, const struct hooke_triple *triple) {
+  for (int e = 0; e < 3; e++) {
+    const int64_t p = triple->particle[e];
+    if (blocks->system->held[p]) continue;
+    blocks->across = 1;
+    for (int a = 0; a < 3; a++)
+      blocks->stiffness[6 * p + a] += hooke_triple_row(blocks->system, triple, e) * triple->coefficient;
+  }
+}
+
+static void add_tetrahedron(struct hooke_node_blocks *blocks, const struct hooke_tetrahedron *t,
+                            const double *q) {
+  const hooke_system *system = blocks->system;
+  struct hooke_altitude_view view;
+  if (!hooke_tetrahedron_moves(system, t) || !hooke_altitude_see(t, q, &view)) return;
+  if (view.kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, view.gamma / view.kappa);
+  for (int j = 0; j < 4; j++) {
+    const int64_t p = t->particle[j];
+    const double row = hooke_altitude_row(system, t->particle, view.tangent.weight, j);
+    if (system->held[p]) continue;
+    add_axial(blocks->stiffness + 6 * p, view.tangent.u, row * view.kappa, 0.0);
+    add_axial(blocks->damping + 6 * p, view.tangent.u, row * view.gamma, 0.0);
+  }
+}
+
+int32_t hooke_node_blocks_begin(const hooke_system *system, struct hooke_node_blocks *blocks) {
+  *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
+  blocks->stiffness = hooke_new(6 * system->particle_count, sizeof(double));
+  blocks->damping = hooke_new(6 * system->particle_count, sizeof(double));
+  if (blocks->stiffness == NULL || blocks->damping == NULL) {
+    hooke_node_blocks_release(blocks);
+    return HOOKE_NO_MEMORY;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
+                                 struct hooke_node_blocks *blocks) {
+  const int32_t status = hooke_node_blocks_begin(system, blocks);
+  if (status == HOOKE_OK) hooke_node_blocks_fill(blocks, q);
+  return status;
+}
+
+void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
+  const hooke_system *system = blocks->system;
+  const size_t bytes = 6 * (size_t)system->particle_count * sizeof(double);
+  memset(blocks->stiffness, 0, bytes);
+  memset(blocks->damping, 0, bytes);
+  blocks->least_ratio = INFINITY;
+  blocks->across = 0;
+  struct hooke_spring_batch batch;
+  int64_t turns = 0;
+  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hooke_patience_ends(blocks->patience, "bounds")) return;
+    for (int64_t k = 0; k < batch.count; k++) {
+      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      if (!system->held[spring.head] || !system->held[spring.tail]) add_spring(blocks, &spring, q);
+    }
+  }
+  struct hooke_triple triple;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+    add_triple(blocks, &triple);
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    add_tetrahedron(blocks, &system->altitudes.tetrahedron[k], q);
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    for (int a = 0; a < 3 && !system->held[p]; a++)
+      blocks->damping[6 * p + a] += system->drag;
+  }
+}
+
+void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
+  hooke_free(blocks->stiffness);
+  hooke_free(blocks->damping);
+  memset(blocks, 0, sizeof *blocks);
+}
+
+/* By the pivots of an elimination; what is not finite is not positive. */
+static int is_positive(const double m[6]) {
+  const double first = m[0], xy = m[3] / first, xz = m[4] / first;
+  const double second = m[1] - xy * m[3], yz = m[5] - xy * m[4];
+  return first > 0.0 && second > 0.0 && m[2] - xz * m[4] - yz * yz / second > 0.0;
+}
+
+/* 1 if no eigenvalue of a B + b G at particle p reaches `most`. */
+static int stays_below(const struct hooke_node_blocks *blocks, int64_t p, double a, double b, double most) {
+  const double *stiffness = blocks->stiffness + 6 * p, *damping = blocks->damping + 6 * p;
+  double gap[6];
+  for (int k = 0; k < 6; k++)
+    gap[k] = (k < 3 ? most : 0.0) - (a * stiffness[k] + b * damping[k]);
+  return is_positive(gap);
+}
+
+/* Particles alike differ by rounding: eigenvalues are not worth their time for that. */
+static const double ALIKE = 1.0 + 1e-15;
+
+/* The largest eigenvalue over particles of block/m, B or G. */
+static double largest_rate(const struct hooke_node_blocks *blocks, const double *block) {
+  const int stiff = block == blocks->stiffness;
+  double most = 0.0;
+  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
+    if (blocks->system->held[p]) continue;
+    if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
+    most = fmax(most, hooke_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
+  }
+  return most;
+}
+
+double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks) {
+  return sqrt(largest_rate(blocks, blocks->stiffness));
+}
+
+double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks) {
+  return largest_rate(blocks, blocks->damping);
+}
+
+int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, double a, double b, double limit,
+                                     int64_t *particle) {
+  const hooke_system *system = blocks->system;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->held[p]) continue;
+    if (stays_below(blocks, p, a, b, limit * system->mass[p])) continue;
+    *particle = p;
+    return 0;
+  }
+  return 1;
+}
+
+/* The largest eigenvalue of (h^2 B + 2 h G)/m at particle p. */
+static double growth(const struct hooke_node_blocks *blocks, int64_t p, double h) {
+  double matrix[6];
+  for (int k = 0; k < 6; k++) {
+    matrix[k] = h * (h * blocks->stiffness[6 * p + k] + 2.0 * blocks->damping[6 * p + k]);
+  }
+  return hooke_eigen_largest(matrix) * blocks->system->inverse_mass[p];
+}
+
+/* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */
+static double too_large(const struct hooke_node_blocks *blocks, int64_t p) {
+  const double *b = blocks->stiffness + 6 * p, *g = blocks->damping + 6 * p;
+  const double trace_b = b[0] + b[1] + b[2], trace_g = g[0] + g[1] + g[2];
+  const double mass = blocks->system->mass[p];
+  if (!(trace_b > 0.0) && !(trace_g > 0.0)) return INFINITY;
+  /* h^2 b + 2 h g = 12 m, written so that nothing cancels */
+  return 12.0 * mass / (trace_g + sqrt(trace_g * trace_g + 12.0 * mass * trace_b));
+}
+
+double hooke_node_blocks_step(const struct hooke_node_blocks *blocks) {
+  double best = INFINITY;
+  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
+    if (blocks->system->held[p]) continue;
+    const double start = too_large(blocks, p);
+    double high = fmin(best, start), low = 0.0;
+    if (isinf(high)) continue;
+    if (best < INFINITY &&
+        stays_below(blocks, p, best * best, 2.0 * best, ALIKE * 4.0 * blocks->system->mass[p]))
+      continue;
+    if (growth(blocks, p, high) <= 4.0) low = high;
+    while (high - low > 1e-12 * high) {
+      const double middle = 0.5 * (low + high);
+      if (growth(blocks, p, middle) <= 4.0)
+        low = middle;
+      else
+        high = middle;
+    }
+    best = low;
+  }
+  return best;
+}

@@ -1,0 +1,40 @@
+/* Eigenvalues lambda of lambda^2 M + lambda C + K: all of them for small scenes, those of the fastest modes for large ones.
+ * Numbers in the units of the linearised system (rate = 1); modes are displacements, x, y and z apart (3n). */
+#ifndef HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
+#define HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
+
+#include "measure/spectrum/linearised.h"
+
+/* All eigenvalues are known where there are at most this many unknowns; or this many where damping is in proportion, C = beta K +
+ * delta M (no damping at all included), since then those of K suffice. */
+enum { HOOKE_SPECTRUM_DAMPED = 400, HOOKE_SPECTRUM_PROPORTIONAL = 1500 };
+
+struct hooke_spectrum {
+  struct hooke_linearised *linearised;
+  double accuracy;
+  int32_t decisive; /* no eigenvalue that is left out limits any method further */
+  int32_t proportional;
+  double beta, delta;
+  double stiffest, fastest_decay; /* largest eigenvalues of M^-1 K and M^-1 C */
+  double *stiffest_mode;          /* 3n */
+  int64_t count;                  /* eigenvalues with an imaginary part >= 0, the largest first */
+  double *real, *imaginary;
+  double *stiffness;   /* k of its mode: lambda^2 + lambda c + k = 0 */
+  const double **mode; /* of each, NULL where it is not known */
+  double *block;       /* where they are */
+};
+
+/* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay, and what else decides
+ * where C = beta K; as many modes as can be had. */
+enum hooke_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
+
+/* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+int32_t hooke_spectrum_create(struct hooke_linearised *linearised, double accuracy,
+                              enum hooke_spectrum_extent extent, const double *start,
+                              struct hooke_spectrum *spectrum);
+void hooke_spectrum_release(struct hooke_spectrum *spectrum);
+
+/* The roots of lambda^2 + c lambda + k, the larger one first, the imaginary part of conjugates positive. */
+void hooke_spectrum_roots(double c, double k, double real[2], double imaginary[2]);
+
+#endif

@@ -1,0 +1,119 @@
+/* ARPACK-NG: implicitly restarted Lanczos, fully orthogonalised (Lehoucq, Sorensen and Yang 1998). */
+#include "measure/spectrum/top_mode.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_ARPACK
+
+#include <arpack/arpack.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+enum { MOST_RESTARTS = 300, SPARE_VECTORS = 20 };
+
+/* ARPACK keeps where it is in variables of its own between calls, one set for the process: a search from its first call to
+ * its last has it alone. */
+static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
+
+struct search {
+  struct hooke_linearised *lin;
+  a_int size, count, vectors, room_size;
+  a_int parameter[11], pointer[14], info;
+  double tolerance;
+  double *residual, *basis, *work, *room, *value, *place, *product;
+  a_int *select;
+};
+
+static double *part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
+static int32_t make_room(struct hooke_linearised *lin, int64_t count, struct search *s) {
+  const int64_t n = lin->unknowns, vectors = 2 * count + SPARE_VECTORS < n ? 2 * count + SPARE_VECTORS : n;
+  const int64_t room_size = vectors * (vectors + 8);
+  s->lin = lin;
+  s->size = (a_int)n;
+  s->count = (a_int)count;
+  s->vectors = (a_int)vectors;
+  s->room_size = (a_int)room_size;
+  double *block = hooke_new(n * (vectors + 4) + room_size + count + 2 * lin->size, sizeof(double));
+  s->select = hooke_new(vectors, sizeof *s->select);
+  if (block == NULL || s->select == NULL) {
+    hooke_free(block);
+    return HOOKE_NO_MEMORY;
+  }
+  s->residual = part(&block, n);
+  s->basis = part(&block, n * vectors);
+  s->work = part(&block, 3 * n);
+  s->room = part(&block, room_size);
+  s->value = part(&block, count);
+  s->place = part(&block, lin->size);
+  s->product = part(&block, lin->size);
+  return HOOKE_OK;
+}
+
+static void release(struct search *s) {
+  hooke_free(s->residual);
+  hooke_free(s->select);
+}
+
+/* The symmetric form: on displacements times the root of the masses. */
+static void multiply(struct search *s, const double *x, double *out) {
+  hooke_linearised_unpack(s->lin, x, s->place);
+  hooke_linearised_multiply(s->lin, s->place, s->product);
+  hooke_linearised_pack(s->lin, s->product, out);
+}
+
+static int32_t run(struct search *s) {
+  s->parameter[0] = 1; /* exact shifts */
+  s->parameter[2] = MOST_RESTARTS;
+  s->parameter[6] = 1; /* the standard problem */
+  s->info = 1;         /* the start is in `residual` */
+  a_int wants = 0;
+  do {
+    if (hooke_patience_ends(s->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
+    dsaupd_c(&wants, "I", s->size, "LA", s->count, s->tolerance, s->residual, s->vectors, s->basis, s->size,
+             s->parameter, s->pointer, s->work, s->room, s->room_size, &s->info);
+    if (wants == 1 || wants == -1) multiply(s, s->work + s->pointer[0] - 1, s->work + s->pointer[1] - 1);
+  } while (wants == 1 || wants == -1);
+  if (s->info != 0) return HOOKE_SOLVER_FAILED;
+  dseupd_c(1, "A", s->select, s->value, s->basis, s->size, 0.0, "I", s->size, "LA", s->count, s->tolerance,
+           s->residual, s->vectors, s->basis, s->size, s->parameter, s->pointer, s->work, s->room,
+           s->room_size, &s->info);
+  return s->info == 0 && s->parameter[4] >= s->count ? HOOKE_OK : HOOKE_SOLVER_FAILED;
+}
+
+int32_t hooke_top_modes_arpack(struct hooke_linearised *lin, int64_t count, double tolerance, double *value,
+                               double *mode) {
+  struct search s = {.tolerance = tolerance};
+  if (lin->unknowns <= count) return HOOKE_SOLVER_FAILED;
+  int32_t status = make_room(lin, count, &s);
+  if (status != HOOKE_OK) return status;
+  hooke_linearised_pack(lin, mode, s.residual);
+  pthread_mutex_lock(&alone);
+  status = run(&s);
+  pthread_mutex_unlock(&alone);
+  /* its values come in ascending order */
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
+    value[k] = s.value[count - 1 - k];
+    hooke_linearised_unpack(lin, s.basis + (count - 1 - k) * lin->unknowns, mode + k * lin->size);
+  }
+  release(&s);
+  return status != HOOKE_SOLVER_FAILED
+             ? status
+             : hooke_fail(status, NULL, "ARPACK found no eigenvalues (%d)", (int)s.info);
+}
+
+#else
+
+int32_t hooke_top_modes_arpack(struct hooke_linearised *lin, int64_t count, double tolerance, double *value,
+                               double *mode) {
+  (void)lin, (void)count, (void)tolerance, (void)value, (void)mode;
+  return hooke_fail(HOOKE_NOT_BUILT, NULL, "this build is without ARPACK");
+}
+
+#endif

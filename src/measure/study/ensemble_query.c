@@ -1,0 +1,65 @@
+/* Reading what an ensemble gave. */
+#include "measure/study/ensemble.h"
+
+#include "core/figure.h"
+#include "measure/study/study.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+struct hooke_ensemble_sample hooke_ensemble_sample(const struct hooke_ensemble *ensemble, int64_t source,
+                                                   int64_t quantity) {
+  const struct hooke_ensemble_source *s = &ensemble->source[source];
+  struct hooke_ensemble_sample sample = {.members = 0, .mean = NAN, .spread = NAN};
+  double mean = 0.0, square = 0.0; /* running ones (Welford 1962) */
+  for (int64_t k = 0; k < s->finished; k++) {
+    const double value = s->sample[k * ensemble->quantities.count + quantity];
+    if (isnan(value)) continue;
+    const double from_mean = value - mean;
+    mean += from_mean / (double)++sample.members;
+    square += from_mean * (value - mean);
+  }
+  if (s->failed) return sample;
+  if (sample.members > 0) sample.mean = mean;
+  if (sample.members > 1) sample.spread = sqrt(square / (double)(sample.members - 1));
+  return sample;
+}
+
+double hooke_ensemble_bias(const struct hooke_ensemble *ensemble, int64_t source, int64_t quantity) {
+  const struct hooke_ensemble_sample own = hooke_ensemble_sample(ensemble, source, quantity),
+                                     other = hooke_ensemble_sample(ensemble, 0, quantity);
+  const double variance =
+      own.spread * own.spread / (double)own.members + other.spread * other.spread / (double)other.members;
+  const double difference = own.mean - other.mean;
+  return difference == 0.0 && variance == 0.0 ? 0.0 : difference / sqrt(variance);
+}
+
+static int64_t find_source(const hooke_study *study, const char *method) {
+  if (strcmp(method, "reference") == 0) return 0;
+  for (int64_t k = 1; k < study->ensemble->source_count; k++) {
+    if (strcmp(study->method[study->ensemble->source[k].method], method) == 0) return k;
+  }
+  return -1;
+}
+
+double hooke_study_statistic(const hooke_study *study, const char *method, const char *quantity,
+                             const char *what) {
+  const struct hooke_ensemble *ensemble = study->ensemble;
+  if (ensemble == NULL) return NAN;
+  const int64_t source = find_source(study, method), q = hooke_watched_find(&ensemble->quantities, quantity);
+  if (source < 0 || q < 0) return NAN;
+  const struct hooke_ensemble_source *s = &ensemble->source[source];
+  const int adaptive = s->method < 0 || hooke_study_is_adaptive(study, s->method);
+  const struct hooke_ensemble_sample sample = hooke_ensemble_sample(ensemble, source, q);
+  const struct hooke_figure figures[] = {
+      {"mean", sample.mean},
+      {"spread", sample.spread},
+      {"members", (double)sample.members},
+      {"failed", (double)s->failed},
+      {"bias", source > 0 ? hooke_ensemble_bias(ensemble, source, q) : NAN},
+      {"step", adaptive ? NAN : s->value},
+      {"rtol", adaptive ? s->value : NAN},
+  };
+  return HOOKE_FIGURE(figures, what);
+}

@@ -1,0 +1,142 @@
+/* The observed order of a method: least squares of log error on log step. */
+#include "measure/study/study.h"
+
+#include "core/print.h"
+
+#include "integrate/method.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_POINTS = 5, FEWEST_POINTS = 3 };
+static const double CLEAR_OF_FLOOR = 10.0;      /* times the agreement of the reference */
+static const double SMALL = 0.05;               /* errors above this share of the extent are not asymptotic */
+static const double BELOW = 0.15, ABOVE = 0.25; /* how far an order may be from the theory without a word */
+
+/* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from coarse to fine. */
+static int32_t collect(const hooke_study *study, int32_t method, double *x, double *y) {
+  const struct hooke_reference *r = &study->reference;
+  int32_t count = 0;
+  for (int64_t k = study->row_count - 1; k >= 0 && count < MOST_POINTS; k--) {
+    const struct hooke_study_row *row = &study->row[k];
+    if (row->method != method || !(row->trial.error > 0.0)) continue;
+    if (row->trial.error < CLEAR_OF_FLOOR * r->agreement || row->trial.error > SMALL * r->extent) continue;
+    x[count] = log(row->value);
+    y[count] = log(row->trial.error);
+    count++;
+  }
+  return count;
+}
+
+static int32_t reached_floor(const hooke_study *study, int32_t method) {
+  for (int64_t k = 0; k < study->row_count; k++) {
+    const double error = study->row[k].trial.error;
+    if (study->row[k].method == method && error < CLEAR_OF_FLOOR * study->reference.agreement) return 1;
+  }
+  return 0;
+}
+
+/* ---- what an order below the theory's can come from, of what the scene has ---- */
+
+static int pulls_only(const hooke_system *system) {
+  for (int64_t g = 0; g < system->group_count; g++)
+    if (system->group[g].pull_only && system->group[g].count > system->group[g].dropped) return 1;
+  return 0;
+}
+
+static int has_table(const hooke_system *system) {
+  for (int64_t d = 0; d < system->drive_count; d++)
+    if (system->drive[d].kind == HOOKE_DRIVE_TABLE) return 1;
+  return 0;
+}
+
+static int has_drive_callback(const hooke_system *system) {
+  for (int64_t d = 0; d < system->drive_count; d++)
+    if (system->drive[d].kind == HOOKE_DRIVE_CALLBACK) return 1;
+  return 0;
+}
+
+/* Half the safe step or more: 1 if the coarsest of the rows of the fit is that near to the limit. */
+static int near_limit(const hooke_study *study, int32_t method, double coarsest) {
+  return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
+}
+
+/* "a", "a and b", "a, b and c" */
+static void add_cause(char *list, size_t size, int *count, int applies, const char *cause) {
+  const size_t length = strlen(list);
+  if (!applies) return;
+  snprintf(list + length, size - length, "%s%s", (*count)++ > 0 ? ", or " : "", cause);
+}
+
+static void list_causes(const hooke_study *study, int32_t method, double coarsest, char *list, size_t size) {
+  const hooke_system *system = study->system;
+  int count = 0;
+  list[0] = '\0';
+  add_cause(list, size, &count, pulls_only(system), "springs that only pull have a kink");
+  add_cause(list, size, &count, system->altitude_group_count > 0, "altitude springs jump between altitudes");
+  add_cause(list, size, &count, system->force != NULL, "the force callback may not be smooth enough");
+  add_cause(list, size, &count, has_table(system), "a drive by a table bends at its samples");
+  add_cause(list, size, &count, has_drive_callback(system), "the drive callback may not be smooth enough");
+  add_cause(list, size, &count, near_limit(study, method, coarsest), "steps are near the limit of stability");
+  add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
+}
+
+static void explain(const hooke_study *study, int32_t method, struct hooke_study_order *order, int32_t points,
+                    double coarsest) {
+  char causes[sizeof order->note - 32];
+  if (points < FEWEST_POINTS) {
+    snprintf(order->note, sizeof order->note, "%s",
+             reached_floor(study, method)
+                 ? "too few rows clear of the floor: the error is down to what the reference knows"
+                 : "too few rows in the asymptotic range; finer steps would show the order");
+    return;
+  }
+  if (order->order >= order->theory - BELOW && order->order <= order->theory + ABOVE) return;
+  if (order->order > order->theory)
+    snprintf(causes, sizeof causes, "steps do not resolve the motion yet");
+  else
+    list_causes(study, method, coarsest, causes, sizeof causes);
+  hooke_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
+}
+
+/* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975), and t with
+ * u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
+static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.30265272974946, 3.18244630528371};
+
+/* y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, as if the points scattered
+ * about a line independently and alike: it knows nothing of a curve. */
+static void fit_line(int32_t count, const double *x, const double *y, double *slope, double *half) {
+  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
+  for (int32_t k = 0; k < count; k++) {
+    mean_x += x[k] / count;
+    mean_y += y[k] / count;
+  }
+  for (int32_t k = 0; k < count; k++) {
+    xx += (x[k] - mean_x) * (x[k] - mean_x);
+    xy += (x[k] - mean_x) * (y[k] - mean_y);
+  }
+  *slope = xy / xx;
+  for (int32_t k = 0; k < count; k++) {
+    const double rest = (y[k] - mean_y) - *slope * (x[k] - mean_x);
+    squares += rest * rest;
+  }
+  *half = T_QUANTILE[count - 2] * sqrt(squares / (count - 2) / xx);
+}
+
+void hooke_study_fit_order(hooke_study *study, int32_t method) {
+  struct hooke_study_order *order = &study->order[method];
+  *order = (struct hooke_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
+  if (hooke_study_is_adaptive(study, method)) return;
+  order->theory = (double)hooke_method_find(study->method[method])->order;
+  double x[MOST_POINTS], y[MOST_POINTS];
+  const int32_t count = collect(study, method, x, y);
+  if (count >= FEWEST_POINTS) {
+    double half;
+    fit_line(count, x, y, &order->order, &half);
+    order->low = order->order - half;
+    order->high = order->order + half;
+  }
+  explain(study, method, order, count, count > 0 ? exp(x[count - 1]) : NAN);
+}

@@ -1,0 +1,236 @@
+/* A study: a reference that checks itself, ladders of every method, orders, a recommendation. */
+#include "measure/study/study.h"
+
+#include "core/clock.h"
+#include "core/handle.h"
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "integrate/integrator.h"
+#include "measure/trial/method_list.h"
+#include "measure/trial/step_unit.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so many seconds. */
+static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
+static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
+/* And an ensemble, where one is needed, this one. */
+static const double ENSEMBLE_SHARE = 0.3;
+
+static const struct hooke_option_row study_rows[] = {
+    {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
+    {.name = "points",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 6,
+     .high = 40,
+     .whole = 1,
+     .fallback = "6",
+     .doc = "steps or tolerances for each method"},
+    {.name = "steps",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .min_count = 1,
+     .doc =
+         "steps of the fixed-step methods, coarse to fine; from the safe step down by halves if not given"},
+    {.name = "tolerances",
+     .type = HOOKE_OPTION_NUMBERS,
+     .low = 1e-14,
+     .high = 0.1,
+     .min_count = 1,
+     .doc = "rtol of the error-controlled methods, coarse to fine; from 1e-3 down by tenths if not given"},
+    {.name = "want",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "m",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "error that one can live with, for a recommendation"},
+    {.name = "budget",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc = "time that the study may take; no limit if not given"},
+    {.name = "watch",
+     .type = HOOKE_OPTION_TEXT,
+     .example = "0.y,energy",
+     .doc = "quantities whose error is told too: 57.y (a particle), part:0.y, group:3.length, .strain or "
+            ".tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas"},
+    {.name = "ensemble",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .high = 1e6,
+     .whole = 1,
+     .fallback = "0",
+     .doc =
+         "displaced starts of which each method's means and spreads are told where the motion is too chaotic "
+         "to be judged; 0: none"},
+    {.name = "seed",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .high = 9007199254740992.0,
+     .whole = 1,
+     .fallback = "1",
+     .doc = "of the noise of those starts"},
+};
+
+static const struct hooke_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
+
+int32_t hooke_study_options_create(hooke_options **options) {
+  return hooke_options_create(&study_table, options);
+}
+
+/* ---- making ---- */
+
+static int32_t add_method(const char *method, void *ctx) {
+  hooke_study *study = ctx;
+  if (!hooke_method_is_built(method)) {
+    return hooke_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
+  }
+  if (study->method_count == HOOKE_STUDY_METHODS) {
+    return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
+  }
+  study->method[study->method_count++] = method;
+  return HOOKE_OK;
+}
+
+static int32_t read_times(hooke_study *study) {
+  study->budget = hooke_options_number(study->options, "budget");
+  if (isnan(study->budget)) study->budget = INFINITY;
+  return hooke_step_times(study->run, &study->duration, &study->every);
+}
+
+static int32_t read_watch(hooke_study *study) {
+  const char *text = hooke_options_text(study->options, "watch");
+  study->watched.system = study->system;
+  if (hooke_options_number(study->options, "ensemble") == 1.0) {
+    return hooke_fail(HOOKE_BAD_VALUE, "ensemble",
+                      "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
+  }
+  return text[0] ? hooke_watched_read(&study->watched, "watch", text) : HOOKE_OK;
+}
+
+int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
+                           hooke_study **out) {
+  if (!hooke_system_is_committed(system)) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL,
+                      "the system is not committed yet; call hooke_system_commit() first");
+  }
+  if (!hooke_method_is_built("cvode-adams")) {
+    return hooke_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
+  }
+  int32_t status = hooke_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hooke_options_require(options, &study_table, "options", "hooke_study_options_create()");
+  if (status != HOOKE_OK) return status;
+  hooke_study *study = hooke_handle_new("hooke_study", sizeof *study);
+  if (study == NULL) return HOOKE_NO_MEMORY;
+  study->system = system;
+  status = hooke_options_copy(run, &study->run);
+  if (status == HOOKE_OK) {
+    status =
+        options ? hooke_options_copy(options, &study->options) : hooke_study_options_create(&study->options);
+  }
+  if (status == HOOKE_OK) {
+    const char *names = hooke_options_text(study->options, "methods");
+    status = hooke_method_list_read(names, hooke_method_is_built, add_method, study);
+  }
+  if (status == HOOKE_OK) status = read_times(study);
+  if (status == HOOKE_OK) status = hooke_study_check_ladder(study);
+  if (status == HOOKE_OK) status = read_watch(study);
+  if (status == HOOKE_OK)
+    *out = study;
+  else
+    hooke_study_destroy(study);
+  return status;
+}
+
+void hooke_study_destroy(hooke_study *study) {
+  if (study == NULL) return;
+  for (int64_t k = 0; k < study->row_count; k++)
+    hooke_trial_release(&study->row[k].trial);
+  hooke_reference_release(&study->reference);
+  hooke_ensemble_release(study->ensemble);
+  hooke_watched_release(&study->watched);
+  hooke_options_destroy(study->run);
+  hooke_options_destroy(study->options);
+  hooke_free(study->row);
+  hooke_handle_free(study);
+}
+
+void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx) {
+  study->progress = progress;
+  study->progress_ctx = ctx;
+}
+
+static int compare_rows(const void *a, const void *b) {
+  const struct hooke_study_row *x = a, *y = b;
+  if (x->method != y->method) return (x->method > y->method) - (x->method < y->method);
+  return (x->value < y->value) - (x->value > y->value);
+}
+
+static int32_t make_reference(hooke_study *study) {
+  const struct hooke_listener listener = {.on_progress = hooke_study_tell_reference, .ctx = study};
+  const double want = hooke_options_number(study->options, "want");
+  const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
+  const struct hooke_reference_request request = {
+      .run = study->run,
+      .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
+      .digits = isnan(want) ? NAN : want / 10.0,
+      .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
+      .listener = &listener,
+      .watched = &study->watched};
+  study->under_way = "reference";
+  const int32_t status = hooke_reference_create(study->system, &request, &study->reference);
+  if (status == HOOKE_OK && study->reference.hurried &&
+      study->reference.trusted < study->reference.frames.count)
+    study->budget_spent = 1;
+  return status;
+}
+
+/* As it was before it was run. */
+static void forget(hooke_study *study) {
+  for (int64_t k = 0; k < study->row_count; k++)
+    hooke_trial_release(&study->row[k].trial);
+  study->row_count = 0;
+  hooke_reference_release(&study->reference);
+  hooke_ensemble_release(study->ensemble);
+  study->ensemble = NULL;
+  memset(&study->recommendation, 0, sizeof study->recommendation);
+  study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
+  study->late = study->budget_spent = 0;
+  memset(study->given_up, 0, sizeof study->given_up);
+}
+
+int32_t hooke_study_run(hooke_study *study) {
+  if (study->reference.frames.count > 0) {
+    return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
+  }
+  const double budget = study->budget;
+  study->begun = hooke_clock_seconds();
+  if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
+  int32_t status = hooke_study_find_safe_steps(study);
+  if (status == HOOKE_OK) status = hooke_study_prepare_guesses(study);
+  if (status == HOOKE_OK) status = make_reference(study);
+  if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
+  if (status == HOOKE_OK) status = hooke_study_run_ladders(study);
+  if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
+  for (int32_t m = 0; m < study->method_count; m++)
+    hooke_study_fit_order(study, m);
+  const double want = hooke_options_number(study->options, "want");
+  study->deadline = study->begun + study->budget;
+  if (status == HOOKE_OK && !isnan(want)) status = hooke_study_find_cheapest(study, want);
+  study->budget = budget;
+  study->deadline = study->begun + budget;
+  if (status == HOOKE_OK) status = hooke_ensemble_run(study);
+  if (status < 0) forget(study);
+  return status;
+}

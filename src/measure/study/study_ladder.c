@@ -1,0 +1,117 @@
+/* Ladders: steps from the safe bound down by halves, tolerances by tenths. */
+#include "measure/study/study.h"
+
+#include "core/number.h"
+#include "core/status.h"
+#include "measure/trial/step_unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
+static const double FARTHEST_BELOW = 128.0; /* that a ladder begins below the safe step of symplectic Euler */
+
+int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method) {
+  return hooke_method_is_adaptive(study->method[method]);
+}
+
+static int32_t points_of(const hooke_study *study) {
+  return (int32_t)hooke_options_number(study->options, "points");
+}
+
+double hooke_study_fitting_step(const hooke_study *study, double step) {
+  return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
+}
+
+/* NaN where none is known. */
+static double bound_of(const hooke_study *study, const char *method, const double *q) {
+  double bound = NAN;
+  if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
+  return bound;
+}
+
+/* A step that is stable for certain; where a method has none, or a very small one for which the bound is to blame, a part
+ * of the one that symplectic Euler would take. */
+static double safe_step(const hooke_study *study, const char *method, const double *q) {
+  double bound = bound_of(study, method, q);
+  const double other = bound_of(study, "symplectic-euler", q);
+  if (bound == 0.0) bound = other;
+  if (bound < other / FARTHEST_BELOW) bound = other / FARTHEST_BELOW;
+  return bound > 0.0 ? bound : study->unit;
+}
+
+int32_t hooke_study_find_safe_steps(hooke_study *study) {
+  hooke_state *state = NULL;
+  const int32_t status = hooke_state_create(study->system, &state);
+  if (status != HOOKE_OK) return status;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    if (hooke_study_is_adaptive(study, m)) continue;
+    const double step = safe_step(study, study->method[m], hooke_state_position(state));
+    study->safe_step[m] = hooke_study_fitting_step(study, fmin(study->unit, step));
+  }
+  hooke_state_destroy(state);
+  return HOOKE_OK;
+}
+
+/* From twice the safe step, which may still be stable, since the bound is not sharp. */
+static double fixed_ladder(const hooke_study *study, int32_t method, int32_t k) {
+  const double safe = study->safe_step[method];
+  const double start =
+      safe < study->unit ? hooke_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
+  const int32_t above = start > safe;
+  if (k >= points_of(study) + above) return NAN;
+  return k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
+}
+
+static double given(const hooke_options *options, const char *name, int32_t k) {
+  const int64_t count = hooke_options_number_count(options, name);
+  return k < count ? hooke_options_numbers(options, name)[k] : NAN;
+}
+
+double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
+  const int32_t adaptive = hooke_study_is_adaptive(study, method);
+  const char *own = adaptive ? "tolerances" : "steps";
+  if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
+  if (!adaptive) return fixed_ladder(study, method, k);
+  /* a quotient of whole numbers is the nearest number to a power of ten, a product of powers is not */
+  return k < points_of(study) ? 1.0 / pow(10.0, (double)(COARSEST_EXPONENT + k)) : NAN;
+}
+
+/* ---- checking ---- */
+
+static int32_t check_list(const hooke_options *options, const char *name) {
+  const int64_t count = hooke_options_number_count(options, name);
+  const double *value = hooke_options_numbers(options, name);
+  for (int64_t k = 1; k < count; k++) {
+    if (value[k] < value[k - 1]) continue;
+    char place[64];
+    snprintf(place, sizeof place, "%s[%lld]", name, (long long)k);
+    return hooke_fail(HOOKE_BAD_VALUE, place, "%g is not below %g; a ladder goes from coarse to fine",
+                      value[k], value[k - 1]);
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_steps(const hooke_study *study) {
+  const int64_t count = hooke_options_number_count(study->options, "steps");
+  for (int64_t k = 0; k < count; k++) {
+    const double step = hooke_options_numbers(study->options, "steps")[k];
+    if (hooke_step_is_whole(study->every / step) && hooke_step_is_whole(study->duration / step)) continue;
+    char place[64], fitting[HOOKE_NUMBER_SIZE];
+    snprintf(place, sizeof place, "steps[%lld]", (long long)k);
+    hooke_number_print(hooke_study_fitting_step(study, step), fitting);
+    return hooke_fail(
+        HOOKE_BAD_VALUE, place,
+        "every %.6g s and duration %.6g s are not whole multiples of %.6g s; a step near it that fits is %s",
+        study->every, study->duration, step, fitting);
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_study_check_ladder(hooke_study *study) {
+  int32_t status = hooke_step_unit(study->duration, study->every, &study->unit);
+  if (status == HOOKE_OK) status = check_list(study->options, "steps");
+  if (status == HOOKE_OK) status = check_steps(study);
+  return status == HOOKE_OK ? check_list(study->options, "tolerances") : status;
+}

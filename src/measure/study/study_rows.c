@@ -1,0 +1,224 @@
+/* The ladders of a study, level by level; on several threads the rows of a level run side by side. */
+#include "measure/study/study.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+/* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference, but at most
+ * this share of what is left. */
+static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
+static const double REPEATS = 4.0, REPEAT_SECONDS = 0.3; /* short rows are repeated, for their time */
+
+/* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their turn. */
+static const double UNKNOWN_SHARE = 0.1;
+
+/* Seconds that the next row of a method is going to take: the last one's that came to its end, scaled by
+ * the steps; NaN before the first. */
+static double predict_seconds(const hooke_study *study, int32_t method, double value) {
+  for (int64_t k = study->row_count - 1; k >= 0; k--) {
+    const struct hooke_study_row *row = &study->row[k];
+    if (row->method != method || isnan(row->trial.error)) continue;
+    const double growth = hooke_study_is_adaptive(study, method) ? 1.6 : row->value / value;
+    return row->trial.wall_seconds * growth;
+  }
+  return NAN;
+}
+
+static double expect_seconds(const hooke_study *study, int32_t method, double value) {
+  const double predicted = predict_seconds(study, method, value);
+  return isnan(predicted) ? hooke_study_guess(study, method, value) : predicted;
+}
+
+static double seconds_ahead(const hooke_study *study, int32_t level) {
+  double sum = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    for (int32_t k = level; !isnan(hooke_study_ladder(study, m, k)); k++) {
+      const double once = expect_seconds(study, m, hooke_study_ladder(study, m, k));
+      sum += once + fmin(REPEATS * once, REPEAT_SECONDS);
+    }
+  }
+  return sum;
+}
+
+/* ---- the rows of a level ---- */
+
+struct job {
+  int32_t method;
+  double value, expected; /* step or rtol; seconds */
+  double share;           /* of the time that is left when it begins, that it may take */
+  double deadline;
+  struct level *level;
+  struct hooke_study_row row;
+  int32_t status;
+  char message[512]; /* messages belong to the thread that failed */
+};
+
+struct level {
+  hooke_study *study;
+  int32_t count;
+  struct job job[HOOKE_STUDY_METHODS];
+  atomic_int next, stop, running;
+};
+
+static int32_t asked_to_stop(double share, void *ctx) {
+  const struct job *job = ctx;
+  (void)share;
+  return atomic_load(&job->level->stop) || hooke_clock_seconds() >= job->deadline;
+}
+
+static double deadline_of(const struct job *job, const hooke_study *study) {
+  const double now = hooke_clock_seconds();
+  return now + job->share * (study->deadline - now);
+}
+
+static void *work(void *ctx) {
+  struct level *level = ctx;
+  for (int32_t k; (k = atomic_fetch_add(&level->next, 1)) < level->count && !atomic_load(&level->stop);) {
+    struct job *job = &level->job[k];
+    const struct hooke_listener listener = {.on_progress = asked_to_stop, .ctx = job};
+    job->deadline = deadline_of(job, level->study);
+    job->status = hooke_study_run_row(level->study, job->method, job->value, &listener, &job->row);
+    job->row.timed_alone = 0;
+    if (job->status != HOOKE_OK) snprintf(job->message, sizeof job->message, "%s", hooke_last_error());
+  }
+  atomic_fetch_sub(&level->running, 1);
+  return NULL;
+}
+
+/* Side by side first, for the errors; then short rows once more, alone, for their times. The caller's thread works too, or
+ * listens: progress is told from it alone. */
+static int32_t run_side_by_side(struct level *level, int32_t threads) {
+  pthread_t thread[HOOKE_STUDY_METHODS];
+  int32_t started = 0;
+  atomic_store(&level->running, 0);
+  for (int32_t k = 0; k < threads && k < level->count; k++) {
+    atomic_fetch_add(&level->running, 1);
+    if (pthread_create(&thread[k], NULL, work, level) != 0) {
+      atomic_fetch_sub(&level->running, 1);
+      break;
+    }
+    started++;
+  }
+  if (started == 0) {
+    atomic_fetch_add(&level->running, 1);
+    work(level);
+  }
+  level->study->under_way = "rows side by side";
+  level->study->late = 0;
+  level->study->row_deadline = level->study->deadline;
+  while (atomic_load(&level->running) > 0) {
+    const struct timespec moment = {0, 20000000};
+    nanosleep(&moment, NULL);
+    if (hooke_study_tell_row(0.0, level->study) != 0) atomic_store(&level->stop, 1);
+  }
+  for (int32_t k = 0; k < started; k++)
+    pthread_join(thread[k], NULL);
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
+    struct job *job = &level->job[k];
+    if (job->status == HOOKE_STOPPED && hooke_clock_seconds() >= job->deadline) {
+      hooke_trial_release(&job->row.trial);
+      level->study->budget_spent = level->study->given_up[job->method] = 1;
+    } else if (job->status != HOOKE_OK)
+      status = hooke_fail(job->status, NULL, "%s", job->message);
+    else if (job->row.trial.status)
+      status = hooke_study_time_row(level->study, &job->row);
+  }
+  return status;
+}
+
+static int32_t run_one_by_one(struct level *level) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
+    struct job *job = &level->job[k];
+    const double begun = hooke_clock_seconds();
+    level->study->row_deadline = deadline_of(job, level->study);
+    status = hooke_study_measure(level->study, job->method, job->value, &job->row);
+    level->study->given_up[job->method] = level->study->late;
+    level->study->work_ahead = fmax(0.0, level->study->work_ahead - (hooke_clock_seconds() - begun));
+  }
+  return status;
+}
+
+/* Rows that ran, even the one that was stopped, stay. */
+static int32_t keep_rows(struct level *level) {
+  hooke_study *study = level->study;
+  int32_t status = HOOKE_OK;
+  if (study->row_count + level->count > study->row_capacity) {
+    const int64_t capacity = 2 * study->row_capacity + 64;
+    status = hooke_grow((void **)&study->row, study->row_count, capacity, sizeof *study->row);
+    if (status == HOOKE_OK) study->row_capacity = capacity;
+  }
+  for (int32_t k = 0; k < level->count; k++) {
+    struct job *job = &level->job[k];
+    if (status == HOOKE_OK && job->row.trial.status)
+      study->row[study->row_count++] = job->row;
+    else
+      hooke_trial_release(&job->row.trial);
+  }
+  return status;
+}
+
+static int compare_jobs(const void *a, const void *b) {
+  const struct job *x = a, *y = b;
+  return (x->expected > y->expected) - (x->expected < y->expected);
+}
+
+/* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none of the others
+ * from being run. */
+static void plan_level(hooke_study *study, int32_t number, struct level *level) {
+  double ahead = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    const double value = hooke_study_ladder(study, m, number);
+    if (isnan(value) || study->given_up[m]) continue;
+    /* of a first row nothing is known: it is begun, and ends when its share is over */
+    const double predicted = predict_seconds(study, m, value), next = fmax(0.0, predicted);
+    if (hooke_clock_seconds() + ahead + next > study->deadline) {
+      study->budget_spent = 1;
+      continue;
+    }
+    ahead += next;
+    level->job[level->count++] = (struct job){.method = m,
+                                              .value = value,
+                                              .expected = expect_seconds(study, m, value),
+                                              .share = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
+                                              .level = level};
+  }
+  qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);
+}
+
+/* A search is to have time for a run as fine as the reference. */
+static double end_of_rows(const hooke_study *study) {
+  const double end = study->begun + study->budget, left = end - hooke_clock_seconds();
+  if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
+  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_seconds);
+  return end - fmin(search, MOST_SEARCH * left);
+}
+
+int32_t hooke_study_run_ladders(hooke_study *study) {
+  const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
+  int32_t status = HOOKE_OK;
+  struct level *level = hooke_new(1, sizeof *level);
+  if (level == NULL) return HOOKE_NO_MEMORY;
+  study->deadline = end_of_rows(study);
+  for (int32_t number = 0; status == HOOKE_OK; number++) {
+    *level = (struct level){.study = study};
+    study->work_ahead = seconds_ahead(study, number);
+    plan_level(study, number, level);
+    if (level->count == 0) break;
+    status = threads > 1 ? run_side_by_side(level, threads) : run_one_by_one(level);
+    const int32_t kept = keep_rows(level);
+    if (status == HOOKE_OK) status = kept;
+  }
+  hooke_free(level);
+  return status;
+}

@@ -1,0 +1,90 @@
+#include "measure/trial/balance.h"
+
+#include "core/memory.h"
+#include "model/system.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const double FACTOR = 4.0; /* twice what first order needs */
+
+static double largest_energy(const hooke_system *system, const double *q, const double *v) {
+  return fabs(hooke_system_kinetic_energy(system, v)) + fabs(hooke_system_spring_energy(system, q)) +
+         fabs(hooke_system_bending_energy(system, q)) + fabs(hooke_system_altitude_energy(system, q)) +
+         fabs(hooke_system_gravity_energy(system, q));
+}
+
+/* Power that driven particles put in and that becomes heat, at a state. */
+static int32_t find_powers(const struct hooke_balance *balance, const hooke_state *state, double *in,
+                           double *out) {
+  const hooke_system *system = balance->system;
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  *out = balance->dissipated_power(system, q, v);
+  *in = 0.0;
+  if (balance->force == NULL) return HOOKE_OK;
+  const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
+  for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
+    if (system->held[p] != HOOKE_HELD_DRIVEN) continue;
+    for (int a = 0; a < 3; a++)
+      *in -= balance->force[3 * p + a] * v[3 * p + a];
+  }
+  return status;
+}
+
+int32_t hooke_balance_begin(struct hooke_balance *balance, const hooke_system *system,
+                            const hooke_state *state) {
+  *balance = (struct hooke_balance){.system = system, .dissipated_power = hooke_system_dissipated_power};
+  if (system->drive_count > 0) {
+    balance->force = hooke_new(3 * system->particle_count, sizeof(double));
+    if (balance->force == NULL) return HOOKE_NO_MEMORY;
+  }
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  balance->energy = hooke_system_energy(system, q, v);
+  balance->scale = largest_energy(system, q, v);
+  balance->time = hooke_state_time(state);
+  return find_powers(balance, state, &balance->power_in, &balance->power_out);
+}
+
+int32_t hooke_balance_step(struct hooke_balance *balance, const hooke_state *state) {
+  double in, out;
+  const int32_t status = find_powers(balance, state, &in, &out);
+  const double step = hooke_state_time(state) - balance->time;
+  if (status != HOOKE_OK || step == 0.0) return status;
+  balance->work += 0.5 * step * (balance->power_in + in);
+  balance->heat += 0.5 * step * (balance->power_out + out);
+  balance->power_in = in;
+  balance->power_out = out;
+  balance->time = hooke_state_time(state);
+  balance->points++;
+  return HOOKE_OK;
+}
+
+void hooke_balance_close(struct hooke_balance *balance, const hooke_state *state) {
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  const double energy = hooke_system_energy(balance->system, q, v);
+  balance->residual = ((energy - balance->energy) - balance->work) + balance->heat;
+  balance->scale = fmax(balance->scale, largest_energy(balance->system, q, v));
+  balance->scale = fmax(balance->scale, fabs(balance->work) + balance->heat);
+}
+
+void hooke_balance_release(struct hooke_balance *balance) {
+  hooke_free(balance->force);
+  balance->force = NULL;
+}
+
+double hooke_balance_floor(const struct hooke_balance *balance) {
+  return 8.0 * DBL_EPSILON * (double)(balance->points + 8) * balance->scale;
+}
+
+int32_t hooke_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
+                            double *largest, double *bound) {
+  double difference = 0.0;
+  *largest = 0.0;
+  for (int64_t k = 0; k < count; k++) {
+    *largest = fmax(*largest, fabs(coarse[k]));
+    difference = fmax(difference, fabs(coarse[k] - fine[k]));
+  }
+  *bound = FACTOR * difference + floor;
+  return *largest <= *bound;
+}

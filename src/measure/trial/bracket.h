@@ -1,0 +1,29 @@
+/* The search for the step at which something begins to fail: a bracket about a guess, widened until both sides are known,
+ * then halved. */
+#ifndef HOOKE_MEASURE_TRIAL_BRACKET_H
+#define HOOKE_MEASURE_TRIAL_BRACKET_H
+
+#include <stdint.h>
+
+enum hooke_trial_end {
+  HOOKE_TRIAL_FAILS,
+  HOOKE_TRIAL_HOLDS,
+  HOOKE_TRIAL_UNKNOWN /* the search ends without an answer */
+};
+
+struct hooke_bracket {
+  /* What happens at `step`: a status. */
+  int32_t (*try_step)(void *ctx, double step, enum hooke_trial_end *end);
+  void *ctx;
+  double accuracy;    /* of the limit, relative */
+  double least, most; /* steps beyond which nobody looks */
+  double holds,
+      fails; /* the bracket: largest step known to hold, smallest known to fail; 0 and infinity at first */
+  int32_t unknown; /* a trial had no answer: the bracket is as far as it got */
+};
+
+/* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond `least` or `most`,
+ * or a trial has no answer. */
+int32_t hooke_bracket_search(struct hooke_bracket *bracket, double guess);
+
+#endif

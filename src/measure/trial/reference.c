@@ -1,0 +1,231 @@
+#include "measure/trial/reference_run.h"
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "measure/spectrum/node_blocks.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Tolerances of the check, level by level. The run that is kept is ten times tighter, so that their distance is mostly
+ * the error of the check, and a bound on that of the reference; at the tightest, where rounding takes over, both have the
+ * same. Without a budget the first is tight at once. */
+static const double LOOSEST = 1e-4, QUICK = 1e-7, TIGHT = 1e-9, TIGHTEST = 1e-14;
+static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a share of the extent */
+static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* from one level to the next */
+static const double AIM = 0.3;                                /* of the distance that is wanted */
+static const double COST_POWER = 1.0 / 6.0, COST_SPARE = 1.1; /* of a level, in the factor */
+enum { EXPECTED_LEVELS = 2 };
+
+static const double CLOSE = 1e-9;  /* agreement, as a share of the extent, at which tightening ends */
+static const double DIGITS = 1e-6; /* trusted digits where nothing else is wanted or can be had */
+static const double SAFETY =
+    2.0; /* the two may be off in the same direction, and then by more than they part */
+static const double CHECK_COST = 2.0; /* of the check against the first method, before it is known */
+/* Of the budget: where the first run ends, so that there is time to check it; where the last check does; and where there
+ * is no further level once all frames are trusted. */
+static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
+
+int32_t hooke_reference_method(const hooke_system *system, const double *q, const char **method) {
+  struct hooke_node_blocks blocks;
+  const int32_t status = hooke_node_blocks_create(system, q, &blocks);
+  *method = "cvode-adams";
+  if (status != HOOKE_OK) return status;
+  if (hooke_node_blocks_damping_rate(&blocks) > 2.0 * hooke_node_blocks_frequency(&blocks))
+    *method = "cvode-bdf";
+  hooke_node_blocks_release(&blocks);
+  return HOOKE_OK;
+}
+
+void hooke_reference_release(struct hooke_reference *reference) {
+  hooke_frames_release(&reference->frames);
+  memset(reference, 0, sizeof *reference);
+}
+
+/* Before any run: the start alone, and 1 m for a scene without size. */
+static int32_t find_extent(const hooke_state *state, double *extent) {
+  *extent = hooke_reference_diagonal(hooke_state_size(state) / 3, hooke_state_position(state));
+  if (!(*extent > 0.0)) *extent = 1.0;
+  return HOOKE_OK;
+}
+
+/* ---- agreement ---- */
+
+/* Frames from the first on whose distance, with safety, is at most `digits`. */
+static void trust(struct hooke_reference *r, const struct hooke_trial *check, double digits) {
+  r->digits = digits;
+  r->agreement = r->energy_agreement = 0.0;
+  for (r->trusted = 0; r->trusted < r->checked; r->trusted++) {
+    const double apart = SAFETY * check->error_at[r->trusted];
+    if (!(apart <= digits)) break;
+    r->agreement = fmax(r->agreement, apart);
+    r->energy_agreement = fmax(r->energy_agreement, SAFETY * fabs(check->drift_at[r->trusted]));
+  }
+}
+
+/* Where the wanted digits are beyond reach from the first frame on, as many as there may be. */
+static void find_trust(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                       const struct hooke_trial *check) {
+  const double fallback = DIGITS * r->extent, wanted = watch->request->digits;
+  r->checked = 0;
+  watch->apart = 0.0;
+  while (r->checked < r->frames.recorded && !isnan(check->error_at[r->checked]))
+    watch->apart = fmax(watch->apart, SAFETY * check->error_at[r->checked++]);
+  trust(r, check, isnan(wanted) ? fallback : wanted);
+  r->coarse = r->trusted < 2 && r->digits < fallback;
+  if (r->coarse) trust(r, check, fallback);
+  hooke_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
+}
+
+/* ---- levels ---- */
+
+/* What is still to come beside this level, for progress: the levels that are usual, and the runs for the growth. */
+static double ahead_of_level(const struct hooke_reference_watch *watch) {
+  const double growth = watch->request->enough ? 0.0 : 1.0;
+  return growth + fmax(0.0, EXPECTED_LEVELS - watch->levels) * (1.0 + CHECK_COST);
+}
+
+/* One level: a run, and another to check it. */
+static int32_t agree(struct hooke_reference_watch *watch, struct hooke_reference *r, double tolerance,
+                     struct hooke_trial *check) {
+  const double budget = watch->request->budget;
+  const int first = r->check == NULL;
+  const double deadline = watch->begun + LEVELS_SHARE * budget;
+  struct hooke_reference_cost cost;
+  r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
+  watch->levels++;
+  watch->ahead = ahead_of_level(watch) + CHECK_COST;
+  int32_t status = hooke_reference_make_frames(
+      watch, r, first ? watch->begun + FIRST_RUN_SHARE * budget : deadline, &cost);
+  if (status != HOOKE_OK || r->frames.recorded < 2) return status;
+  if (first) status = hooke_reference_choose_check(watch, r, tolerance, cost);
+  watch->ahead = ahead_of_level(watch);
+  const struct hooke_listener listener = hooke_reference_listen(watch, deadline);
+  if (status == HOOKE_OK) status = hooke_reference_judge(watch, r, r->check, tolerance, &listener, check);
+  if (status == HOOKE_OK) find_trust(watch, r, check);
+  return status;
+}
+
+/* The further agreement is kept, of equals the later; the wanted digits come before any others. */
+static void keep_further(struct hooke_reference *r, struct hooke_reference *next) {
+  const int better = next->coarse != r->coarse ? r->coarse : next->trusted >= r->trusted;
+  struct hooke_reference *worse = better ? r : next;
+  hooke_frames_release(&worse->frames);
+  if (worse == r) *r = *next;
+}
+
+static double first_tolerance(const struct hooke_reference_request *request, double extent) {
+  if (!request->enough && isinf(request->budget)) return TIGHT;
+  if (isnan(request->digits)) return request->enough ? FIRST_SHARE * DIGITS : QUICK;
+  return fmax(TIGHT, fmin(LOOSEST, FIRST_SHARE * request->digits / extent));
+}
+
+static int is_all(const struct hooke_reference *r) {
+  return r->trusted == r->frames.count && !r->coarse;
+}
+
+/* To where the two should agree: errors go with the tolerance, as long as motion is not chaotic. */
+static double next_tolerance(const struct hooke_reference_watch *watch, const struct hooke_reference *r,
+                             double tolerance) {
+  const double aim = AIM * (is_all(r) ? CLOSE * r->extent : r->digits) / watch->apart;
+  const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
+  return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
+}
+
+/* 1 if the reference is as good as is asked for. */
+static int is_enough(const struct hooke_reference_request *request, const struct hooke_reference *r) {
+  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
+}
+
+/* 1 if an integrator gave up, which it may at one tolerance and not at another. */
+static int gave_up(int32_t status) {
+  return status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED || status == HOOKE_STEP_LIMIT;
+}
+
+/* A level beside what is kept so far, whose place it may take. */
+static int32_t run_level(struct hooke_reference_watch *watch, struct hooke_reference *r, double tolerance,
+                         struct hooke_trial *check) {
+  struct hooke_reference next = *r;
+  next.trusted = next.checked = 0;
+  int32_t status = hooke_frames_create(r->frames.system, r->frames.count, &next.frames);
+  if (status == HOOKE_OK)
+    status = hooke_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
+  if (status == HOOKE_OK) status = agree(watch, &next, tolerance, check);
+  if (status != HOOKE_OK) {
+    hooke_frames_release(&next.frames);
+    return status;
+  }
+  watch->cut = next.checked < next.frames.count;
+  keep_further(r, &next);
+  return HOOKE_OK;
+}
+
+/* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the share of
+ * the budget for levels ends. */
+static int has_time(const struct hooke_reference_watch *watch, const struct hooke_reference *r, double times,
+                    double seconds) {
+  const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
+  const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
+  return hooke_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
+}
+
+/* Tightens until the two agree, tolerances end, or time does. */
+static int32_t tighten(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                       struct hooke_trial *check) {
+  double tolerance = first_tolerance(watch->request, r->extent);
+  int32_t status = hooke_reference_choose_first(watch, r, 0.1 * tolerance);
+  if (status != HOOKE_OK) return status;
+  for (;;) {
+    const double begun = hooke_clock_seconds();
+    status = run_level(watch, r, tolerance, check);
+    const int failed = gave_up(status);
+    if (failed && r->checked > 0) status = HOOKE_OK;
+    if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
+    if (r->checked > 0 && (failed || is_enough(watch->request, r) || tolerance <= TIGHTEST)) break;
+    const double seconds = hooke_clock_seconds() - begun;
+    double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
+    if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
+    r->hurried = watch->cut || !has_time(watch, r, tolerance / finer, seconds);
+    if (r->hurried) break;
+    tolerance = finer;
+  }
+  if (status == HOOKE_OK && r->checked < 2) {
+    status =
+        hooke_fail(HOOKE_BAD_VALUE, "budget",
+                   "is too small: of its share of %.3g s the reference came to no frame after the start; "
+                   "give a larger budget, a shorter duration or a smaller every",
+                   watch->request->budget);
+  }
+  return status;
+}
+
+int32_t hooke_reference_create(const hooke_system *system, const struct hooke_reference_request *request,
+                               struct hooke_reference *r) {
+  struct hooke_reference_watch watch = {.request = request, .begun = hooke_clock_seconds()};
+  struct hooke_trial trial = {.status = NULL};
+  hooke_state *state = NULL;
+  *r = (struct hooke_reference){.growth = NAN,
+                                .growth_probability = NAN,
+                                .growth_seen = NAN,
+                                .agreement = NAN,
+                                .energy_agreement = NAN,
+                                .coarse = 1};
+  if (!hooke_method_is_built("cvode-adams")) {
+    return hooke_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
+  }
+  int32_t status = hooke_state_create(system, &state);
+  if (status == HOOKE_OK) status = hooke_reference_method(system, hooke_state_position(state), &r->method);
+  if (status == HOOKE_OK) status = find_extent(state, &r->extent);
+  hooke_state_destroy(state);
+  if (status == HOOKE_OK) status = hooke_frames_create(system, request->frame_count, &r->frames);
+  if (status == HOOKE_OK)
+    status = hooke_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
+  if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
+  if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
+  if (status == HOOKE_OK && !request->enough) status = hooke_reference_measure_growth(&watch, r, &trial);
+  hooke_trial_release(&trial);
+  r->wall_seconds = hooke_clock_seconds() - watch.begun;
+  if (status != HOOKE_OK) hooke_reference_release(r);
+  return status;
+}

@@ -1,0 +1,225 @@
+/* How much small displacements of the start grow: the largest singular value of the map from positions and velocities at
+ * the start, velocities times the duration, to positions at any frame. A small scene is displaced in every coordinate, and
+ * the singular values are those of the differences. Else random displacements bound them (Halko, Martinsson and Tropp 2011,
+ * lemma 4.1): of k of them, whose components are normal, 10 sqrt(2/pi) times the largest displacement seen is above with
+ * probability 1 - 10^-k. */
+#include "measure/trial/reference_run.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/random.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { RANDOM = 3, FEWEST = 2 };     /* random displacements, and of those in a bound */
+enum { MOST_COORDINATES = 36 };      /* that are displaced one by one */
+static const int64_t ROOM = 1000000; /* numbers kept for that */
+static const double COORDINATES_SECONDS = 0.5,
+                    COORDINATES_SHARE = 1.0; /* in any case, and of the reference's time */
+static const uint64_t SEED = 1;
+static const double BOUND = 7.978845608028654; /* 10 sqrt(2/pi) */
+static const double DISPLACEMENT = 1e-7;       /* of a component, as a share of the extent */
+static const double SATURATED = 0.02;  /* of the extent: displacements that large are not small any more */
+static const double TOLERANCE = 1e-10; /* of the runs, unless the reference's is looser and good enough */
+static const double DROWNED = 1e-2;    /* agreement over displacement, from which on it is not */
+static const double TIGHTER = 2.0;     /* what such a run may take, times that of the reference */
+enum { MOST_TURNS = 200 };             /* of the iteration for a singular value */
+
+/* A displacement of the start, and what became of it. */
+struct displacement {
+  const struct hooke_reference *base;
+  int64_t coordinate; /* that is displaced, positions before velocities; -1: all, at random */
+  uint64_t random;
+  double length;   /* standard deviation of a component [m] */
+  double duration; /* that of a velocity is `length` over it [s] */
+  double square;   /* sum of the squares of all components over that of `length` */
+  double *kept;    /* free coordinates at frames, less those of `base`, over `length`; NULL: not kept */
+};
+
+static void displace(hooke_state *state, void *ctx) {
+  struct displacement *d = ((struct hooke_reference_watch *)ctx)->displacement;
+  const struct hooke_frames *frames = &d->base->frames;
+  const int64_t size = 3 * frames->free_count;
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  d->square = 0.0;
+  for (int64_t k = 0; k < size; k++) {
+    const int64_t i = 3 * frames->free_particle[k / 3] + k % 3;
+    const int all = d->coordinate < 0;
+    const double x = all ? hooke_random_normal(&d->random) : (double)(k == d->coordinate);
+    const double y = all ? hooke_random_normal(&d->random) : (double)(k + size == d->coordinate);
+    q[i] += d->length * x;
+    v[i] += d->length / d->duration * y;
+    d->square += x * x + y * y;
+  }
+}
+
+static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
+  const struct displacement *d = ((struct hooke_reference_watch *)ctx)->displacement;
+  const struct hooke_frames *frames = &d->base->frames;
+  const int64_t size = 3 * frames->free_count;
+  (void)step;
+  if (d->kept == NULL || frame >= frames->recorded) return 0;
+  for (int64_t k = 0; k < size; k++) {
+    const int64_t i = 3 * frames->free_particle[k / 3] + k % 3;
+    d->kept[frame * size + k] =
+        (hooke_state_position(state)[i] - frames->position[frame * frames->size + i]) / d->length;
+  }
+  return 0;
+}
+
+/* One run; `seen` is the largest displacement over the frames, in units of `length`, or NaN if time was too short. */
+static int32_t run_displaced(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                             struct displacement *d, double deadline, struct hooke_trial *trial,
+                             double *seen) {
+  const struct hooke_reference *base = d->base;
+  struct hooke_listener listener = hooke_reference_listen(watch, deadline);
+  listener.on_start = displace;
+  listener.on_frame = keep_frame;
+  watch->displacement = d;
+  const int32_t status =
+      hooke_reference_judge(watch, base, base->method, fmax(base->rtol, TOLERANCE), &listener, trial);
+  watch->displacement = NULL;
+  *seen = NAN;
+  if (status != HOOKE_OK || watch->expired) return status;
+  *seen = trial->error * sqrt((double)base->frames.free_count) / d->length;
+  r->growth_seen = fmax(r->growth_seen, *seen / sqrt(d->square));
+  r->growth_saturated |= trial->error > SATURATED * r->extent;
+  r->displacements++;
+  return HOOKE_OK;
+}
+
+/* ---- at random ---- */
+
+static int32_t displace_at_random(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                                  struct displacement *d, double deadline, struct hooke_trial *trial) {
+  double most = 0.0;
+  d->coordinate = -1;
+  for (int k = 0; k < RANDOM; k++) {
+    double seen;
+    watch->ahead = RANDOM - 1 - k;
+    const int32_t status = run_displaced(watch, r, d, deadline, trial, &seen);
+    if (status != HOOKE_OK) return status;
+    if (isnan(seen)) break;
+    most = fmax(most, seen);
+  }
+  if (r->displacements < FEWEST || r->growth_saturated) return HOOKE_OK;
+  r->growth = BOUND * most;
+  r->growth_probability = 1.0 - pow(10.0, -r->displacements);
+  return HOOKE_OK;
+}
+
+/* ---- every coordinate ---- */
+
+/* x = A^T A x for the columns of A, `rows` numbers each, `stride` apart. */
+static void apply(int64_t rows, int64_t columns, int64_t stride, const double *column,
+                  double x[MOST_COORDINATES]) {
+  double y[MOST_COORDINATES / 2] = {0.0};
+  for (int64_t j = 0; j < columns; j++)
+    for (int64_t i = 0; i < rows; i++)
+      y[i] += column[j * stride + i] * x[j];
+  for (int64_t j = 0; j < columns; j++) {
+    x[j] = 0.0;
+    for (int64_t i = 0; i < rows; i++)
+      x[j] += column[j * stride + i] * y[i];
+  }
+}
+
+static double norm(int64_t count, const double *x) {
+  double square = 0.0;
+  for (int64_t k = 0; k < count; k++)
+    square += x[k] * x[k];
+  return sqrt(square);
+}
+
+/* The largest singular value, by iteration from x, which becomes its vector. */
+static double singular_value(int64_t rows, int64_t columns, int64_t stride, const double *column,
+                             double x[MOST_COORDINATES]) {
+  double value = 0.0;
+  for (int turn = 0; turn < MOST_TURNS; turn++) {
+    const double length = norm(columns, x), before = value;
+    if (!(length > 0.0)) return 0.0;
+    for (int64_t j = 0; j < columns; j++)
+      x[j] /= length;
+    apply(rows, columns, stride, column, x);
+    value = sqrt(norm(columns, x));
+    if (fabs(value - before) <= 1e-6 * value) break;
+  }
+  return value;
+}
+
+static double largest_singular_value(const struct hooke_frames *frames, const double *kept) {
+  const int64_t rows = 3 * frames->free_count, columns = 2 * rows, stride = frames->recorded * rows;
+  uint64_t random = SEED;
+  double largest = 0.0;
+  for (int64_t f = 0; f < frames->recorded; f++) {
+    double x[MOST_COORDINATES];
+    for (int64_t j = 0; j < columns; j++)
+      x[j] = hooke_random_normal(&random);
+    largest = fmax(largest, singular_value(rows, columns, stride, kept + f * rows, x));
+  }
+  return largest;
+}
+
+static int32_t displace_all(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                            struct displacement *d, double deadline, struct hooke_trial *trial) {
+  const struct hooke_frames *frames = &d->base->frames;
+  const int64_t columns = 6 * frames->free_count, stride = frames->recorded * columns / 2;
+  double *kept = hooke_new(columns * stride, sizeof *kept);
+  int32_t status = kept ? HOOKE_OK : HOOKE_NO_MEMORY;
+  for (d->coordinate = 0; d->coordinate < columns && status == HOOKE_OK; d->coordinate++) {
+    double seen;
+    d->kept = kept + d->coordinate * stride;
+    watch->ahead = (double)(columns - 1 - d->coordinate);
+    status = run_displaced(watch, r, d, deadline, trial, &seen);
+    if (isnan(seen)) break;
+  }
+  if (status == HOOKE_OK && r->displacements == columns && !r->growth_saturated) {
+    r->growth = largest_singular_value(frames, kept);
+    r->growth_probability = 1.0;
+  }
+  hooke_free(kept);
+  return status;
+}
+
+/* ---- which of the two ---- */
+
+static int takes_all(const struct hooke_reference_watch *watch, const struct hooke_reference *base,
+                     double deadline) {
+  const int64_t columns = 6 * base->frames.free_count;
+  if (columns > MOST_COORDINATES || columns * columns / 2 * base->frames.recorded > ROOM) return 0;
+  const double now = hooke_clock_seconds(), seconds = (double)columns * base->run_seconds;
+  return seconds <=
+         fmin(0.5 * (deadline - now), fmax(COORDINATES_SECONDS, COORDINATES_SHARE * (now - watch->begun)));
+}
+
+static int32_t displace_and_run(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                                const struct hooke_reference *base, double deadline,
+                                struct hooke_trial *trial) {
+  struct displacement d = {.base = base,
+                           .random = SEED,
+                           .length = DISPLACEMENT * r->extent,
+                           .duration = hooke_options_number(watch->request->run, "duration")};
+  return takes_all(watch, base, deadline) ? displace_all(watch, r, &d, deadline, trial)
+                                          : displace_at_random(watch, r, &d, deadline, trial);
+}
+
+int32_t hooke_reference_measure_growth(struct hooke_reference_watch *watch, struct hooke_reference *r,
+                                       struct hooke_trial *trial) {
+  const double deadline = watch->begun + watch->request->budget;
+  if (r->frames.free_count == 0) return HOOKE_OK;
+  if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
+    return displace_and_run(watch, r, r, deadline, trial);
+  if (hooke_clock_seconds() + 2.0 * TIGHTER * r->run_seconds > deadline) return HOOKE_OK;
+  struct hooke_reference base = *r;
+  struct hooke_reference_cost cost;
+  base.rtol = fmin(r->rtol, TOLERANCE);
+  watch->ahead = RANDOM;
+  int32_t status = hooke_frames_create(r->frames.system, r->frames.count, &base.frames);
+  if (status == HOOKE_OK) status = hooke_reference_make_frames(watch, &base, deadline, &cost);
+  if (status == HOOKE_OK && base.frames.recorded > 1)
+    status = displace_and_run(watch, r, &base, deadline, trial);
+  hooke_frames_release(&base.frames);
+  return status;
+}

@@ -1,0 +1,172 @@
+#include "measure/trial/trial.h"
+
+#include "core/figure.h"
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+int32_t hooke_trial_create(const struct hooke_frames *reference, struct hooke_trial *trial) {
+  *trial = (struct hooke_trial){.status = NULL};
+  trial->error_at = hooke_new(reference->count, sizeof(double));
+  trial->drift_at = hooke_new(reference->count, sizeof(double));
+  const int32_t status =
+      hooke_watched_series_create(reference->watched.list, reference->count, &trial->watched);
+  if (trial->error_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
+  hooke_trial_release(trial);
+  return HOOKE_NO_MEMORY;
+}
+
+void hooke_trial_release(struct hooke_trial *trial) {
+  hooke_free(trial->error_at);
+  hooke_free(trial->drift_at);
+  hooke_watched_series_release(&trial->watched);
+  memset(trial, 0, sizeof *trial);
+}
+
+double hooke_trial_number(const struct hooke_trial *trial, const char *what) {
+  if (trial->status == NULL) return NAN;
+  const struct hooke_figure numbers[] = {
+      {"step", trial->step},
+      {"rtol", trial->rtol},
+      {"atol", trial->atol},
+      {"error", trial->error},
+      {"error_max", trial->error_max},
+      {"error_final", trial->error_final},
+      {"energy_drift", trial->energy_drift},
+      {"force_evaluations", trial->force_evaluations},
+      {"steps", trial->steps},
+      {"linear_iterations", trial->linear_iterations},
+      {"wall_seconds", trial->wall_seconds},
+  };
+  return HOOKE_FIGURE(numbers, what);
+}
+
+/* ---- a run under way ---- */
+
+struct run {
+  struct hooke_frames *record;          /* or */
+  const struct hooke_frames *reference; /* with */
+  struct hooke_trial *trial;
+  int64_t frames, next;
+  double begin, duration;
+  const struct hooke_listener *listener;
+};
+
+static int32_t tell(double share, const char *method, void *ctx) {
+  const struct run *run = ctx;
+  (void)method;
+  if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
+  return run->listener->on_progress(fmin(1.0, share), run->listener->ctx);
+}
+
+static void judge(const struct run *run, int64_t f, const hooke_state *state) {
+  struct hooke_trial *trial = run->trial;
+  const double *q = hooke_state_position(state);
+  double largest;
+  trial->error_at[f] = hooke_frames_distance(run->reference, f, q, &largest);
+  trial->drift_at[f] =
+      hooke_system_energy(run->reference->system, q, hooke_state_velocity(state)) - run->reference->energy[f];
+  hooke_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
+  trial->error = fmax(trial->error, trial->error_at[f]);
+  trial->error_max = fmax(trial->error_max, largest);
+  trial->error_final = trial->error_at[f];
+  trial->energy_drift = fmax(trial->energy_drift, fabs(trial->drift_at[f]));
+}
+
+static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
+  struct run *run = ctx;
+  const int64_t f = run->next++;
+  if (run->record)
+    hooke_frames_record(run->record, state);
+  else if (f < run->frames)
+    judge(run, f, state);
+  int32_t value = 0;
+  if (run->listener && run->listener->on_frame) {
+    value = run->listener->on_frame(f, step, state, run->listener->ctx);
+  }
+  return value ? value : tell((hooke_state_time(state) - run->begin) / run->duration, NULL, run);
+}
+
+/* One run on a fresh state; the integrator comes out for its counts. */
+static int32_t run_once(struct run *run, const hooke_system *system, const hooke_options *options,
+                        hooke_integrator **integrator) {
+  hooke_state *state = NULL;
+  int32_t status = hooke_integrator_create(system, options, integrator);
+  if (status == HOOKE_OK) status = hooke_state_create(system, &state);
+  if (status == HOOKE_OK) {
+    if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
+    run->begin = hooke_state_time(state);
+    run->duration = hooke_options_number(options, "duration");
+    hooke_integrator_on_frame(*integrator, see_frame, run);
+    hooke_integrator_on_progress(*integrator, 0.0, tell, run);
+    status = hooke_integrator_run(*integrator, state);
+  }
+  hooke_state_destroy(state);
+  return status;
+}
+
+static void keep_counts(struct hooke_trial *trial, const hooke_integrator *integrator) {
+  const hooke_options *options = hooke_integrator_options(integrator);
+  const int adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
+  trial->step = adaptive ? NAN : hooke_options_number(options, "step");
+  trial->rtol = adaptive ? hooke_options_number(options, "rtol") : NAN;
+  trial->atol = adaptive ? hooke_options_number(options, "atol") : NAN;
+  trial->force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
+  trial->steps = (double)hooke_integrator_count(integrator, "steps");
+  trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
+  trial->wall_seconds = hooke_integrator_wall_seconds(integrator);
+}
+
+int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *reference, int64_t frames,
+                        const hooke_options *options, const struct hooke_listener *listener) {
+  struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
+  hooke_integrator *integrator = NULL;
+  trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
+  for (int64_t f = 0; f < reference->count; f++)
+    trial->error_at[f] = trial->drift_at[f] = NAN;
+  hooke_watched_series_clear(&trial->watched);
+  const int32_t status = run_once(&run, reference->system, options, &integrator);
+  if (integrator == NULL) return status;
+  keep_counts(trial, integrator);
+  hooke_integrator_destroy(integrator);
+  trial->status = status == HOOKE_OK         ? "finished"
+                  : status == HOOKE_DIVERGED ? "diverged"
+                  : status == HOOKE_STOPPED  ? "stopped"
+                                             : "failed";
+  if (status == HOOKE_OK) {
+    hooke_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
+    return HOOKE_OK;
+  }
+  trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
+  const int is_result =
+      status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+  return is_result ? HOOKE_OK : status;
+}
+
+int32_t hooke_frames_run(struct hooke_frames *frames, const hooke_options *options,
+                         const struct hooke_listener *listener, double *wall_seconds,
+                         double *force_evaluations) {
+  struct run run = {.record = frames, .listener = listener};
+  hooke_integrator *integrator = NULL;
+  frames->recorded = 0;
+  const int32_t status = run_once(&run, frames->system, options, &integrator);
+  if (integrator && wall_seconds) *wall_seconds = hooke_integrator_wall_seconds(integrator);
+  if (integrator && force_evaluations) {
+    *force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
+  }
+  hooke_integrator_destroy(integrator);
+  return status;
+}
+
+int32_t hooke_trial_set_value(hooke_options *run, const char *method, double value) {
+  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  int32_t status = hooke_options_set_text(run, "method", method);
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
+    return hooke_options_set_number(run, "step", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * share);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}

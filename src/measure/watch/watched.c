@@ -1,0 +1,309 @@
+/* The grammar of what is watched. */
+#include "measure/watch/watched.h"
+
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "measure/spectrum/naming.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAMES_SIZE = 256, TEXT_SIZE = 512 };
+
+/* What is being read: for messages the option and the text as it was written. */
+struct reading {
+  const hooke_system *system;
+  const char *place, *whole;
+};
+
+/* ---- names ---- */
+
+static const char *part_name(const hooke_system *system, int64_t part) {
+  return part < system->part_count ? system->part[part].name : NULL;
+}
+
+static const char *group_name(const hooke_system *system, int64_t group) {
+  if (group >= system->group_count) return NULL;
+  return system->group[group].name ? system->group[group].name : "";
+}
+
+typedef const char *name_of(const hooke_system *system, int64_t number);
+
+/* Adds the names to a text, each once, as far as there is room. */
+static void list_names(const hooke_system *system, name_of *name, char text[NAMES_SIZE]) {
+  for (int64_t k = 0; name(system, k); k++) {
+    const size_t used = strlen(text), length = strlen(name(system, k));
+    int64_t first = 0;
+    while (strcmp(name(system, first), name(system, k)) != 0)
+      first++;
+    if (length == 0 || first < k) continue;
+    if (used + length + sizeof ", ..." > NAMES_SIZE) {
+      snprintf(text + used, NAMES_SIZE - used, ", ...");
+      return;
+    }
+    snprintf(text + used, NAMES_SIZE - used, "%s%s", used ? ", " : "", name(system, k));
+  }
+}
+
+/* ---- numbers ---- */
+
+/* The number that `text` begins with, and where it ends; -1 for none, or one past 64 bits. */
+static int64_t read_number(const char *text, const char **end) {
+  int64_t number = 0;
+  const char *at = text;
+  for (; *at >= '0' && *at <= '9'; at++) {
+    if (number > (INT64_MAX - 9) / 10) return -1;
+    number = 10 * number + (*at - '0');
+  }
+  *end = at;
+  return at > text ? number : -1;
+}
+
+/* The index of "name:index", and the text cut behind the name; -1 if there is none. */
+static int64_t cut_index(char *text) {
+  char *colon = strrchr(text, ':');
+  const char *end;
+  if (colon == NULL) return -1;
+  const int64_t index = read_number(colon + 1, &end);
+  if (index < 0 || *end) return -1;
+  *colon = '\0';
+  return index;
+}
+
+/* ---- failures ---- */
+
+static int32_t refuse(const struct reading *reading) {
+  char shown[HOOKE_OPTION_SHOWN];
+  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  return hooke_fail(
+      HOOKE_BAD_VALUE, reading->place,
+      "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle), part:0.y, group:0.length, .strain "
+      "or "
+      ".tension (a spring), energy, kinetic, potential, and period:0.y (of any of these); indices begin at 0",
+      shown);
+}
+
+static int32_t refuse_name(const struct reading *reading, const char *what, name_of *name) {
+  char shown[HOOKE_OPTION_SHOWN], known[NAMES_SIZE] = "";
+  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  list_names(reading->system, name, known);
+  return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": there is no %s of that name; allowed: %s",
+                    shown, what, known[0] ? known : "none, since the scene names none");
+}
+
+static int32_t refuse_index(const struct reading *reading, const char *of, const char *what, int64_t count) {
+  char shown[HOOKE_OPTION_SHOWN];
+  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  if (count == 0) {
+    return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has no %ss", shown, of, what);
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has the %ss 0 to %lld", shown, of, what,
+                    (long long)count - 1);
+}
+
+/* ---- one quantity ---- */
+
+/* "57", or "line:0" */
+static int32_t read_particle(const struct reading *reading, char *text, struct hooke_watched *watched) {
+  const hooke_system *system = reading->system;
+  const char *end;
+  const int64_t number = read_number(text, &end);
+  watched->kind = HOOKE_WATCHED_COORDINATE;
+  watched->particle = number;
+  if (number >= 0 && *end == '\0') {
+    if (number < system->particle_count) return HOOKE_OK;
+    return refuse_index(reading, "the scene", "particle", system->particle_count);
+  }
+  const int64_t index = cut_index(text);
+  if (index < 0) return refuse(reading);
+  for (int64_t k = 0; k < system->part_count; k++) {
+    if (strcmp(system->part[k].name, text) != 0) continue;
+    if (index >= system->part[k].count) return refuse_index(reading, text, "particle", system->part[k].count);
+    watched->particle = system->part[k].first + index;
+    return HOOKE_OK;
+  }
+  return refuse_name(reading, "part", part_name);
+}
+
+/* A group has no spring of an index that anybody knows if some of its springs do nothing: they are gone. */
+static int32_t refuse_gaps(const struct reading *reading, const struct hooke_group *group) {
+  char shown[HOOKE_OPTION_SHOWN];
+  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  return hooke_fail(HOOKE_BAD_VALUE, reading->place,
+                    "\"%s\": %lld springs of %.80s have neither stiffness nor damping and are left out, so "
+                    "the others have no "
+                    "index; give those another group",
+                    shown, (long long)group->dropped, group->name);
+}
+
+/* "line.stretch:3"; groups that share a name are counted as one. */
+static int32_t read_spring(const struct reading *reading, char *text, struct hooke_watched *watched) {
+  const hooke_system *system = reading->system;
+  int64_t index = cut_index(text), first = 0, count = 0, known = 0;
+  if (index < 0) return refuse(reading);
+  const int64_t asked = index;
+  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+    const struct hooke_group *group = &system->group[g];
+    if (text[0] == '\0' || strcmp(group_name(system, g), text) != 0) continue;
+    if (group->dropped > 0 && group->count > 0) return refuse_gaps(reading, group);
+    known = 1;
+    count += group->count;
+    if (index >= 0 && index < group->count) watched->spring = hooke_naming_spring(system, first + index);
+    index -= group->count;
+  }
+  if (!known) return refuse_name(reading, "group of springs", group_name);
+  if (asked >= count) return refuse_index(reading, text, "spring", count);
+  if (watched->kind != HOOKE_WATCHED_STRAIN || watched->spring.rest_length > 0.0) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, reading->place,
+                    "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension",
+                    text, (long long)asked);
+}
+
+/* The words that stand alone. */
+static int find_word(const char *text, enum hooke_watched_kind *kind) {
+  static const char *const words[] = {"energy", "kinetic", "potential"};
+  for (int k = 0; k < 3; k++) {
+    if (strcmp(text, words[k]) != 0) continue;
+    *kind = (enum hooke_watched_kind)(HOOKE_WATCHED_ENERGY + k);
+    return 1;
+  }
+  return 0;
+}
+
+/* `text` is cut to pieces. */
+static int32_t read_quantity(const struct reading *reading, char *text, struct hooke_watched *watched) {
+  static const char *const of_spring[] = {"length", "strain", "tension"};
+  static const char period[] = "period:";
+  if (strncmp(text, period, sizeof period - 1) == 0) {
+    watched->is_period = 1;
+    text += sizeof period - 1;
+    if (strncmp(text, period, sizeof period - 1) == 0) return refuse(reading);
+  }
+  if (find_word(text, &watched->kind)) return HOOKE_OK;
+  char *dot = strrchr(text, '.');
+  if (dot == NULL) return refuse(reading);
+  *dot = '\0';
+  const char *what = dot + 1;
+  for (int k = 0; k < 3; k++) {
+    if (strcmp(what, of_spring[k]) != 0) continue;
+    watched->kind = (enum hooke_watched_kind)(HOOKE_WATCHED_LENGTH + k);
+    return read_spring(reading, text, watched);
+  }
+  if (what[0] < 'x' || what[0] > 'z' || what[1]) return refuse(reading);
+  watched->axis = what[0] - 'x';
+  return read_particle(reading, text, watched);
+}
+
+/* ---- lists ---- */
+
+int64_t hooke_watched_find(const struct hooke_watched_list *list, const char *text) {
+  for (int64_t k = 0; k < list->count; k++) {
+    if (strcmp(list->item[k].text, text) == 0) return k;
+  }
+  return -1;
+}
+
+static int32_t add(struct hooke_watched_list *list, const char *place, const char *text) {
+  const struct reading reading = {list->system, place, text};
+  struct hooke_watched watched = {.particle = -1};
+  if (hooke_watched_find(list, text) >= 0) return HOOKE_OK;
+  char *pieces = hooke_copy_text(text);
+  watched.text = hooke_copy_text(text);
+  int32_t status = pieces && watched.text ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = read_quantity(&reading, pieces, &watched);
+  if (status == HOOKE_OK)
+    status = hooke_grow((void **)&list->item, list->count, list->count + 1, sizeof watched);
+  hooke_free(pieces);
+  if (status == HOOKE_OK)
+    list->item[list->count++] = watched;
+  else
+    hooke_free(watched.text);
+  return status;
+}
+
+int32_t hooke_watched_read(struct hooke_watched_list *list, const char *place, const char *text) {
+  const int64_t had = list->count;
+  int32_t status = HOOKE_OK;
+  for (const char *at = text; status == HOOKE_OK && at;) {
+    const char *comma = strchr(at, ',');
+    at += strspn(at, " ");
+    size_t length = comma > at ? (size_t)(comma - at) : comma ? 0 : strlen(at);
+    while (length > 0 && at[length - 1] == ' ')
+      length--;
+    char one[TEXT_SIZE];
+    const struct reading reading = {list->system, place, at};
+    if (length < sizeof one) {
+      memcpy(one, at, length);
+      one[length] = '\0';
+      status = add(list, place, one);
+    } else {
+      status = refuse(&reading);
+    }
+    at = comma ? comma + 1 : NULL;
+  }
+  while (status != HOOKE_OK && list->count > had)
+    hooke_free(list->item[--list->count].text);
+  return status;
+}
+
+void hooke_watched_release(struct hooke_watched_list *list) {
+  for (int64_t k = 0; k < list->count; k++)
+    hooke_free(list->item[k].text);
+  hooke_free(list->item);
+  memset(list, 0, sizeof *list);
+}
+
+/* ---- particles alone ---- */
+
+/* The numbers of "0,7-9" as marks; -1 for what is no such list. */
+static int mark_numbers(const char *text, int64_t count, uint8_t *mark) {
+  while (*text) {
+    const int64_t first = read_number(text, &text);
+    const int64_t last = first >= 0 && *text == '-' ? read_number(text + 1, &text) : first;
+    if (first < 0 || last < first || last >= count) return -1;
+    memset(mark + first, 1, (size_t)(last - first + 1));
+    if (*text != ',' && *text != '\0') return -1;
+    if (*text == ',' && text[1] == '\0') return -1;
+    text += *text == ',';
+  }
+  return 0;
+}
+
+static int mark_part(const hooke_system *system, const char *text, uint8_t *mark) {
+  for (int64_t k = 0; k < system->part_count; k++) {
+    if (strcmp(system->part[k].name, text) != 0) continue;
+    memset(mark + system->part[k].first, 1, (size_t)system->part[k].count);
+    return 0;
+  }
+  return -1;
+}
+
+static int mark_group(const hooke_system *system, const char *text, uint8_t *mark) {
+  int found = -1;
+  int64_t first = 0;
+  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+    if (strcmp(group_name(system, g), text) != 0) continue;
+    found = 0;
+    for (int64_t k = 0; k < system->group[g].count; k++) {
+      const struct hooke_spring spring = hooke_naming_spring(system, first + k);
+      mark[spring.head] = mark[spring.tail] = 1;
+    }
+  }
+  return found;
+}
+
+int32_t hooke_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+                                     uint8_t *mark) {
+  char known[NAMES_SIZE] = "";
+  if (mark_part(system, text, mark) == 0 || mark_group(system, text, mark) == 0) return HOOKE_OK;
+  if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
+  list_names(system, part_name, known);
+  list_names(system, group_name, known);
+  return hooke_fail(
+      HOOKE_BAD_VALUE, place,
+      "\"%.60s\" is no part, group or list of particles; allowed: %s%s particle numbers such as "
+      "0,7-9 (0 to %lld)",
+      text, known, known[0] ? ", or" : "", (long long)system->particle_count - 1);
+}

@@ -1,0 +1,65 @@
+/* Watched quantities: what one looks at in a motion, said in words.
+ *
+ *     57.x  57.y  57.z                           a coordinate of a particle [m]
+ *     line:0.y                                   the same, of a particle of a part
+ *     line.stretch:3.length  .strain  .tension   of a spring of a group [m], [1], [N]
+ *     energy  kinetic  potential                 of everything that is free [J]
+ *     period:57.y                                the mean time between passages upwards of any of these [s]
+ *
+ * Indices begin at 0. Several are separated by commas. watched.c reads all of it, and what `needs` watches: a part, a
+ * group, or particle numbers such as 0,7-9. */
+#ifndef HOOKE_MEASURE_WATCH_WATCHED_H
+#define HOOKE_MEASURE_WATCH_WATCHED_H
+
+#include "model/system.h"
+
+enum hooke_watched_kind {
+  HOOKE_WATCHED_COORDINATE,
+  HOOKE_WATCHED_LENGTH,
+  HOOKE_WATCHED_STRAIN,
+  HOOKE_WATCHED_TENSION,
+  HOOKE_WATCHED_ENERGY,
+  HOOKE_WATCHED_KINETIC,
+  HOOKE_WATCHED_POTENTIAL
+};
+
+struct hooke_watched {
+  char *text; /* as it was written */
+  enum hooke_watched_kind kind;
+  int32_t is_period; /* of that */
+  int32_t axis;
+  int64_t particle;           /* of a coordinate */
+  struct hooke_spring spring; /* of a length, strain or tension */
+};
+
+struct hooke_watched_list {
+  const hooke_system *system;
+  int64_t count;
+  struct hooke_watched *item;
+};
+
+/* Adds what `text` says to a list, which starts as zeros with the committed system; what is there already is not added
+ * again. HOOKE_BAD_VALUE, said of the option `place`; HOOKE_NO_MEMORY. In either case the list keeps what it has. */
+int32_t hooke_watched_read(struct hooke_watched_list *list, const char *place, const char *text);
+void hooke_watched_release(struct hooke_watched_list *list);
+/* Number of the quantity of that text, -1 if it is not there. */
+int64_t hooke_watched_find(const struct hooke_watched_list *list, const char *text);
+
+/* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers. HOOKE_BAD_VALUE. */
+int32_t hooke_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+                                     uint8_t *mark);
+
+/* "m", "N", "J", "s", "" */
+const char *hooke_watched_unit(const struct hooke_watched *watched);
+
+/* The value at positions q and velocities v (rows); of a period the value of what it is of. Tension is the force along the
+ * spring, of damping, too: positive where it pulls its ends together, 0 where a spring that only pulls is slack. */
+double hooke_watched_value(const struct hooke_watched *watched, const hooke_system *system, const double *q,
+                           const double *v);
+
+/* Mean time between passages upwards through the mean of a series, each found by cubic interpolation. A passage counts
+ * where the series was below the mean by a tenth of its largest deviation since the last one. NaN where there are fewer
+ * than two, or fewer than four frames from one to the next, or a number that is not finite. */
+double hooke_watched_period(int64_t count, const double *time, const double *value);
+
+#endif

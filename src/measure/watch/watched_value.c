@@ -1,0 +1,99 @@
+/* Values of watched quantities, and the period of one. */
+#include "measure/watch/watched.h"
+
+#include <math.h>
+
+const char *hooke_watched_unit(const struct hooke_watched *watched) {
+  static const char *const unit[] = {
+      [HOOKE_WATCHED_COORDINATE] = "m", [HOOKE_WATCHED_LENGTH] = "m", [HOOKE_WATCHED_STRAIN] = "",
+      [HOOKE_WATCHED_TENSION] = "N",    [HOOKE_WATCHED_ENERGY] = "J", [HOOKE_WATCHED_KINETIC] = "J",
+      [HOOKE_WATCHED_POTENTIAL] = "J"};
+  return watched->is_period ? "s" : unit[watched->kind];
+}
+
+double hooke_watched_value(const struct hooke_watched *watched, const hooke_system *system, const double *q,
+                           const double *v) {
+  struct hooke_stretch s;
+  switch (watched->kind) {
+  case HOOKE_WATCHED_COORDINATE:
+    return q[3 * watched->particle + watched->axis];
+  case HOOKE_WATCHED_ENERGY:
+    return hooke_system_energy(system, q, v);
+  case HOOKE_WATCHED_KINETIC:
+    return hooke_system_kinetic_energy(system, v);
+  case HOOKE_WATCHED_POTENTIAL:
+    return hooke_system_potential_energy(system, q);
+  default:
+    break;
+  }
+  hooke_spring_stretch(&watched->spring, q, v, &s);
+  if (watched->kind == HOOKE_WATCHED_LENGTH) return s.length;
+  const double rest = watched->spring.rest_length;
+  return watched->kind == HOOKE_WATCHED_STRAIN ? (s.length - rest) / rest : s.tension;
+}
+
+/* ---- periods ---- */
+
+static const double LEAST_DIP = 0.1;    /* of the largest deviation, below the mean between two passages */
+static const double ROUNDING = 1e-12;   /* of the largest value: what varies less is constant */
+static const double LEAST_FRAMES = 4.0; /* a period; with fewer the passages seen may not be all there are */
+enum { BISECTIONS = 52 };
+
+static double mean_of(int64_t count, const double *time, const double *value) {
+  double sum = 0.0;
+  for (int64_t f = 1; f < count; f++)
+    sum += 0.5 * (value[f - 1] + value[f]) * (time[f] - time[f - 1]);
+  return sum / (time[count - 1] - time[0]);
+}
+
+/* Lagrange's polynomial through `points` of a series at time t. */
+static double interpolate(int points, const double *time, const double *value, double t) {
+  double sum = 0.0;
+  for (int i = 0; i < points; i++) {
+    double weight = 1.0;
+    for (int j = 0; j < points; j++)
+      if (j != i) weight *= (t - time[j]) / (time[i] - time[j]);
+    sum += weight * value[i];
+  }
+  return sum;
+}
+
+/* When the series comes up to `level` between frames f - 1 and f. */
+static double passage(int64_t count, const double *time, const double *value, int64_t f, double level) {
+  const int64_t first = f >= 2 ? f - 2 : 0, last = f + 1 < count ? f + 1 : f;
+  double low = time[f - 1], high = time[f];
+  for (int k = 0; k < BISECTIONS; k++) {
+    const double middle = 0.5 * (low + high);
+    const int points = (int)(last - first) + 1;
+    if (interpolate(points, time + first, value + first, middle) < level)
+      low = middle;
+    else
+      high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double hooke_watched_period(int64_t count, const double *time, const double *value) {
+  double farthest = 0.0, largest = 0.0, begun = NAN, ended = NAN;
+  int64_t passages = 0;
+  if (count < 2) return NAN;
+  const double mean = mean_of(count, time, value);
+  if (!isfinite(mean)) return NAN;
+  for (int64_t f = 0; f < count; f++) {
+    farthest = fmax(farthest, fabs(value[f] - mean));
+    largest = fmax(largest, fabs(value[f]));
+  }
+  if (farthest <= ROUNDING * largest) return NAN;
+  int32_t dipped = 0;
+  for (int64_t f = 0; f < count; f++) {
+    if (value[f] < mean - LEAST_DIP * farthest) dipped = 1;
+    if (!dipped || value[f] < mean) continue;
+    dipped = 0;
+    ended = passage(count, time, value, f, mean);
+    if (passages++ == 0) begun = ended;
+  }
+  if (passages < 2) return NAN;
+  const double period = (ended - begun) / (double)(passages - 1);
+  const double spacing = (time[count - 1] - time[0]) / (double)(count - 1);
+  return period >= LEAST_FRAMES * spacing ? period : NAN;
+}

@@ -1,0 +1,415 @@
+/* From what the steps showed to the cause, and the words for it. */
+#include "measure/why/why.h"
+
+#include "core/memory.h"
+#include "core/print.h"
+#include "core/status.h"
+#include "core/utf8.h"
+#include "measure/spectrum/naming.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double COLLAPSED = 1e-3; /* of the rest length */
+
+static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...) {
+  struct hooke_why *why = inquiry->why;
+  const int32_t outcome = inquiry->run->outcome;
+  const char *how = outcome == HOOKE_DIVERGED        ? "the run diverged"
+                    : outcome == HOOKE_SOLVER_FAILED ? "the solver gave up"
+                                                     : "the run ran out of steps";
+  va_list args;
+  why->cause = cause;
+  int used = snprintf(why->sentence, sizeof why->sentence, "%s: ", how);
+  va_start(args, format);
+  hooke_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
+  va_end(args);
+  hooke_utf8_make_plain(why->sentence);
+}
+
+/* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */
+static const char *show(const struct hooke_inquiry *inquiry, char text[160]) {
+  const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
+                                                                                  : inquiry->why->noticed;
+  if (inquiry->run->outcome == HOOKE_DIVERGED && inquiry->bad_particle < 0) {
+    hooke_print(text, 160, "it was noticed at t = %.6g s", t);
+  } else if (inquiry->run->outcome == HOOKE_DIVERGED) {
+    hooke_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
+                (long long)inquiry->bad_particle,
+                isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
+                                            : "numbers are no longer finite");
+  } else {
+    hooke_print(text, 160, "at t = %.6g s it ended", t);
+  }
+  return text;
+}
+
+/* ---- causes ---- */
+
+static void judge_slip(struct hooke_inquiry *inquiry) {
+  const struct hooke_slip *slip = &inquiry->slip;
+  inquiry->why->particle = (double)slip->particle;
+  if (slip->of_drive) {
+    say(inquiry, "force-not-finite",
+        "the drive callback moves particle %lld with numbers that are not finite at t = %.6g s; whatever "
+        "pulls at "
+        "it then has a force that is not finite",
+        (long long)slip->particle, slip->time);
+  } else {
+    say(inquiry, "force-not-finite",
+        "the force callback gives particle %lld a force that is not finite at t = %.6g s, while all "
+        "positions and "
+        "velocities are",
+        (long long)slip->particle, slip->time);
+  }
+}
+
+/* What the limit hangs on. */
+static void name_blamed(const struct hooke_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
+  const struct hooke_why *why = inquiry->why;
+  const int64_t particle = inquiry->excess.particle;
+  char spring[HOOKE_NAMING_SIZE] = "no spring";
+  const int64_t first = inquiry->force >= 0;
+  if (first < why->blame_count) hooke_naming_words(inquiry->system, why->blame[first].spring, spring);
+  if (inquiry->force == HOOKE_BLAME_DRAG)
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "the drag of particle %lld", (long long)particle);
+  else if (inquiry->force >= HOOKE_BLAME_BENDING)
+    hooke_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
+  else
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s",
+             inquiry->force == HOOKE_BLAME_DAMPING ? "the damping of " : "", spring);
+}
+
+static int32_t judge_excess(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  const char *method = inquiry->run->method->name;
+  char where[2 * HOOKE_NAMING_SIZE], end[160];
+  inquiry->why->limit = excess->limit;
+  inquiry->why->particle = (double)excess->particle;
+  const int32_t status = hooke_inquiry_blame(inquiry);
+  name_blamed(inquiry, where);
+  show(inquiry, end);
+  if (excess->at_most == 0.0) {
+    inquiry->why->limit = 0.0;
+    say(inquiry, "never-stable",
+        "%s is stable at no step for this scene: motion without damping grows by it at any step, slowly at a "
+        "small one; here, with steps of %.6g s, most of all in %s; %s",
+        method, inquiry->why->step, where, end);
+  } else if (isnan(excess->limit)) {
+    say(inquiry, "step-above-limit",
+        "the step %.6g s is above the largest stable one of %s at t = %.6g s, which is between %.6g and %.6g "
+        "s, so motion grows in every step, most of all in %s; %s",
+        inquiry->why->step, method, excess->time, excess->bound, excess->at_most, where, end);
+  } else {
+    say(inquiry, "step-above-limit",
+        "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s, so motion grows in "
+        "every step, "
+        "most of all in %s; %s",
+        inquiry->why->step, excess->limit, method, excess->time, where, end);
+  }
+  return status;
+}
+
+/* The particle that bending or an altitude spring accelerates most, if by more than `most`; -1 if not. */
+static int64_t steepest_bending(const hooke_system *system, double most) {
+  struct hooke_triple triple;
+  int64_t found = -1;
+  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+    for (int e = 0; e < 3; e++) {
+      const double factor = hooke_triple_factor(e);
+      const double steepness =
+          triple.coefficient * (factor * factor) * system->inverse_mass[triple.particle[e]];
+      if (!(steepness > most)) continue;
+      most = steepness;
+      found = triple.particle[e];
+    }
+  }
+  for (int64_t k = 0; k < 4 * system->altitudes.count; k++) {
+    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
+    const int32_t p = t->particle[k % 4];
+    const double steepness =
+        (hooke_tetrahedron_kappa(t) + hooke_tetrahedron_gamma(t)) * system->inverse_mass[p];
+    if (!(steepness > most)) continue;
+    most = steepness;
+    found = p;
+  }
+  return found;
+}
+
+/* What asks for the largest acceleration: the springs of a particle, in proportion to its mass. */
+static int64_t steepest_spring(const hooke_system *system, double *steepest) {
+  double most = -1.0;
+  int64_t found = -1;
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
+      const struct hooke_spring s = hooke_run_spring(&system->springs.run[r], k);
+      const double ease = fmax(system->inverse_mass[s.head], system->inverse_mass[s.tail]);
+      const double steepness = (s.kappa + s.gamma) * ease;
+      if (!(steepness > most)) continue;
+      most = steepness;
+      found = system->springs.run[r].first + k;
+    }
+  }
+  *steepest = most;
+  return found;
+}
+
+static void judge_overflow(struct hooke_inquiry *inquiry) {
+  const hooke_system *system = inquiry->system;
+  double steepest;
+  const int64_t spring = steepest_spring(system, &steepest), bent = steepest_bending(system, steepest);
+  char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
+  if (bent < 0) hooke_inquiry_blame_spring(inquiry, spring, NAN);
+  if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
+  if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
+  if (!isnan(inquiry->why->step))
+    hooke_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
+  const struct hooke_spring s = spring >= 0 ? hooke_naming_spring(system, spring) : (struct hooke_spring){0};
+  const int64_t light =
+      spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
+  if (bent >= 0) {
+    hooke_naming_heaviest_words(system, bent, 1.0, where);
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
+        "%s, on %.6g kg%s",
+        inquiry->why->time, where, system->mass[bent], step);
+  } else if (spring >= 0) {
+    hooke_naming_words(system, spring, where);
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
+        "%s, %.6g N/m "
+        "on %.6g kg%s",
+        inquiry->why->time, where, s.kappa, system->mass[light], step);
+  } else {
+    say(inquiry, "overflow",
+        "numbers leave the range of double precision within a few steps after t = %.6g s%s",
+        inquiry->why->time, step);
+  }
+}
+
+static void judge_collapse(struct hooke_inquiry *inquiry, int64_t spring, const char *what) {
+  char where[HOOKE_NAMING_SIZE], end[160];
+  hooke_inquiry_blame_spring(inquiry, spring, 1.0);
+  hooke_naming_words(inquiry->system, spring, where);
+  say(inquiry, "collapsed-spring",
+      "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
+      where, what, show(inquiry, end));
+}
+
+/* ---- squares ---- */
+
+/* Lengths and speeds above this have no square: it is beyond all numbers. */
+static const double HAS_SQUARE = 1e154;
+
+/* The particle of a state with the largest number of those that have no square, and that number; -1 if all have. */
+static int64_t largest_unsquared(const hooke_system *system, const double *x, double *most) {
+  int64_t found = -1;
+  *most = HAS_SQUARE;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++) {
+    if (!(fabs(x[k]) > *most) || system->held[k / 3]) continue;
+    *most = fabs(x[k]);
+    found = k / 3;
+  }
+  return found;
+}
+
+/* 1 if a spring, or a motion from one step to the next, is too long for its square, or a speed too large. */
+static int32_t judge_squares(struct hooke_inquiry *inquiry, double t, const double *q, const double *v) {
+  const char *const words[] = {"is at a speed of", "is at a distance of"}, *const units[] = {"m/s", "m"};
+  const double *const x[] = {v, q};
+  for (int k = 0; k < 2; k++) {
+    double most;
+    const int64_t particle = x[k] ? largest_unsquared(inquiry->system, x[k], &most) : -1;
+    if (particle < 0) continue;
+    inquiry->why->particle = (double)particle;
+    inquiry->squares = k == 0 ? 1e-4 * HAS_SQUARE / most : 0.0;
+    say(inquiry, "overflow",
+        "particle %lld %s %.3g %s at t = %.6g s, and squares of numbers above 1.3e154 leave the range of "
+        "double precision",
+        (long long)particle, words[k], most, units[k], t);
+    return 1;
+  }
+  return 0;
+}
+
+/* At the start already; where it is not known, at the last state. */
+static int32_t judge_start(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  const hooke_state *known = run->recent.first ? run->recent.first : hooke_inquiry_last(inquiry);
+  if (run->recent.first == NULL && run->t0 == 0.0)
+    return judge_squares(inquiry, 0.0, inquiry->system->position, inquiry->system->velocity);
+  return judge_squares(inquiry, *known->t, known->q, known->v);
+}
+
+/* ---- solvers ---- */
+
+/* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
+static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *ratio) {
+  const hooke_state *state = hooke_inquiry_last(inquiry);
+  const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
+  const struct hooke_springs *springs = &inquiry->system->springs;
+  int64_t found = -1;
+  *ratio = INFINITY;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      double square = 0.0, cosine = 0.0;
+      for (int a = 0; a < 3; a++) {
+        const int64_t i = 3 * s.head + a, j = 3 * s.tail + a;
+        const double d = state->q[i] - state->q[j], dv = state->v[i] - state->v[j];
+        square += d * d;
+        cosine += d * (d + ahead * dv);
+      }
+      const double here = cosine < 0.0 ? 0.0 : sqrt(square) / s.rest_length;
+      if (!(s.rest_length > 0.0) || !(here < *ratio)) continue;
+      *ratio = here;
+      found = springs->run[r].first + k;
+    }
+  }
+  return found;
+}
+
+static int32_t is_beyond_numbers(const struct hooke_inquiry *inquiry, int32_t *beyond) {
+  const hooke_state *last = hooke_inquiry_last(inquiry);
+  const int64_t size = last->size;
+  const double h = inquiry->run->method->adaptive ? 1.0 : inquiry->run->schedule.step;
+  double *a = hooke_new(size, sizeof(double));
+  if (a == NULL) return HOOKE_NO_MEMORY;
+  const int32_t status = hooke_system_acceleration(inquiry->system, *last->t, last->q, last->v, a);
+  *beyond = 0;
+  for (int64_t k = 0; k < size && status == HOOKE_OK; k++) {
+    const double gain = fmax(1.0, h) * fabs(a[k]);
+    *beyond |= !(gain < 1e100) || !(h * gain < 1e100);
+  }
+  hooke_free(a);
+  return status;
+}
+
+static int32_t judge_solver(struct hooke_inquiry *inquiry) {
+  double ratio;
+  int32_t beyond = 0;
+  const int32_t status = is_beyond_numbers(inquiry, &beyond);
+  if (status != HOOKE_OK) return status;
+  const int64_t shortest = shortest_spring(inquiry, &ratio);
+  if (judge_start(inquiry)) return HOOKE_OK;
+  if (beyond) {
+    judge_overflow(inquiry);
+  } else if (inquiry->run->outcome == HOOKE_SOLVER_FAILED && shortest >= 0 && ratio < COLLAPSED) {
+    judge_collapse(inquiry, shortest, "is pressed to no length");
+  } else {
+    inquiry->why->limit = INFINITY;
+    say(inquiry, "solver-failed", "%s", inquiry->run->message);
+  }
+  return HOOKE_OK;
+}
+
+/* ---- */
+
+/* What no step or tolerance cures. */
+static const char *altitude_words(const struct hooke_inquiry *inquiry) {
+  return inquiry->system->altitudes.count == 0 ? ""
+                                               : ", or altitude springs gave it energy, which they do far "
+                                                 "from rest wherever another altitude comes "
+                                                 "to be the shortest";
+}
+
+/* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in proportion, as a
+ * callback's may, end in a leap, too. */
+static int grew_before(const struct hooke_inquiry *inquiry) {
+  const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
+  return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
+}
+
+static int32_t judge_gain(struct hooke_inquiry *inquiry) {
+  char end[160];
+  say(inquiry, "model-gains-energy",
+      "with %s steps it does, too, so it is no matter of the step %.6g s: the model gains energy by itself, "
+      "as "
+      "altitude springs do wherever another altitude of a tetrahedron comes to be the shortest, far from "
+      "rest; %s",
+      inquiry->run->method->adaptive ? "far tighter tolerances and smaller" : "16 times smaller",
+      inquiry->why->step, show(inquiry, end));
+  return HOOKE_OK;
+}
+
+/* There was no time or no room to look. */
+static void judge_unknown(struct hooke_inquiry *inquiry) {
+  const struct hooke_excess *excess = &inquiry->excess;
+  char end[160];
+  show(inquiry, end);
+  if (isnan(excess->bound)) {
+    say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
+  } else {
+    say(inquiry, "unknown",
+        "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above "
+        "the "
+        "limit itself is not known; %s",
+        inquiry->why->step, excess->bound, inquiry->run->method->name, end);
+  }
+}
+
+static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
+  char end[160], what[120];
+  int32_t gains = 0;
+  if (judge_start(inquiry)) return HOOKE_OK;
+  const int32_t status = hooke_inquiry_gains(inquiry, &gains);
+  if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
+  if (inquiry->sudden && !grew_before(inquiry)) {
+    judge_overflow(inquiry);
+  } else if (inquiry->excess.found) {
+    return judge_excess(inquiry);
+  } else if (inquiry->flips > 0) {
+    inquiry->why->particle = NAN;
+    hooke_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
+                (long long)inquiry->flips, inquiry->flip_time);
+    judge_collapse(inquiry, inquiry->flipped, what);
+  } else if (judge_squares(inquiry, *hooke_inquiry_last(inquiry)->t, hooke_inquiry_last(inquiry)->q,
+                           hooke_inquiry_last(inquiry)->v)) {
+    return HOOKE_OK;
+  } else if (inquiry->last == NULL || inquiry->cut) {
+    judge_unknown(inquiry);
+  } else if (inquiry->run->method->adaptive) {
+    say(inquiry, "solver-failed",
+        "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
+        "they were "
+        "larger than the motion%s; %s",
+        hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry), show(inquiry, end));
+  } else {
+    say(inquiry, "step-above-limit",
+        "no step was seen above the limit of the motion frozen at one moment, no spring collapsed and no "
+        "callback "
+        "failed; so the step %.6g s is too large for how quickly this motion changes%s; %s",
+        inquiry->why->step, altitude_words(inquiry), show(inquiry, end));
+  }
+  return HOOKE_OK;
+}
+
+/* Adds to the sentence that springs began without a direction. */
+static void tell_coincident(struct hooke_inquiry *inquiry) {
+  const hooke_integrator *run = inquiry->run;
+  char *text = inquiry->why->sentence;
+  const size_t used = strlen(text);
+  const double *q = run->recent.first ? run->recent.first->q
+                    : run->t0 == 0.0  ? inquiry->system->position
+                                      : NULL;
+  const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
+  if (count > 0)
+    hooke_print(text + used, sizeof inquiry->why->sentence - used,
+                "; %lld springs began with both ends at one place, without a direction", (long long)count);
+}
+
+int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry) {
+  inquiry->why->time = *hooke_inquiry_last(inquiry)->t;
+  int32_t status = HOOKE_OK;
+  if (inquiry->slip.found)
+    judge_slip(inquiry);
+  else
+    status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  tell_coincident(inquiry);
+  return status;
+}

@@ -1,0 +1,258 @@
+/* The last steps of a run again, one by one, with its callbacks under observation. */
+#include "measure/why/why.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double WHOLE_RUN =
+    3e7; /* particles and springs times steps, up to which the whole run is taken again */
+static const double MOST_LOOKS = 400;            /* looks at the step along it */
+static const double MOST_TURNS = 3e8;            /* springs times steps watched for turning round */
+static const int64_t MOST_INTERNAL_STEPS = 2000; /* of an error-controlled method */
+/* Of the last steps, where the trouble is, every third is looked at. */
+enum { BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
+
+/* ---- callbacks under observation ---- */
+
+struct spied_drive {
+  struct spy *spy;
+  const struct hooke_drive_group *real;
+};
+
+struct spy {
+  const hooke_system *real;
+  hooke_system system; /* the same but for its callbacks */
+  struct hooke_drive_group *drive;
+  struct spied_drive *drive_ctx;
+  struct hooke_slip *slip;
+};
+
+static int is_sensible(int64_t count, const double *value) {
+  for (int64_t k = 0; k < count; k++) {
+    if (!(fabs(value[k]) <= HOOKE_SENSIBLE)) return 0;
+  }
+  return 1;
+}
+
+static int64_t first_wild(int64_t count, const double *value) {
+  for (int64_t k = 0; k < count; k++) {
+    if (!isfinite(value[k])) return k;
+  }
+  return -1;
+}
+
+static int32_t spy_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct spy *spy = ctx;
+  const hooke_system *real = spy->real;
+  const int meant = is_sensible(3 * n, q) && is_sensible(3 * n, v) && first_wild(3 * n, force) < 0;
+  const int32_t value = real->force(n, t, q, v, force, real->force_ctx);
+  const int64_t wild = first_wild(3 * n, force);
+  if (meant && wild >= 0 && !spy->slip->found)
+    *spy->slip = (struct hooke_slip){.found = 1, .time = t, .particle = wild / 3};
+  return value;
+}
+
+static int32_t spy_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                           const double *dv, double *out, void *ctx) {
+  const hooke_system *real = ((const struct spy *)ctx)->real;
+  return real->force_product(n, t, q, v, dq, dv, out, real->force_ctx);
+}
+
+static int32_t spy_drive(int64_t count, double t, double *q, double *v, void *ctx) {
+  const struct spied_drive *own = ctx;
+  struct hooke_slip *slip = own->spy->slip;
+  const int32_t value = own->real->callback(count, t, q, v, own->real->ctx);
+  const int64_t wild_q = first_wild(3 * count, q), wild_v = first_wild(3 * count, v);
+  const int64_t wild = wild_q >= 0 ? wild_q : wild_v;
+  if (wild >= 0 && !slip->found) {
+    *slip =
+        (struct hooke_slip){.found = 1, .of_drive = 1, .time = t, .particle = own->real->particle[wild / 3]};
+  }
+  return value;
+}
+
+static int32_t spy_create(const hooke_system *system, struct hooke_slip *slip, struct spy *spy) {
+  *spy = (struct spy){.real = system, .system = *system, .slip = slip};
+  spy->drive = hooke_new(system->drive_count, sizeof *spy->drive);
+  spy->drive_ctx = hooke_new(system->drive_count, sizeof *spy->drive_ctx);
+  if (spy->drive == NULL || spy->drive_ctx == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t g = 0; g < system->drive_count; g++) {
+    spy->drive[g] = system->drive[g];
+    if (system->drive[g].kind != HOOKE_DRIVE_CALLBACK) continue;
+    spy->drive_ctx[g] = (struct spied_drive){spy, &system->drive[g]};
+    spy->drive[g].callback = spy_drive;
+    spy->drive[g].ctx = &spy->drive_ctx[g];
+  }
+  spy->system.drive = spy->drive;
+  if (system->force) spy->system.force = spy_force;
+  if (system->force_product) spy->system.force_product = spy_product;
+  spy->system.force_ctx = spy;
+  return HOOKE_OK;
+}
+
+static void spy_release(struct spy *spy) {
+  hooke_free(spy->drive);
+  hooke_free(spy->drive_ctx);
+}
+
+/* ---- what a step shows ---- */
+
+/* Springs that now point the other way than before: in between, their length went through zero. */
+static void watch_turns(struct hooke_inquiry *inquiry, const double *before, const hooke_state *state) {
+  const struct hooke_springs *springs = &inquiry->system->springs;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      if (!(s.rest_length > 0.0)) continue;
+      double cosine = 0.0;
+      for (int a = 0; a < 3; a++) {
+        const int64_t i = 3 * s.head + a, j = 3 * s.tail + a;
+        cosine += (before[i] - before[j]) * (state->q[i] - state->q[j]);
+      }
+      if (!(cosine < 0.0)) continue;
+      inquiry->flips++;
+      inquiry->flipped = springs->run[r].first + k;
+      inquiry->flip_time = *state->t;
+    }
+  }
+}
+
+static double largest_of(const hooke_state *state) {
+  double most = 0.0;
+  for (int64_t k = 0; k < 2 * state->size; k++)
+    most = fmax(most, fabs(state->q[k]));
+  return most;
+}
+
+/* The fastest particle of the step that went wrong, which is still in the integrator, and how large its numbers are. */
+static void look_at_damage(struct hooke_inquiry *inquiry, const hooke_integrator *again) {
+  const struct hooke_motion *motion = again->motion;
+  double most = -1.0, size = 0.0;
+  for (int64_t p = 0; p < motion->n; p++) {
+    double speed = 0.0;
+    for (int a = 0; a < 3; a++) {
+      const double v = fabs(motion->v[a][p]), q = fabs(motion->q[a][p]);
+      speed = isfinite(v) && isfinite(q) ? fmax(speed, v) : (double)INFINITY;
+      size = isfinite(v) && isfinite(q) ? fmax(size, fmax(q, v)) : (double)INFINITY;
+    }
+    const int64_t number = motion->order ? motion->order[p] : p;
+    if (inquiry->system->held[number] || !(speed >= most)) continue;
+    if (speed == most && number > inquiry->bad_particle) continue;
+    most = speed;
+    inquiry->bad_particle = number;
+  }
+  inquiry->bad_size = size;
+}
+
+/* ---- the steps again ---- */
+
+struct replay {
+  struct hooke_inquiry *inquiry;
+  hooke_integrator *again;
+  struct hooke_node_blocks blocks;
+  double *before;          /* positions one step ago */
+  double size[BEFORE + 1]; /* largest number of the last steps, the newest first */
+  int64_t stride;          /* steps between looks at the step */
+};
+
+static int32_t take_step(struct replay *replay, hooke_state *state) {
+  const int64_t numbers = state->size;
+  memcpy(replay->before, state->q, (size_t)numbers * sizeof(double));
+  return hooke_integrator_step(replay->again, state, 1);
+}
+
+static void note_size(struct replay *replay, const hooke_state *state) {
+  memmove(replay->size + 1, replay->size, BEFORE * sizeof(double));
+  replay->size[0] = largest_of(state);
+}
+
+static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
+  struct hooke_inquiry *inquiry = replay->inquiry;
+  const double springs = (double)inquiry->system->springs.count;
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k <= BEFORE; k++)
+    replay->size[k] = largest_of(state);
+  for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
+    inquiry->cut = hooke_patience_ends(&inquiry->patience, "the last steps again");
+    if (inquiry->cut) return HOOKE_OK;
+    if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
+      status = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+    if (status != HOOKE_OK) return status;
+    status = take_step(replay, state);
+    if (status != HOOKE_OK) break;
+    note_size(replay, state);
+    if (springs * (double)k <= MOST_TURNS) watch_turns(inquiry, replay->before, state);
+  }
+  /* what is kept on divergence is the last good one again, and the last chance to see the step above the limit */
+  if (status == HOOKE_DIVERGED) {
+    inquiry->excess.tries = 0;
+    inquiry->excess.pause = 0;
+    const int32_t looked = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+    if (looked != HOOKE_OK) return looked;
+  }
+  inquiry->reproduced = status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED;
+  if (status == HOOKE_DIVERGED) {
+    look_at_damage(inquiry, replay->again);
+    inquiry->bad_time = replay->again->diverged_at;
+    inquiry->size = replay->size[BEFORE - 1];
+    inquiry->sudden = inquiry->size < HOOKE_SENSIBLE && !(inquiry->bad_size < 1e100);
+  }
+  return inquiry->reproduced ? HOOKE_OK : status;
+}
+
+/* From the last state that was kept; or from the first where that is cheap. */
+static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) {
+  struct hooke_inquiry *inquiry = replay->inquiry;
+  const hooke_integrator *run = inquiry->run;
+  int64_t from = 0;
+  const hooke_state *kept = hooke_recent_state(&run->recent, 0, &from);
+  const double size = (double)(inquiry->system->particle_count + inquiry->system->springs.count +
+                               inquiry->system->bending.count + inquiry->system->altitudes.count);
+  if (!run->method->adaptive && run->recent.first && (double)run->k * size <= WHOLE_RUN) {
+    kept = run->recent.first;
+    from = 0;
+  }
+  *steps =
+      run->method->adaptive ? MOST_INTERNAL_STEPS : run->k - from + (run->outcome == HOOKE_SOLVER_FAILED);
+  replay->stride = 1 + (int64_t)((double)*steps / MOST_LOOKS);
+  int32_t status = hooke_state_copy(kept, state);
+  if (status == HOOKE_OK) status = hooke_integrator_place(replay->again, run, from, state);
+  return status;
+}
+
+static int32_t replay_with(struct replay *replay, const hooke_system *observed) {
+  struct hooke_inquiry *inquiry = replay->inquiry;
+  const hooke_integrator *run = inquiry->run;
+  int64_t steps = 0;
+  int32_t status = hooke_integrator_create(observed, run->options, &replay->again);
+  if (status != HOOKE_OK) return status;
+  replay->again->thorough = 1;
+  status = hooke_node_blocks_begin(inquiry->system, &replay->blocks);
+  replay->blocks.patience = &inquiry->patience;
+  replay->before = hooke_new(run->size, sizeof(double));
+  if (status == HOOKE_OK && replay->before == NULL) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = start(replay, inquiry->last, &steps);
+  if (status == HOOKE_OK && replay->again->recent.step[0] > 0)
+    status = hooke_inquiry_survey(inquiry, &replay->blocks);
+  if (status == HOOKE_OK && run->outcome != HOOKE_STEP_LIMIT) status = walk(replay, inquiry->last, steps);
+  hooke_recent_state(&replay->again->recent, 0, &inquiry->last_step);
+  /* an error-controlled method that starts anew takes other steps */
+  if (status == HOOKE_OK && run->method->adaptive)
+    status = hooke_state_copy(hooke_recent_state(&run->recent, 0, NULL), inquiry->last);
+  return status;
+}
+
+int32_t hooke_inquiry_replay(struct hooke_inquiry *inquiry) {
+  struct spy spy;
+  struct replay replay = {.inquiry = inquiry};
+  int32_t status = spy_create(inquiry->system, &inquiry->slip, &spy);
+  if (status == HOOKE_OK) status = replay_with(&replay, &spy.system);
+  hooke_node_blocks_release(&replay.blocks);
+  hooke_integrator_destroy(replay.again);
+  hooke_free(replay.before);
+  spy_release(&spy);
+  return status;
+}

@@ -1,0 +1,326 @@
+/* Groups of tetrahedra: their options, their checks, and the questions to them. */
+#include "model/force/altitude.h"
+
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct hooke_option_row rows[] = {
+    {.name = "stiffness",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .required = 1,
+     .doc = "stiffness of the strain law, one number or one for each tetrahedron"},
+    {.name = "damping",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N s",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .fallback = "0",
+     .doc = "damping along the altitude, one number or one for each"},
+    {.name = "rest_scale",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .fallback = "1",
+     .doc = "factor on the rest lengths, which are the altitudes as added"},
+    {.name = "compression",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "true",
+     .doc = "false: the springs only pull"},
+};
+
+static const struct hooke_option_table table = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
+
+int32_t hooke_altitude_options_create(hooke_options **options) {
+  return hooke_options_create(&table, options);
+}
+
+void hooke_altitude_group_release(struct hooke_altitude_group *group) {
+  hooke_free(group->name);
+  hooke_free(group->tetrahedron);
+  memset(group, 0, sizeof *group);
+}
+
+static int acts(const struct hooke_tetrahedron *tetrahedron) {
+  return tetrahedron->stiffness != 0.0 || tetrahedron->damping != 0.0;
+}
+
+void hooke_altitude_group_strip(struct hooke_altitude_group *group) {
+  int64_t kept = 0;
+  for (int64_t k = 0; k < group->count; k++)
+    kept += acts(&group->tetrahedron[k]);
+  group->count = kept;
+  hooke_free(group->tetrahedron);
+  group->tetrahedron = NULL;
+}
+
+int32_t hooke_altitudes_create(const struct hooke_altitude_group *group, int64_t group_count,
+                               struct hooke_altitudes *altitudes) {
+  memset(altitudes, 0, sizeof *altitudes);
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_altitude_group *g = &group[n];
+    for (int64_t k = 0; k < g->count; k++)
+      altitudes->count += acts(&g->tetrahedron[k]);
+  }
+  struct hooke_tetrahedron *next = altitudes->tetrahedron = hooke_new(altitudes->count, sizeof *next);
+  if (next == NULL) {
+    memset(altitudes, 0, sizeof *altitudes);
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_altitude_group *g = &group[n];
+    for (int64_t k = 0; k < g->count; k++) {
+      if (!acts(&g->tetrahedron[k])) continue;
+      altitudes->damped |= g->tetrahedron[k].damping != 0.0;
+      *next++ = g->tetrahedron[k];
+    }
+  }
+  return HOOKE_OK;
+}
+
+void hooke_altitudes_release(struct hooke_altitudes *altitudes) {
+  hooke_free(altitudes->tetrahedron);
+  memset(altitudes, 0, sizeof *altitudes);
+}
+
+int64_t hooke_altitudes_memory(const struct hooke_altitudes *altitudes) {
+  return altitudes->count * (int64_t)sizeof *altitudes->tetrahedron;
+}
+
+double hooke_altitude_row(const hooke_system *system, const int32_t particle[4], const double weight[4],
+                          int j) {
+  double sum = 0.0;
+  for (int k = 0; k < 4; k++)
+    sum += system->held[particle[k]] ? 0.0 : fabs(weight[k]);
+  return fabs(weight[j]) * sum;
+}
+
+/* ---- adding a group ---- */
+
+/* An altitude below this share of the longest edge is rounding of positions. */
+static const double FLAT = 1e-9;
+
+int32_t hooke_tetrahedron_rest(const double x[4][3], double scale, struct hooke_tetrahedron *t) {
+  double longest = 0.0, shortest = INFINITY;
+  for (int k = 0; k < 4; k++) {
+    for (int j = 0; j < k; j++) {
+      const double d[3] = {x[k][0] - x[j][0], x[k][1] - x[j][1], x[k][2] - x[j][2]};
+      longest = fmax(longest, sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]));
+    }
+  }
+  t->side = 1.0;
+  for (int32_t k = HOOKE_ALTITUDES - 1; k >= 0; k--) {
+    struct hooke_altitude altitude;
+    struct hooke_tetrahedron one = *t;
+    one.choice = k;
+    const double length = hooke_altitude_find(&one, x, &altitude) ? altitude.length : 0.0;
+    t->rest[k] = scale * fabs(length);
+    shortest = fmin(shortest, fabs(length));
+    if (length < 0.0 && k == 0) t->side = -1.0;
+  }
+  t->choice = HOOKE_ALTITUDE_SHORTEST;
+  if (shortest > FLAT * longest && isfinite(longest)) return HOOKE_OK;
+  return hooke_fail(
+      HOOKE_BAD_VALUE, NULL,
+      "particles %d, %d, %d and %d lie in a plane at rest: their shortest altitude is %g m, and they "
+      "are up to %g m apart; allowed: more than 1e-9 of that",
+      (int)t->particle[0], (int)t->particle[1], (int)t->particle[2], (int)t->particle[3], shortest, longest);
+}
+
+/* That they are there is known. */
+static int32_t check_particles(int64_t count, const struct hooke_tetrahedron *tetrahedron) {
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t *p = tetrahedron[k].particle;
+    for (int e = 0; e < 4; e++) {
+      for (int other = 0; other < e; other++) {
+        if (p[e] != p[other]) continue;
+        hooke_fail(HOOKE_BAD_VALUE, NULL,
+                   "particles %d, %d, %d and %d; a tetrahedron has four different ones", (int)p[0], (int)p[1],
+                   (int)p[2], (int)p[3]);
+        return hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld]", (long long)k);
+      }
+    }
+  }
+  return HOOKE_OK;
+}
+
+/* Room for one more, before the groups of parts unless it is of one. */
+static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *place) {
+  const int64_t count = system->altitude_group_count, capacity = 2 * system->altitude_group_capacity + 4;
+  if (count == system->altitude_group_capacity) {
+    const int32_t status =
+        hooke_grow((void **)&system->altitude_group, count, capacity, sizeof *system->altitude_group);
+    if (status != HOOKE_OK) return status;
+    system->altitude_group_capacity = capacity;
+  }
+  *place = count;
+  while (!from_part && *place > 0 && system->altitude_group[*place - 1].from_part)
+    --*place;
+  memmove(system->altitude_group + *place + 1, system->altitude_group + *place,
+          (size_t)(count - *place) * sizeof *system->altitude_group);
+  system->altitude_group_count++;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int32_t from_part, int64_t count,
+                                    const struct hooke_tetrahedron *tetrahedron) {
+  int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
+  if (status == HOOKE_OK) status = check_particles(count, tetrahedron);
+  if (status != HOOKE_OK) return status;
+  struct hooke_altitude_group group = {
+      .count = count, .from_part = from_part, .part = system->part_count - 1};
+  group.name = hooke_copy_text(name);
+  group.tetrahedron = hooke_new(count, sizeof *tetrahedron);
+  int64_t place;
+  status = group.name && group.tetrahedron ? open_place(system, from_part, &place) : HOOKE_NO_MEMORY;
+  if (status != HOOKE_OK) {
+    hooke_altitude_group_release(&group);
+    return status;
+  }
+  if (count > 0) memcpy(group.tetrahedron, tetrahedron, (size_t)count * sizeof *tetrahedron);
+  system->altitude_group[place] = group;
+  system->tetrahedron_total += count;
+  return HOOKE_OK;
+}
+
+static int32_t check_count(const hooke_options *options, const char *name, int64_t count) {
+  const int64_t given = hooke_options_number_count(options, name);
+  if (given <= 1 || given == count) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld tetrahedra; allowed: one, or one for each",
+                    (long long)given, (long long)count);
+}
+
+static int32_t check_call(const hooke_system *system, int64_t count, const int64_t *corners,
+                          const hooke_options *options) {
+  int32_t status = hooke_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  if (options == NULL || hooke_options_table(options) != &table) {
+    return hooke_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "the options are not those of altitude springs; make them with hooke_altitude_options_create()");
+  }
+  if (count < 0) {
+    return hooke_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed",
+                      (long long)count);
+  }
+  status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "tetrahedra");
+  status = hooke_options_check_required(options);
+  if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
+  if (status == HOOKE_OK) status = check_count(options, "damping", count);
+  for (int64_t k = 0; k < 4 * count && status == HOOKE_OK; k++) {
+    if (corners[k] >= 0 && corners[k] < system->particle_count) continue;
+    hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)corners[k],
+               (long long)(system->particle_count - 1));
+    status = hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld][%d]", (long long)(k / 4), (int)(k % 4));
+  }
+  return status;
+}
+
+static double value_of(const hooke_options *options, const char *name, int64_t k) {
+  return hooke_options_numbers(options, name)[hooke_options_number_count(options, name) > 1 ? k : 0];
+}
+
+static int32_t fill(const hooke_system *system, int64_t count, const int64_t *corners,
+                    const hooke_options *options, struct hooke_tetrahedron *tetrahedron) {
+  for (int64_t k = 0; k < count; k++) {
+    struct hooke_tetrahedron *t = &tetrahedron[k];
+    double x[4][3];
+    for (int e = 0; e < 4; e++) {
+      t->particle[e] = (int32_t)corners[4 * k + e];
+      memcpy(x[e], system->position + 3 * (int64_t)t->particle[e], sizeof x[e]);
+    }
+    t->pull_only = hooke_options_number(options, "compression") == 0.0;
+    t->stiffness = value_of(options, "stiffness", k);
+    t->damping = value_of(options, "damping", k);
+  }
+  int32_t status = check_particles(count, tetrahedron);
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
+    double x[4][3];
+    for (int e = 0; e < 4; e++)
+      memcpy(x[e], system->position + 3 * (int64_t)tetrahedron[k].particle[e], sizeof x[e]);
+    status = hooke_tetrahedron_rest((const double(*)[3])x, hooke_options_number(options, "rest_scale"),
+                                    &tetrahedron[k]);
+    if (status != HOOKE_OK) hooke_fail_within(status, "tetrahedra[%lld]", (long long)k);
+  }
+  return status;
+}
+
+int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
+                                  const int64_t *tetrahedra, const hooke_options *options) {
+  int32_t status = check_call(system, count, tetrahedra, options);
+  if (status != HOOKE_OK) return status;
+  struct hooke_tetrahedron *tetrahedron = hooke_new(count, sizeof *tetrahedron);
+  if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
+  status = fill(system, count, tetrahedra, options, tetrahedron);
+  if (status == HOOKE_OK) status = hooke_system_add_tetrahedra(system, name, 0, count, tetrahedron);
+  hooke_free(tetrahedron);
+  return status;
+}
+
+/* ---- asking ---- */
+
+int64_t hooke_system_altitude_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->altitude_group_count; k++)
+    count += system->altitude_group[k].count;
+  return count;
+}
+
+int64_t hooke_system_altitude_group_count(const hooke_system *system) {
+  return system->altitude_group_count;
+}
+
+const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group) {
+  return group >= 0 && group < system->altitude_group_count ? system->altitude_group[group].name : NULL;
+}
+
+int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t group) {
+  return group >= 0 && group < system->altitude_group_count ? system->altitude_group[group].count : 0;
+}
+
+int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < 4 * system->altitudes.count; k++)
+    tetrahedra[k] = system->altitudes.tetrahedron[k / 4].particle[k % 4];
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness, double *damping,
+                                       double *rest_length) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    if (stiffness) stiffness[k] = t->stiffness;
+    if (damping) damping[k] = t->damping;
+    for (int a = 0; a < HOOKE_ALTITUDES && rest_length; a++)
+      rest_length[HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length) {
+  const int32_t status = hooke_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    struct hooke_tautness tautness;
+    const int32_t found = hooke_tautness_find(&system->altitudes.tetrahedron[k], q, NULL, &tautness);
+    length[k] = found ? tautness.altitude.length : 0.0;
+  }
+  return HOOKE_OK;
+}

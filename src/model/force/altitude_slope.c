@@ -1,0 +1,102 @@
+/* One altitude spring at given positions and velocities, and how it changes with them. */
+#include "model/force/altitude.h"
+
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[3], const double b[3]) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double n[3]) {
+  n[0] = a[1] * b[2] - a[2] * b[1];
+  n[1] = a[2] * b[0] - a[0] * b[2];
+  n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void gather(const struct hooke_tetrahedron *t, const double *rows, double x[4][3]) {
+  for (int j = 0; j < 4; j++)
+    memcpy(x[j], rows + 3 * (int64_t)t->particle[j], sizeof x[j]);
+}
+
+int32_t hooke_tautness_find(const struct hooke_tetrahedron *t, const double *q, const double *v,
+                            struct hooke_tautness *s) {
+  double x[4][3], w[3];
+  gather(t, q, x);
+  memset(s, 0, sizeof *s);
+  if (!hooke_altitude_find(t, (const double(*)[3])x, &s->altitude)) return 0;
+  if (v) {
+    gather(t, v, x);
+    hooke_altitude_weigh(&s->altitude, (const double(*)[3])x, w);
+    s->rate = dot(s->altitude.u, w);
+  }
+  const double rest = t->rest[s->altitude.choice];
+  s->tension = hooke_altitude_tension(t, &s->altitude, s->rate, &s->slack);
+  s->elastic =
+      t->pull_only && s->altitude.length <= rest ? 0.0 : t->stiffness * (s->altitude.length - rest) / rest;
+  return 1;
+}
+
+/* The vectors that the altitude is made of: e, f and r. */
+static void span(int32_t choice, const double x[4][3], double e[3], double f[3], double r[3]) {
+  const int8_t *role = hooke_altitude_role[choice];
+  const double *x0 = x[role[0]], *x1 = x[role[1]], *x2 = x[role[2]], *x3 = x[role[3]];
+  for (int a = 0; a < 3; a++) {
+    e[a] = x1[a] - x0[a];
+    f[a] = choice < 4 ? x2[a] - x0[a] : x3[a] - x2[a];
+    r[a] = choice < 4 ? x3[a] - x0[a] : x2[a] - x0[a];
+  }
+}
+
+/* d(a x b) */
+static void cross_change(const double a[3], const double b[3], const double da[3], const double db[3],
+                         double dn[3]) {
+  double other[3];
+  cross(da, b, dn);
+  cross(a, db, other);
+  for (int k = 0; k < 3; k++)
+    dn[k] += other[k];
+}
+
+void hooke_tautness_differentiate(const struct hooke_tetrahedron *t, const struct hooke_tautness *s,
+                                  const double *q, const double *v, const double *dq, const double *dv,
+                                  struct hooke_tautness_change *change) {
+  const struct hooke_altitude *altitude = &s->altitude;
+  const int32_t choice = altitude->choice;
+  const int8_t *role = hooke_altitude_role[choice];
+  double x[4][3], dx[4][3], u[4][3], du[4][3];
+  double e[3], f[3], r[3], de[3], df[3], dr[3], n[3], dn[3], rf[3], re[3], drf[3], dre[3];
+  gather(t, q, x);
+  gather(t, dq, dx);
+  gather(t, v, u);
+  gather(t, dv, du);
+  span(choice, (const double(*)[3])x, e, f, r);
+  span(choice, (const double(*)[3])dx, de, df, dr);
+  cross(e, f, n);
+  cross_change(e, f, de, df, dn);
+  cross(r, f, rf);
+  cross_change(r, f, dr, df, drf);
+  cross(r, e, re);
+  cross_change(r, e, dr, de, dre);
+  const double square = dot(n, n), growth = 2.0 * dot(n, dn) / square, c = t->side / sqrt(square);
+  const double a = dot(rf, n) / square, b = dot(re, n) / square;
+  const double da = (dot(drf, n) + dot(rf, dn)) / square - a * growth;
+  const double db = (dot(dre, n) + dot(re, dn)) / square - b * growth;
+  for (int k = 0; k < 3; k++)
+    change->u[k] = c * dn[k] - 0.5 * growth * altitude->u[k];
+  change->weight[role[0]] = choice < 4 ? da - db : da;
+  change->weight[role[1]] = -da;
+  change->weight[role[2]] = choice < 4 ? db : -db;
+  change->weight[role[3]] = choice < 4 ? 0.0 : db;
+  /* dh, and d(u.w) of the weighted velocity w */
+  double w[3], moved[3], dw[3];
+  hooke_altitude_weigh(altitude, (const double(*)[3])dx, moved);
+  hooke_altitude_weigh(altitude, (const double(*)[3])u, w);
+  hooke_altitude_weigh(altitude, (const double(*)[3])du, dw);
+  for (int j = 0; j < 4; j++) {
+    for (int k = 0; k < 3; k++)
+      dw[k] += change->weight[j] * u[j][k];
+  }
+  const double rate = dot(change->u, w) + dot(altitude->u, dw);
+  change->tension = (t->stiffness * dot(altitude->u, moved) + t->damping * rate) / t->rest[choice];
+}

@@ -1,0 +1,27 @@
+/* Particles moved as a function of time. */
+#ifndef HOOKE_MODEL_FORCE_DRIVE_H
+#define HOOKE_MODEL_FORCE_DRIVE_H
+
+#include "hooke/system.h"
+
+enum hooke_drive_kind { HOOKE_DRIVE_HARMONIC, HOOKE_DRIVE_TABLE, HOOKE_DRIVE_CALLBACK };
+
+struct hooke_drive_group {
+  enum hooke_drive_kind kind;
+  int64_t count;
+  int32_t *particle;
+  double *origin; /* where the particles were added, 3 count */
+  double amplitude[3], frequency, phase;
+  int64_t samples;
+  double *time, *displacement, *slope; /* samples, 3 samples, 3 samples */
+  hooke_drive *callback;
+  void *ctx;
+};
+
+/* Position and velocity of the group's particles at time t, 3 count each; returns what a callback returned.
+ */
+int32_t hooke_drive_evaluate(const struct hooke_drive_group *drive, double t, double *q, double *v);
+
+void hooke_drive_release(struct hooke_drive_group *drive);
+
+#endif

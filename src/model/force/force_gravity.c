@@ -1,0 +1,21 @@
+/* Gravity, U = -m g.q. It is an acceleration, added to w f where a step is taken, so there is nothing to add
+ * here. */
+#include "model/force/force.h"
+
+#include "core/sum.h"
+
+static int32_t present(const hooke_system *system) {
+  return system->has_gravity;
+}
+
+static double energy(const hooke_system *system, const double *q) {
+  const double *g = system->gravity;
+  struct hooke_sum sum = {0.0, 0.0};
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->held[p]) continue;
+    hooke_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
+  }
+  return hooke_sum_value(&sum);
+}
+
+const struct hooke_force_row hooke_force_gravity = {.name = "gravity", .present = present, .energy = energy};

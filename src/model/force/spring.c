@@ -1,0 +1,300 @@
+/* Spring groups: their options, their checks, and the two laws made one. */
+#include "model/force/spring.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/spring_body.h"
+#include "model/system.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct hooke_option_row spring_rows[] = {
+    {.name = "law",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "strain length",
+     .fallback = "strain",
+     .doc = "strain: force by relative stretch, the same at any resolution; length: by stretch in metres"},
+    {.name = "stiffness",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N (strain law), N/m (length law)",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .required = 1,
+     .doc = "stiffness, one number or one for each spring"},
+    {.name = "damping",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N s (strain law), N s/m (length law)",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .fallback = "0",
+     .doc = "damping along the spring, one number or one for each"},
+    {.name = "rest_length",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .words = "initial",
+     .fallback = "initial",
+     .doc = "rest length, one number or one for each spring; > 0 with the strain law; initial: as added"},
+    {.name = "rest_scale",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .fallback = "1",
+     .doc = "factor on the rest length"},
+    {.name = "compression",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "true",
+     .doc = "false: the spring only pulls, like a cable"},
+};
+
+static const struct hooke_option_table spring_table = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
+
+int32_t hooke_spring_options_create(hooke_options **options) {
+  return hooke_options_create(&spring_table, options);
+}
+
+void hooke_group_release_arrays(struct hooke_group *group) {
+  hooke_free(group->head);
+  hooke_free(group->tail);
+  hooke_free(group->kappa);
+  hooke_free(group->gamma);
+  hooke_free(group->rest_length);
+  group->head = group->tail = NULL;
+  group->kappa = group->gamma = group->rest_length = NULL;
+}
+
+void hooke_group_release(struct hooke_group *group) {
+  hooke_group_release_arrays(group);
+  hooke_free(group->name);
+  hooke_options_destroy(group->options);
+  memset(group, 0, sizeof *group);
+}
+
+static void swap_numbers(double *number, int64_t a, int64_t b) {
+  const double kept = number[a];
+  number[a] = number[b];
+  number[b] = kept;
+}
+
+static void swap_ends(int32_t *end, int64_t a, int64_t b) {
+  const int32_t kept = end[a];
+  end[a] = end[b];
+  end[b] = kept;
+}
+
+void hooke_group_drop(struct hooke_group *group) {
+  int64_t acting = 0;
+  for (int64_t k = 0; k < group->count; k++) {
+    if (group->kappa[k] == 0.0 && group->gamma[k] == 0.0) continue;
+    swap_ends(group->head, k, acting);
+    swap_ends(group->tail, k, acting);
+    swap_numbers(group->kappa, k, acting);
+    swap_numbers(group->gamma, k, acting);
+    swap_numbers(group->rest_length, k, acting);
+    acting++;
+  }
+  group->dropped = group->count - acting;
+  group->count = acting;
+}
+
+void hooke_group_take_back(struct hooke_group *group) {
+  group->count += group->dropped;
+  group->dropped = 0;
+}
+
+void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
+                          struct hooke_stretch *stretch) {
+  const double *qi = q + 3 * spring->head, *qj = q + 3 * spring->tail;
+  const double d[3] = {qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]};
+  const double r = hooke_spring_length(d[0], d[1], d[2]), ir = hooke_spring_inverse_length(r);
+  double rate = 0.0;
+  if (v) {
+    const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
+    rate = (((vi[0] - vj[0]) * d[0] + (vi[1] - vj[1]) * d[1]) + (vi[2] - vj[2]) * d[2]) * ir;
+  }
+  const double elastic = spring->kappa * (r - spring->rest_length);
+  const double free_tension = elastic + spring->gamma * rate;
+  stretch->length = r;
+  for (int a = 0; a < 3; a++)
+    stretch->direction[a] = d[a] * ir;
+  stretch->rate = rate;
+  stretch->slack = spring->pull_only && (r <= spring->rest_length || free_tension < 0.0);
+  stretch->tension = stretch->slack ? 0.0 : free_tension;
+  stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
+}
+
+void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *q,
+                               struct hooke_stretch *stretch) {
+  struct hooke_spring taut = *spring;
+  taut.pull_only = 0;
+  hooke_spring_stretch(&taut, q, NULL, stretch);
+}
+
+/* ---- adding a group ---- */
+
+static int32_t check_ends(const hooke_system *system, int64_t count, const int64_t *ends) {
+  if (count < 0) {
+    return hooke_fail(HOOKE_BAD_VALUE, "between", "%lld springs; 0 or more are allowed", (long long)count);
+  }
+  const int32_t status = hooke_system_check_room(system, (struct hooke_more){.springs = (double)count}, NULL);
+  if (status != HOOKE_OK) return hooke_fail_within(status, "between");
+  for (int64_t k = 0; k < count; k++) {
+    for (int end = 0; end < 2; end++) {
+      const int64_t p = ends[2 * k + end];
+      if (p >= 0 && p < system->particle_count) continue;
+      char place[64];
+      snprintf(place, sizeof place, "between[%lld][%d]", (long long)k, end);
+      return hooke_fail(HOOKE_BAD_VALUE, place, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
+                        (long long)(system->particle_count - 1));
+    }
+    if (ends[2 * k] == ends[2 * k + 1]) {
+      char place[64];
+      snprintf(place, sizeof place, "between[%lld]", (long long)k);
+      return hooke_fail(HOOKE_BAD_VALUE, place,
+                        "both ends are particle %lld; a spring joins two different particles",
+                        (long long)ends[2 * k]);
+    }
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_count(const hooke_options *options, const char *name, int64_t count) {
+  const int64_t given = hooke_options_number_count(options, name);
+  if (given <= 1 || given == count) return HOOKE_OK;
+  return hooke_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld springs; allowed: one, or one for each",
+                    (long long)given, (long long)count);
+}
+
+/* Values that are one number or one for each spring. */
+struct values {
+  const double *value;
+  int64_t stride;
+};
+
+static struct values values_of(const hooke_options *options, const char *name) {
+  return (struct values){hooke_options_numbers(options, name), hooke_options_number_count(options, name) > 1};
+}
+
+static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
+  char place[64];
+  if (given > 1) {
+    snprintf(place, sizeof place, "rest_length[%lld]", (long long)k);
+  } else {
+    snprintf(place, sizeof place, given == 1 ? "rest_length" : "between[%lld]", (long long)k);
+  }
+  return hooke_fail(HOOKE_BAD_VALUE, place,
+                    "rest length %g of spring %lld; the strain law needs one > 0 (the length law takes 0)",
+                    length, (long long)k);
+}
+
+/* Springs are in any order, so that the places of their ends come late unless they are asked for early. */
+static void ask_for_ends(const struct hooke_group *group, const double *position, int64_t k) {
+  if (k >= group->count) return;
+  __builtin_prefetch(position + 3 * (int64_t)group->head[k]);
+  __builtin_prefetch(position + 3 * (int64_t)group->tail[k]);
+}
+
+static double initial_length(const struct hooke_group *group, const double *position, int64_t k) {
+  const double *qi = position + 3 * (int64_t)group->head[k], *qj = position + 3 * (int64_t)group->tail[k];
+  ask_for_ends(group, position, k + 16);
+  return hooke_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
+}
+
+/* kappa, gamma and rest length of every spring of the group. */
+static int32_t find_material(const hooke_system *system, const hooke_options *options,
+                             struct hooke_group *group) {
+  const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
+  const double scale = hooke_options_number(options, "rest_scale");
+  const int64_t given = hooke_options_number_count(options, "rest_length");
+  const struct values stiffnesses = values_of(options, "stiffness"), dampings = values_of(options, "damping"),
+                      lengths = values_of(options, "rest_length");
+  for (int64_t k = 0; k < group->count; k++) {
+    const double length =
+        scale * (given > 0 ? lengths.value[k * lengths.stride] : initial_length(group, system->position, k));
+    const double stiffness = stiffnesses.value[k * stiffnesses.stride],
+                 damping = dampings.value[k * dampings.stride];
+    if (strain && !(length > 0.0)) return refuse_rest_length(k, given, length);
+    group->rest_length[k] = length;
+    group->kappa[k] = strain ? stiffness / length : stiffness;
+    group->gamma[k] = strain ? damping / length : damping;
+    if (group->kappa[k] <= 1e300 && group->gamma[k] <= 1e300 && length <= 1e300) continue;
+    return hooke_fail(
+        HOOKE_BAD_VALUE, "stiffness",
+        "spring %lld has stiffness %g, damping %g and rest length %g; allowed: stiffness / rest length, "
+        "damping / rest length and rest length up to 1e300",
+        (long long)k, stiffness, damping, length);
+  }
+  return HOOKE_OK;
+}
+
+static int32_t fill_group(const hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                          const hooke_options *options, struct hooke_group *group) {
+  group->count = count;
+  group->pull_only = hooke_options_number(options, "compression") == 0.0;
+  group->name = hooke_copy_text(name);
+  group->head = hooke_new(count, sizeof(int32_t));
+  group->tail = hooke_new(count, sizeof(int32_t));
+  group->kappa = hooke_new(count, sizeof(double));
+  group->gamma = hooke_new(count, sizeof(double));
+  group->rest_length = hooke_new(count, sizeof(double));
+  if (!group->name || !group->head || !group->tail || !group->kappa || !group->gamma || !group->rest_length) {
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t k = 0; k < count; k++) {
+    group->head[k] = (int32_t)ends[2 * k];
+    group->tail[k] = (int32_t)ends[2 * k + 1];
+  }
+  return find_material(system, options, group);
+}
+
+static int32_t keep_options(const hooke_options *options, struct hooke_group *group) {
+  static const char *const lists[] = {"stiffness", "damping", "rest_length"};
+  for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
+    if (hooke_options_number_count(options, lists[k]) > 1) return HOOKE_OK;
+  }
+  return hooke_options_copy(options, &group->options);
+}
+
+static int32_t add_group(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                         const hooke_options *options, int32_t from_part) {
+  int32_t status = hooke_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hooke_options_require(options, &spring_table, "options", "hooke_spring_options_create()");
+  if (status == HOOKE_OK) status = hooke_options_check_required(options);
+  if (status == HOOKE_OK) status = check_ends(system, count, ends);
+  if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
+  if (status == HOOKE_OK) status = check_count(options, "damping", count);
+  if (status == HOOKE_OK) status = check_count(options, "rest_length", count);
+  if (status == HOOKE_OK && system->group_count == system->group_capacity) {
+    int64_t capacity = 2 * system->group_capacity + 4;
+    status = hooke_grow((void **)&system->group, system->group_count, capacity, sizeof *system->group);
+    if (status == HOOKE_OK) system->group_capacity = capacity;
+  }
+  if (status != HOOKE_OK) return status;
+  struct hooke_group group = {.from_part = from_part, .part = system->part_count - 1};
+  status = fill_group(system, name, count, ends, options, &group);
+  if (status == HOOKE_OK && !from_part) status = keep_options(options, &group);
+  if (status == HOOKE_OK) {
+    system->group[system->group_count++] = group;
+    system->spring_total += count;
+  } else {
+    hooke_group_release(&group);
+  }
+  return status;
+}
+
+int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                                 const hooke_options *options) {
+  return add_group(system, name, count, ends, options, 0);
+}
+
+int32_t hooke_system_add_part_springs(hooke_system *system, const char *name, int64_t count,
+                                      const int64_t *ends, const hooke_options *options) {
+  return add_group(system, name, count, ends, options, 1);
+}

@@ -1,0 +1,130 @@
+/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. Those of coefficient 0 have no
+ * force and are left out. */
+#include "model/force/bending.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/spring_loops.h"
+
+#include <string.h>
+
+/* A shorter stretch of constant offset is not worth a loop of its own. */
+enum { SHORTEST_RUN = 8 };
+
+/* What is counted in the first pass and filled in the second. */
+struct sorter {
+  struct hooke_bending *bending;
+  int64_t runs, indexed, mixed;
+  int32_t fill;
+};
+
+/* Length of the stretch from triple k on that has a stiffness; with `in_line`, all of one offset, one after the other. */
+static int64_t stretch_at(const struct hooke_bending_group *g, int64_t k, int in_line) {
+  const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
+  const int32_t offset = b[k] - a[k];
+  int64_t end = k;
+  while (end < g->count && g->coefficient[end] != 0.0) {
+    if (in_line &&
+        (a[end] != a[k] + (end - k) || b[end] - a[end] != offset || c[end] - b[end] != offset || offset <= 0))
+      break;
+    end++;
+  }
+  return end - k;
+}
+
+static int is_mixed(const struct hooke_bending_group *g, int64_t from, int64_t count) {
+  for (int64_t k = from + 1; k < from + count; k++) {
+    if (memcmp(&g->coefficient[k], &g->coefficient[from], sizeof g->coefficient[k]) != 0) return 1;
+  }
+  return 0;
+}
+
+static void add_run(struct sorter *sorter, const struct hooke_bending_group *g, int64_t from, int64_t count,
+                    int indexed) {
+  const int mixed = is_mixed(g, from, count);
+  struct hooke_bending *bending = sorter->bending;
+  if (sorter->fill) {
+    struct hooke_bending_run *run = &bending->run[sorter->runs];
+    run->first = bending->count;
+    run->count = count;
+    run->shape = (indexed ? HOOKE_BENDING_INDEXED : 0) | (mixed ? HOOKE_BENDING_MIXED : 0);
+    run->start = g->particle[0][from];
+    run->offset = g->particle[1][from] - g->particle[0][from];
+    run->coefficient = g->coefficient[from];
+    for (int e = 0; e < 3 && indexed; e++) {
+      run->particle[e] = memcpy(bending->particle[e] + sorter->indexed, g->particle[e] + from,
+                                (size_t)count * sizeof(int32_t));
+    }
+    if (mixed) {
+      run->coefficients =
+          memcpy(bending->coefficient + sorter->mixed, g->coefficient + from, (size_t)count * sizeof(double));
+    }
+    run->loop = hooke_spring_set(0)->bending[run->shape];
+    bending->count += count;
+  }
+  sorter->runs++;
+  if (indexed) sorter->indexed += count;
+  if (mixed) sorter->mixed += count;
+}
+
+/* Triples from k up to `end`, all of which have a stiffness. */
+static void sort_stretch(struct sorter *sorter, const struct hooke_bending_group *g, int64_t k, int64_t end) {
+  int64_t pending = k; /* first triple not yet in a run */
+  while (k < end) {
+    const int64_t length = stretch_at(g, k, 1);
+    if (length >= SHORTEST_RUN) {
+      if (k > pending) add_run(sorter, g, pending, k - pending, 1);
+      add_run(sorter, g, k, length, 0);
+      pending = k + length;
+    }
+    k += length > 0 ? length : 1;
+  }
+  if (end > pending) add_run(sorter, g, pending, end - pending, 1);
+}
+
+static void sort_groups(struct sorter *sorter, const struct hooke_bending_group *group, int64_t group_count) {
+  sorter->runs = sorter->indexed = sorter->mixed = 0;
+  for (int64_t n = 0; n < group_count; n++) {
+    const struct hooke_bending_group *g = &group[n];
+    for (int64_t k = 0; k < g->count;) {
+      const int64_t length = stretch_at(g, k, 0);
+      sort_stretch(sorter, g, k, k + length);
+      k += length > 0 ? length : 1;
+    }
+  }
+}
+
+int32_t hooke_bending_create(const struct hooke_bending_group *group, int64_t group_count,
+                             struct hooke_bending *bending) {
+  memset(bending, 0, sizeof *bending);
+  struct sorter sorter = {.bending = bending};
+  sort_groups(&sorter, group, group_count);
+  bending->run_count = sorter.runs;
+  bending->indexed_count = sorter.indexed;
+  bending->mixed_count = sorter.mixed;
+  int there = (bending->run = hooke_new(sorter.runs, sizeof *bending->run)) != NULL;
+  for (int e = 0; e < 3; e++)
+    there &= (bending->particle[e] = hooke_new(sorter.indexed, sizeof(int32_t))) != NULL;
+  there &= (bending->coefficient = hooke_new(sorter.mixed, sizeof(double))) != NULL;
+  if (!there) {
+    hooke_bending_release(bending);
+    return HOOKE_NO_MEMORY;
+  }
+  sorter.fill = 1;
+  sort_groups(&sorter, group, group_count);
+  return HOOKE_OK;
+}
+
+void hooke_bending_release(struct hooke_bending *bending) {
+  hooke_free(bending->run);
+  for (int e = 0; e < 3; e++)
+    hooke_free(bending->particle[e]);
+  hooke_free(bending->coefficient);
+  memset(bending, 0, sizeof *bending);
+}
+
+int64_t hooke_bending_memory(const struct hooke_bending *bending) {
+  return bending->run_count * (int64_t)sizeof *bending->run +
+         bending->indexed_count * (int64_t)(3 * sizeof(int32_t)) +
+         bending->mixed_count * (int64_t)sizeof(double);
+}

@@ -1,0 +1,331 @@
+#include "model/sum/motion.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/force/force.h"
+
+#include <string.h>
+
+/* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and shares of
+ * what all members do at their borders. */
+enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
+
+int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
+  const int64_t border =
+      system->net.particles > 0 ? system->net.ring : system->lanes.count * system->lanes.reach;
+  int64_t members = 1;
+  if (system->net.particles > 0 || system->lanes.count > 0)
+    members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
+  if (members > most) members = most;
+  if (members > hooke_crew_processors()) members = hooke_crew_processors();
+  return members > 1 ? (int32_t)members : 1;
+}
+
+static int64_t driven_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->drive_count; k++)
+    count += system->drive[k].count;
+  return count;
+}
+
+int32_t hooke_goes_by_tiles(const hooke_system *system) {
+  int by_tiles = system->lanes.count > 0 || system->net.particles > 0;
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hooke_force_row *row = system->force_row[k];
+    by_tiles &= row->add == NULL || row == &hooke_force_springs || row == &hooke_force_drag;
+  }
+  return by_tiles;
+}
+
+struct arrays {
+  double *block;
+  int64_t n, count, stride, rest; /* `count` arrays of n particles, and `rest` numbers after them */
+};
+
+/* Each member clears what it will go over, so that it is near; the last one all that follows. */
+static void clear(int32_t member, int32_t members, void *ctx) {
+  const struct arrays *arrays = ctx;
+  const int last = member + 1 == members;
+  const int64_t from = hooke_crew_share(arrays->n, HOOKE_TILE, member, members),
+                to = last ? arrays->stride : hooke_crew_share(arrays->n, HOOKE_TILE, member + 1, members);
+  for (int64_t k = 0; k < arrays->count; k++)
+    memset(arrays->block + k * arrays->stride + from, 0, (size_t)(to - from) * sizeof(double));
+  if (last) memset(arrays->block + arrays->count * arrays->stride, 0, (size_t)arrays->rest * sizeof(double));
+}
+
+/* Arrays of n numbers each, and what else goes with them. */
+static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hooke_motion *motion) {
+  const int64_t n = system->particle_count;
+  /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
+   * sets. Loops over lanes look beyond the last particle. */
+  const int64_t beyond = system->lanes.count > 0 ? system->lanes.reach + HOOKE_LANE_UNIT : 0;
+  const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
+  const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
+  const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
+  const int64_t numbers = components + rows + still + driven;
+  double *block = hooke_reserve(numbers, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  struct arrays cleared = {block, n, arrays, stride, numbers - components};
+  hooke_crew_run(motion->crew, clear, &cleared);
+  motion->n = n;
+  motion->memory += numbers * (int64_t)sizeof(double);
+  for (int a = 0; a < 3; a++) {
+    motion->q[a] = block + a * stride;
+    motion->v[a] = block + (3 + a) * stride;
+    if (!by_tiles) motion->f[a] = block + (6 + a) * stride;
+  }
+  motion->rows = rows ? block + components : NULL;
+  motion->still = block + components + rows;
+  motion->driven = motion->still + still;
+  return HOOKE_OK;
+}
+
+/* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
+static void number_held(const hooke_system *system, const int32_t *place, struct hooke_motion *motion) {
+  int32_t *moved = motion->moved;
+  for (int64_t k = 0; k < system->anchor_count; k++)
+    motion->anchor[k] = place ? place[system->anchor[k]] : system->anchor[k];
+  for (int64_t d = 0; d < system->drive_count; d++) {
+    for (int64_t k = 0; k < system->drive[d].count; k++) {
+      const int32_t p = system->drive[d].particle[k];
+      *moved++ = place ? place[p] : p;
+    }
+  }
+}
+
+static int32_t new_numbers(const hooke_system *system, struct hooke_motion *motion) {
+  const int64_t count = system->anchor_count + driven_count(system);
+  motion->anchor = hooke_new(count, sizeof *motion->anchor);
+  if (motion->anchor == NULL) return HOOKE_NO_MEMORY;
+  motion->moved = motion->anchor + system->anchor_count;
+  motion->memory += count * (int64_t)sizeof *motion->anchor;
+  int32_t *place = NULL;
+  if (motion->order && count > 0) {
+    place = hooke_new(motion->n, sizeof *place);
+    if (place == NULL) return HOOKE_NO_MEMORY;
+    for (int64_t p = 0; p < motion->n; p++)
+      place[motion->order[p]] = (int32_t)p;
+  }
+  number_held(system, place, motion);
+  hooke_free(place);
+  return HOOKE_OK;
+}
+
+static int32_t new_scratch(const hooke_system *system, struct hooke_motion *motion) {
+  if (system->lanes.count > 0) {
+    motion->rings = hooke_rings_create(&system->lanes, hooke_crew_members(motion->crew));
+    if (motion->rings == NULL) return HOOKE_NO_MEMORY;
+  }
+  if (system->net.particles > 0) {
+    motion->net = hooke_net_scratch_create(&system->net, hooke_crew_members(motion->crew));
+    if (motion->net == NULL) return HOOKE_NO_MEMORY;
+  }
+  motion->memory += hooke_rings_memory(motion->rings) + hooke_net_scratch_memory(motion->net);
+  return HOOKE_OK;
+}
+
+int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_crew *crew,
+                            struct hooke_motion **out) {
+  struct hooke_motion *motion = hooke_new(1, sizeof *motion);
+  if (motion == NULL) return HOOKE_NO_MEMORY;
+  motion->crew = crew;
+  motion->order = by_tiles ? system->net.order : NULL;
+  motion->w = motion->order ? system->net.inverse_mass : system->inverse_mass;
+  int32_t status = new_arrays(system, by_tiles, motion);
+  if (status == HOOKE_OK) status = new_numbers(system, motion);
+  if (status == HOOKE_OK) status = new_scratch(system, motion);
+  if (status == HOOKE_OK)
+    *out = motion;
+  else
+    hooke_motion_destroy(motion);
+  return status;
+}
+
+void hooke_motion_destroy(struct hooke_motion *motion) {
+  if (motion == NULL) return;
+  hooke_rings_destroy(motion->rings);
+  hooke_net_scratch_destroy(motion->net);
+  hooke_free(motion->anchor);
+  hooke_free(motion->q[0]);
+  hooke_free(motion);
+}
+
+void hooke_rows_from_components(int64_t n, double *const component[3], double *rows) {
+  const double *x = component[0], *y = component[1], *z = component[2];
+  for (int64_t p = 0; p < n; p++) {
+    rows[3 * p] = x[p];
+    rows[3 * p + 1] = y[p];
+    rows[3 * p + 2] = z[p];
+  }
+}
+
+void hooke_components_from_rows(int64_t n, const double *rows, double *const component[3]) {
+  double *x = component[0], *y = component[1], *z = component[2];
+  for (int64_t p = 0; p < n; p++) {
+    x[p] = rows[3 * p];
+    y[p] = rows[3 * p + 1];
+    z[p] = rows[3 * p + 2];
+  }
+}
+
+/* Rows in the caller's numbers. */
+static void load_rows(const struct hooke_motion *motion, const double *rows, double *const component[3]) {
+  if (motion->order == NULL) {
+    hooke_components_from_rows(motion->n, rows, component);
+    return;
+  }
+  for (int64_t p = 0; p < motion->n; p++) {
+    const double *row = rows + 3 * (int64_t)motion->order[p];
+    for (int a = 0; a < 3; a++)
+      component[a][p] = row[a];
+  }
+}
+
+static void store_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+  if (motion->order == NULL) {
+    hooke_rows_from_components(motion->n, component, rows);
+    return;
+  }
+  for (int64_t p = 0; p < motion->n; p++) {
+    double *row = rows + 3 * (int64_t)motion->order[p];
+    for (int a = 0; a < 3; a++)
+      row[a] = component[a][p];
+  }
+}
+
+void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, const double *q,
+                       const double *v) {
+  load_rows(motion, q, motion->q);
+  load_rows(motion, v, motion->v);
+  for (int64_t k = 0; k < system->anchor_count; k++)
+    memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->anchor[k], 3 * sizeof(double));
+  motion->stop_value = 0;
+}
+
+void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v) {
+  store_rows(motion, motion->q, q);
+  store_rows(motion, motion->v, v);
+}
+
+static void exchange_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      const double kept = row[a];
+      row[a] = component[a][p];
+      component[a][p] = kept;
+    }
+  }
+}
+
+void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v) {
+  exchange_rows(motion, motion->q, q);
+  exchange_rows(motion, motion->v, v);
+}
+
+static int same_rows(const struct hooke_motion *motion, double *const component[3], const double *rows) {
+  for (int64_t p = 0; p < motion->n; p++) {
+    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
+    for (int a = 0; a < 3; a++) {
+      if (memcmp(&row[a], &component[a][p], sizeof(double)) != 0) return 0;
+    }
+  }
+  return 1;
+}
+
+int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v) {
+  return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
+}
+
+struct copying {
+  const struct hooke_motion *motion;
+  double *place;
+  int32_t back;
+};
+
+static void copy_share(int32_t member, int32_t members, void *ctx) {
+  const struct copying *copying = ctx;
+  const struct hooke_motion *m = copying->motion;
+  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  for (int a = 0; a < 6; a++) {
+    double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->place + a * m->n + from;
+    memcpy(copying->back ? here : there, copying->back ? there : here, (size_t)count * sizeof(double));
+  }
+}
+
+void hooke_motion_save(const struct hooke_motion *motion, double *place) {
+  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 0});
+}
+
+void hooke_motion_restore(struct hooke_motion *motion, double *place) {
+  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 1});
+}
+
+static void clear_forces(int32_t member, int32_t members, void *ctx) {
+  const struct hooke_motion *m = ctx;
+  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  for (int a = 0; a < 3; a++)
+    memset(m->f[a] + from, 0, (size_t)count * sizeof(double));
+}
+
+int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t) {
+  return hooke_motion_forces_without(system, motion, t, NULL);
+}
+
+int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
+                                    const struct hooke_force_row *left_out) {
+  hooke_crew_run(motion->crew, clear_forces, motion);
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hooke_force_row *row = system->force_row[k];
+    if (row->add == NULL || row == left_out) continue;
+    const int32_t status = row->add(system, motion, t);
+    if (status != HOOKE_OK) return status;
+  }
+  return HOOKE_OK;
+}
+
+int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t) {
+  double *q = motion->driven;
+  for (int64_t k = 0; k < system->drive_count; k++) {
+    const struct hooke_drive_group *drive = &system->drive[k];
+    const int32_t value = hooke_drive_evaluate(drive, t, q, q + 3 * drive->count);
+    if (value != 0) {
+      motion->stop_value = value;
+      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.6g s", (int)value, t);
+    }
+    q += 6 * drive->count;
+  }
+  return HOOKE_OK;
+}
+
+/* `count` particles with the numbers `moved`. */
+static void hold_driven(int64_t count, const int32_t *moved, const double *q, struct hooke_motion *motion) {
+  const double *v = q + 3 * count;
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t p = moved[k];
+    for (int a = 0; a < 3; a++) {
+      motion->q[a][p] = q[3 * k + a];
+      motion->v[a][p] = v[3 * k + a];
+    }
+  }
+}
+
+void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion) {
+  for (int64_t k = 0; k < system->anchor_count; k++) {
+    const int32_t p = motion->anchor[k];
+    for (int a = 0; a < 3; a++) {
+      motion->q[a][p] = motion->still[3 * k + a];
+      motion->v[a][p] = 0.0;
+    }
+  }
+  const double *driven = motion->driven;
+  const int32_t *moved = motion->moved;
+  for (int64_t k = 0; k < system->drive_count; k++) {
+    const int64_t count = system->drive[k].count;
+    hold_driven(count, moved, driven, motion);
+    driven += 6 * count;
+    moved += count;
+  }
+}

@@ -1,0 +1,24 @@
+/* What the members of a crew go over and keep in a pass over a net. */
+#ifndef HOOKE_MODEL_SUM_NET_SHARE_H
+#define HOOKE_MODEL_SUM_NET_SHARE_H
+
+#include "model/sum/net.h"
+
+/* A member has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles from `begin` on,
+ * which end in its own, and saves the rows of the particles from its last one to `saved_end` - 1, which others move. */
+struct hooke_net_share {
+  int64_t begin, first, end, saved_end;
+  const void *place;                    /* of the first force on the first particle */
+  double *rows, *forces, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
+  int64_t seen, done;                   /* particles in the window and springs in the ring so far */
+  int64_t lost;
+};
+
+struct hooke_net_scratch {
+  int32_t members, damped;
+  struct hooke_net_share *share;
+  const struct hooke_net_loops *loops;
+  int64_t memory;
+};
+
+#endif

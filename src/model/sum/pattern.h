@@ -1,0 +1,22 @@
+/* Where the 3x3 blocks of the derivative of the forces are: particle pairs that a spring or a triple
+ * joins, and the diagonal. */
+#ifndef HOOKE_MODEL_SUM_PATTERN_H
+#define HOOKE_MODEL_SUM_PATTERN_H
+
+#include <stdint.h>
+
+struct hooke_system;
+
+struct hooke_pattern {
+  int64_t rows, count;
+  int64_t *row_start; /* rows + 1 */
+  int64_t *column;    /* count, ascending within a row */
+};
+
+int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pattern *pattern);
+void hooke_pattern_release(struct hooke_pattern *pattern);
+
+/* Number of the block (row, column), which must be there. */
+int64_t hooke_pattern_block(const struct hooke_pattern *pattern, int64_t row, int64_t column);
+
+#endif

@@ -1,0 +1,36 @@
+/* All springs of a system, some at a time, in the order in which memory has them: that of their numbers, or by the tiles of
+ * a net, whose springs are in no order. For sums and counts in which all springs are alike; the order is the system's own,
+ * so that sums have the same bits always. */
+#ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
+#define HOOKE_MODEL_SUM_SPRING_BATCH_H
+
+#include "model/system.h"
+
+enum { HOOKE_SPRING_BATCH = 256 };
+
+struct hooke_spring_batch {
+  int64_t count;
+  int32_t damped, pull_only;
+  int32_t head[HOOKE_SPRING_BATCH],
+      tail[HOOKE_SPRING_BATCH]; /* in a net the first end is not the one that was given */
+  double kappa[HOOKE_SPRING_BATCH], gamma[HOOKE_SPRING_BATCH], rest_length[HOOKE_SPRING_BATCH];
+
+  int64_t row, done; /* where it is: a run, or a tile and class; springs of it behind it */
+  int64_t at;        /* place in the net */
+};
+
+/* Before the first; the next ones, or 0 if there are none. */
+static inline void hooke_begin_batches(struct hooke_spring_batch *batch) {
+  batch->count = batch->row = batch->done = batch->at = 0;
+}
+int32_t hooke_next_batch(const hooke_system *system, struct hooke_spring_batch *batch);
+
+static inline struct hooke_spring hooke_batch_spring(const struct hooke_spring_batch *batch, int64_t k) {
+  return (struct hooke_spring){batch->head[k],  batch->tail[k],        batch->kappa[k],
+                               batch->gamma[k], batch->rest_length[k], batch->pull_only};
+}
+
+/* Length of each spring of a batch. */
+void hooke_batch_lengths(const struct hooke_spring_batch *batch, const double *q, double *length);
+
+#endif

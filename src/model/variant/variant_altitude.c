@@ -1,0 +1,46 @@
+/* Groups of tetrahedra of a variant that its parts do not bring. */
+#include "model/variant/variant.h"
+
+#include "core/memory.h"
+
+/* In the numbers of the variant, and as it has its springs; 0 where a corner is not there, or two have become one. */
+static int32_t take_over(const struct hooke_variant_maker *maker, struct hooke_tetrahedron *t) {
+  for (int e = 0; e < 4; e++) {
+    const int64_t to = maker->map->to[t->particle[e]];
+    if (to < 0) return 0;
+    t->particle[e] = (int32_t)to;
+    for (int other = 0; other < e; other++) {
+      if (t->particle[other] == t->particle[e]) return 0;
+    }
+  }
+  if (maker->variant->damping) t->damping = 0.0;
+  if (maker->variant->compression) t->pull_only = 1;
+  return 1;
+}
+
+static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_altitude_group *group,
+                         const struct hooke_tetrahedron *from) {
+  struct hooke_tetrahedron *tetrahedron = hooke_new(group->count, sizeof *tetrahedron);
+  if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
+  int64_t count = 0;
+  for (int64_t k = 0; k < group->count; k++) {
+    tetrahedron[count] = from[k];
+    count += take_over(maker, &tetrahedron[count]);
+  }
+  int32_t status = HOOKE_OK;
+  if (count > 0) status = hooke_system_add_tetrahedra(maker->made, group->name, 0, count, tetrahedron);
+  hooke_free(tetrahedron);
+  return status;
+}
+
+int32_t hooke_variant_add_altitude(struct hooke_variant_maker *maker) {
+  const hooke_system *from = maker->from;
+  int32_t status = HOOKE_OK;
+  int64_t first = 0;
+  for (int64_t g = 0; g < from->altitude_group_count && status == HOOKE_OK;
+       first += from->altitude_group[g++].count) {
+    if (!from->altitude_group[g].from_part && !maker->variant->altitude[g])
+      status = add_group(maker, &from->altitude_group[g], from->altitudes.tetrahedron + first);
+  }
+  return status;
+}

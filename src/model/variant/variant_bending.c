@@ -1,0 +1,50 @@
+/* Groups of triples of a variant that its parts do not bring. */
+#include "model/variant/variant.h"
+
+#include "core/memory.h"
+
+/* The triples from `first` to before `end` whose particles are all there, in the numbers of the variant; how many. */
+static int64_t collect(const struct hooke_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
+                       double *coefficient) {
+  struct hooke_triples at = {.bending = &maker->from->bending};
+  struct hooke_triple triple;
+  int64_t count = 0;
+  for (int64_t k = 0; k < end && hooke_next_triple(&at, &triple); k++) {
+    int32_t there = k >= first;
+    for (int e = 0; e < 3 && there; e++) {
+      ends[3 * count + e] = maker->map->to[triple.particle[e]];
+      there = ends[3 * count + e] >= 0;
+    }
+    const int64_t *t = ends + 3 * count;
+    if (!there || t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
+    coefficient[count++] = triple.coefficient;
+  }
+  return count;
+}
+
+static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_bending_group *group,
+                         int64_t first) {
+  int64_t *ends = hooke_new(3 * group->count + 3, sizeof *ends);
+  double *coefficient = hooke_new(group->count, sizeof *coefficient);
+  int32_t status = ends && coefficient ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) {
+    const int64_t count = collect(maker, first, first + group->count, ends, coefficient);
+    if (count > 0)
+      status = hooke_system_add_bending(maker->made, group->name, count, ends, count, coefficient);
+  }
+  hooke_free(ends);
+  hooke_free(coefficient);
+  return status;
+}
+
+int32_t hooke_variant_add_bending(struct hooke_variant_maker *maker) {
+  const hooke_system *from = maker->from;
+  int32_t status = HOOKE_OK;
+  int64_t first = 0;
+  for (int64_t g = 0; g < from->bending_group_count && status == HOOKE_OK;
+       first += from->bending_group[g++].count) {
+    if (!from->bending_group[g].from_part && !maker->variant->bending[g])
+      status = add_group(maker, &from->bending_group[g], first);
+  }
+  return status;
+}

@@ -1,0 +1,268 @@
+#include "parts/surface.h"
+
+#include "parts/weld.h"
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double FLAT = 1e-12; /* height over the longest edge, from which a triangle has no area */
+
+static int32_t found(struct hooke_surface_fault *fault, struct hooke_surface_fault what) {
+  *fault = what;
+  return HOOKE_BAD_VALUE;
+}
+
+/* ---- vertices ---- */
+
+static void place_vertices(const hooke_options *options, int64_t count, double *position) {
+  const double *vertex = hooke_options_numbers(options, "vertices");
+  const double scale = hooke_options_number(options, "transform.scale");
+  const double *translate = hooke_options_numbers(options, "transform.translate");
+  for (int64_t k = 0; k < 3 * count; k++)
+    position[k] = scale * vertex[k] + translate[k % 3];
+}
+
+static int32_t check_range(const double *corner, int64_t count, int64_t vertices) {
+  for (int64_t k = 0; k < count; k++) {
+    if (corner[k] < (double)vertices) continue;
+    char place[64];
+    snprintf(place, sizeof place, "triangles[%lld][%lld]", (long long)(k / 3), (long long)(k % 3));
+    return hooke_fail(HOOKE_BAD_VALUE, place, "there is no vertex %.0f; allowed: 0 to %lld", corner[k],
+                      (long long)vertices - 1);
+  }
+  return HOOKE_OK;
+}
+
+/* ---- triangles ---- */
+
+static int32_t check_corners(const struct hooke_surface *surface, const double *corner, int64_t t,
+                             struct hooke_surface_fault *fault) {
+  const int32_t *v = surface->triangle + 3 * t;
+  for (int e = 0; e < 3; e++) {
+    if (v[e] != v[(e + 1) % 3]) continue;
+    return found(
+        fault,
+        (struct hooke_surface_fault){
+            HOOKE_SURFACE_CORNERS, {(int64_t)corner[3 * t + e], (int64_t)corner[3 * t + (e + 1) % 3]}, {t}});
+  }
+  return HOOKE_OK;
+}
+
+/* The longest edge is taken out, so that small and large triangles are told from flat ones alike. */
+static double area_of(const double *a, const double *b, const double *c) {
+  double u[3], v[3], longest = 0.0;
+  for (int i = 0; i < 3; i++) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+    longest = fmax(longest, fmax(fmax(fabs(u[i]), fabs(v[i])), fabs(u[i] - v[i])));
+  }
+  for (int i = 0; i < 3 && longest > 0.0; i++) {
+    u[i] /= longest;
+    v[i] /= longest;
+  }
+  double square = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const double normal = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+    square += normal * normal;
+  }
+  const double ratio = sqrt(square);
+  return ratio > FLAT ? 0.5 * ratio * longest * longest : 0.0;
+}
+
+static int32_t share_areas(struct hooke_surface *surface, const double *corner,
+                           struct hooke_surface_fault *fault) {
+  for (int64_t t = 0; t < surface->triangle_count; t++) {
+    const int32_t *v = surface->triangle + 3 * t;
+    const double area = area_of(surface->position + 3 * (int64_t)v[0], surface->position + 3 * (int64_t)v[1],
+                                surface->position + 3 * (int64_t)v[2]);
+    if (!(area > 0.0) || !isfinite(area)) {
+      const double *given = corner + 3 * t;
+      return found(fault,
+                   (struct hooke_surface_fault){
+                       HOOKE_SURFACE_FLAT, {(int64_t)given[0], (int64_t)given[1], (int64_t)given[2]}, {t}});
+    }
+    for (int e = 0; e < 3; e++)
+      surface->area[v[e]] += area / 3.0;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_used(const struct hooke_surface *surface, struct hooke_surface_fault *fault) {
+  for (int64_t v = 0; v < surface->vertex_count; v++) {
+    if (surface->area[v] == 0.0)
+      return found(fault, (struct hooke_surface_fault){HOOKE_SURFACE_UNUSED, {surface->first[v]}, {0}});
+  }
+  return HOOKE_OK;
+}
+
+/* ---- edges ---- */
+
+/* One side of one triangle. */
+struct side {
+  int32_t low, high, across, triangle;
+};
+
+static void list_sides(const struct hooke_surface *surface, struct side *side) {
+  for (int64_t t = 0; t < surface->triangle_count; t++) {
+    const int32_t *v = surface->triangle + 3 * t;
+    for (int e = 0; e < 3; e++) {
+      const int32_t a = v[e], b = v[(e + 1) % 3];
+      *side++ = (struct side){a < b ? a : b, a < b ? b : a, v[(e + 2) % 3], (int32_t)t};
+    }
+  }
+}
+
+/* Counting sort, which keeps the order of equals; `start` has room for a number more than there are vertices. */
+static void sort_sides(int64_t count, int64_t vertices, int by_low, const struct side *from, struct side *to,
+                       int64_t *start) {
+  memset(start, 0, (size_t)(vertices + 1) * sizeof *start);
+  for (int64_t k = 0; k < count; k++)
+    start[(by_low ? from[k].low : from[k].high) + 1]++;
+  for (int64_t v = 0; v < vertices; v++)
+    start[v + 1] += start[v];
+  for (int64_t k = 0; k < count; k++)
+    to[start[by_low ? from[k].low : from[k].high]++] = from[k];
+}
+
+static int32_t join_sides(struct hooke_surface *surface, int64_t count, const struct side *side,
+                          struct hooke_surface_fault *fault) {
+  for (int64_t k = 0, next; k < count; k = next) {
+    const int64_t low = surface->first[side[k].low], high = surface->first[side[k].high];
+    for (next = k + 1; next < count && side[next].low == side[k].low && side[next].high == side[k].high;)
+      next++;
+    if (next - k > 2) {
+      return found(fault, (struct hooke_surface_fault){
+                              HOOKE_SURFACE_CROWDED,
+                              {low, high},
+                              {side[k + 2].triangle, side[k].triangle, side[k + 1].triangle}});
+    }
+    if (next - k == 2 && side[k].across == side[k + 1].across) {
+      return found(fault, (struct hooke_surface_fault){HOOKE_SURFACE_TWICE,
+                                                       {low, high, surface->first[side[k].across]},
+                                                       {side[k + 1].triangle, side[k].triangle}});
+    }
+    surface->edge[surface->edge_count++] = (struct hooke_surface_edge){
+        side[k].low, side[k].high, {side[k].across, next - k == 2 ? side[k + 1].across : -1}};
+  }
+  return HOOKE_OK;
+}
+
+static int32_t list_edges(struct hooke_surface *surface, struct hooke_surface_fault *fault) {
+  const int64_t count = 3 * surface->triangle_count;
+  struct side *side = hooke_new(count, sizeof *side), *sorted = hooke_new(count, sizeof *sorted);
+  int64_t *start = hooke_new(surface->vertex_count + 1, sizeof *start);
+  surface->edge = hooke_new(count, sizeof *surface->edge);
+  int32_t status = HOOKE_NO_MEMORY;
+  if (side && sorted && start && surface->edge) {
+    list_sides(surface, side);
+    sort_sides(count, surface->vertex_count, 0, side, sorted, start);
+    sort_sides(count, surface->vertex_count, 1, sorted, side, start);
+    status = join_sides(surface, count, side, fault);
+  }
+  hooke_free(side);
+  hooke_free(sorted);
+  hooke_free(start);
+  return status;
+}
+
+/* ---- the whole ---- */
+
+static int32_t fill(const hooke_options *options, struct hooke_surface *surface, int32_t *became,
+                    struct hooke_surface_fault *fault) {
+  const int64_t given = hooke_options_number_count(options, "vertices") / 3;
+  const double *corner = hooke_options_numbers(options, "triangles");
+  place_vertices(options, given, surface->position);
+  int32_t status = check_range(corner, 3 * surface->triangle_count, given);
+  if (status == HOOKE_OK) {
+    status = hooke_weld(given, hooke_options_number(options, "weld"), surface->position, became,
+                        surface->first, &surface->vertex_count);
+  }
+  for (int64_t k = 0; k < 3 * surface->triangle_count && status == HOOKE_OK; k++)
+    surface->triangle[k] = became[(int64_t)corner[k]];
+  for (int64_t t = 0; t < surface->triangle_count && status == HOOKE_OK; t++)
+    status = check_corners(surface, corner, t, fault);
+  if (status == HOOKE_OK) status = share_areas(surface, corner, fault);
+  if (status == HOOKE_OK) status = check_used(surface, fault);
+  if (status == HOOKE_OK) status = list_edges(surface, fault);
+  return status;
+}
+
+int32_t hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
+                             struct hooke_surface_fault *fault) {
+  const int64_t vertices = hooke_options_number_count(options, "vertices") / 3;
+  const int64_t triangles = hooke_options_number_count(options, "triangles") / 3;
+  *surface = (struct hooke_surface){.triangle_count = triangles};
+  *fault = (struct hooke_surface_fault){.trouble = HOOKE_SURFACE_FINE};
+  if (vertices > INT32_MAX || 3 * triangles > INT32_MAX) {
+    return hooke_fail(HOOKE_BAD_VALUE, NULL,
+                      "a mesh of %lld vertices and %lld triangles; allowed: up to 2147483647 vertices and "
+                      "715827882 triangles",
+                      (long long)vertices, (long long)triangles);
+  }
+  surface->position = hooke_new(3 * vertices, sizeof(double));
+  surface->area = hooke_new(vertices, sizeof(double));
+  surface->first = hooke_new(vertices, sizeof(int32_t));
+  surface->triangle = hooke_new(3 * triangles, sizeof(int32_t));
+  int32_t *became = hooke_new(vertices, sizeof(int32_t));
+  int32_t status = HOOKE_NO_MEMORY;
+  if (surface->position && surface->area && surface->first && surface->triangle && became)
+    status = fill(options, surface, became, fault);
+  hooke_free(became);
+  return status;
+}
+
+void hooke_surface_release(struct hooke_surface *surface) {
+  hooke_free(surface->position);
+  hooke_free(surface->area);
+  hooke_free(surface->first);
+  hooke_free(surface->triangle);
+  hooke_free(surface->edge);
+  *surface = (struct hooke_surface){.edge = NULL};
+}
+
+void hooke_surface_describe(const struct hooke_surface_fault *fault, int64_t base, const int32_t *line,
+                            char *text, int64_t size) {
+  const char *kind = line ? "line" : "triangle";
+  long long v[3], t[3];
+  for (int k = 0; k < 3; k++) {
+    v[k] = (long long)(fault->vertex[k] + base);
+    t[k] = line ? (long long)line[fault->triangle[k]] : (long long)fault->triangle[k];
+  }
+  text[0] = '\0';
+  switch (fault->trouble) {
+  case HOOKE_SURFACE_FINE:
+    break;
+  case HOOKE_SURFACE_CORNERS:
+    snprintf(text, (size_t)size,
+             v[0] == v[1] ? "vertex %lld is two of its corners; allowed: three different ones"
+                          : "its corners %lld and %lld become one particle; allowed: three different ones",
+             v[0], v[1]);
+    break;
+  case HOOKE_SURFACE_FLAT:
+    snprintf(
+        text, (size_t)size,
+        "the triangle of vertices %lld, %lld and %lld has no area, or one that is not finite; allowed: an "
+        "area > 0, as the mass is shared out by it",
+        v[0], v[1], v[2]);
+    break;
+  case HOOKE_SURFACE_UNUSED:
+    snprintf(text, (size_t)size,
+             "vertex %lld is in no face; allowed: vertices of faces only, as the mass is shared out by area",
+             v[0]);
+    break;
+  case HOOKE_SURFACE_CROWDED:
+    snprintf(text, (size_t)size,
+             "the edge of vertices %lld and %lld has a third face here, after those of %s %lld and %s %lld; "
+             "allowed: two faces at an edge",
+             v[0], v[1], kind, t[1], kind, t[2]);
+    break;
+  case HOOKE_SURFACE_TWICE:
+    snprintf(text, (size_t)size,
+             "a second face on vertices %lld, %lld and %lld, after that of %s %lld; allowed: each face once",
+             v[0], v[1], v[2], kind, t[1]);
+    break;
+  }
+}
