@@ -10,7 +10,7 @@
 
 enum { FIRST_LONG = 1000 }; /* values of getopt_long() that are no letter */
 
-static const struct hooke_verb_row shared_rows[] = {
+static const struct cli_verb_row shared_rows[] = {
     {"json", 0, NULL, "prints one JSON object, with every digit, and nothing else"},
     {"quiet", 'q', NULL, "prints no progress and no notes; results and failures stay"},
     {"help", 'h', NULL, "prints this text"},
@@ -28,14 +28,14 @@ static int32_t is_among(const char *words, const char *name) {
   return 0;
 }
 
-static void add_own(struct hooke_arguments *arguments, const struct hooke_verb_row *row) {
-  struct hooke_argument *argument = &arguments->all[arguments->count++];
+static void add_own(struct cli_arguments *arguments, const struct cli_verb_row *row) {
+  struct cli_argument *argument = &arguments->all[arguments->count++];
   argument->own = row;
   argument->name = row->name;
   snprintf(argument->flag, sizeof argument->flag, "%s", row->name);
 }
 
-const char *hooke_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]) {
+const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]) {
   snprintf(flag, HOOKE_FLAG_SIZE, "%s", name);
   for (char *at = flag; *at; at++) {
     if (*at == '_') *at = '-';
@@ -43,16 +43,16 @@ const char *hooke_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]) {
   return flag;
 }
 
-static void add_option(struct hooke_arguments *arguments, hooke_options *table, int64_t row) {
-  struct hooke_argument *argument = &arguments->all[arguments->count++];
+static void add_option(struct cli_arguments *arguments, hooke_options *table, int64_t row) {
+  struct cli_argument *argument = &arguments->all[arguments->count++];
   argument->name = hooke_options_row(table, row, "name");
   argument->table = table;
   argument->row = row;
-  hooke_arguments_flag(argument->name, argument->flag);
+  cli_arguments_flag(argument->name, argument->flag);
 }
 
 /* A family is no option: its members are, and make it present. */
-static void add_table(struct hooke_arguments *arguments, hooke_options *table, const char *without) {
+static void add_table(struct cli_arguments *arguments, hooke_options *table, const char *without) {
   for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
     if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
     if (!is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
@@ -70,8 +70,7 @@ static int has_words(const hooke_options *table) {
   return 1;
 }
 
-int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
-                            struct hooke_arguments *arguments) {
+int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments) {
   arguments->verb = verb;
   arguments->scene = kind;
   int32_t status = hooke_run_options_create(&arguments->run);
@@ -79,13 +78,13 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
   if (status == HOOKE_OK && !verb->input && !verb->kind_options)
     status = hooke_scene_options_create("limits", &arguments->limits);
   if (status == HOOKE_OK && kind) status = verb->kind_options(kind, &arguments->of_kind);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
                          row_count(arguments->limits) + row_count(arguments->of_kind);
   arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
   if (!arguments->all || !has_words(arguments->run) || !has_words(arguments->more) ||
       !has_words(arguments->limits) || !has_words(arguments->of_kind))
-    return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+    return hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
   add_table(arguments, arguments->more, NULL);
   for (int32_t i = 0; i < verb->row_count; i++)
@@ -100,107 +99,105 @@ int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
 /* ---- parsing ---- */
 
 static const char *next_flag(int64_t i, const void *ctx) {
-  const struct hooke_arguments *arguments = ctx;
+  const struct cli_arguments *arguments = ctx;
   return i < arguments->count ? arguments->all[i].flag : NULL;
 }
 
-static int unknown_flag(const struct hooke_arguments *arguments, const char *word) {
+static int unknown_flag(const struct cli_arguments *arguments, const char *word) {
   char flag[HOOKE_FLAG_SIZE];
   snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
   flag[strcspn(flag, "=")] = '\0';
-  const char *near = hooke_suggest(flag, next_flag, arguments);
-  return hooke_report(
-      arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them", word,
-      near ? ", did you mean --" : "", near ? near : "", near ? "?" : "", arguments->verb->name);
+  const char *near = cli_suggest(flag, next_flag, arguments);
+  return hk_report(arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them",
+                   word, near ? ", did you mean --" : "", near ? near : "", near ? "?" : "",
+                   arguments->verb->name);
 }
 
 /* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
-static int32_t is_flag(const struct hooke_argument *argument) {
+static int32_t is_flag(const struct cli_argument *argument) {
   return argument->own == NULL &&
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
 }
 
-static int take(struct hooke_arguments *arguments, struct hooke_argument *argument, const char *text) {
+static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
   argument->text = text ? text : is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
   if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
-    return hooke_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
+    return cli_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
   }
-  int answer = hooke_value_read(arguments, argument);
-  if (answer != HOOKE_EXIT_DONE || hooke_value_adds_up(argument)) return answer;
-  return hooke_value_set(arguments, argument);
+  int answer = cli_value_read(arguments, argument);
+  if (answer != HOOKE_EXIT_DONE || cli_value_adds_up(argument)) return answer;
+  return cli_value_set(arguments, argument);
 }
 
 /* Sets what the whole command line had to be read for. */
-static int set_what_added_up(const struct hooke_arguments *arguments) {
+static int set_what_added_up(const struct cli_arguments *arguments) {
   int answer = HOOKE_EXIT_DONE;
   for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
-    if (argument->value && hooke_value_adds_up(argument)) answer = hooke_value_set(arguments, argument);
+    const struct cli_argument *argument = &arguments->all[i];
+    if (argument->value && cli_value_adds_up(argument)) answer = cli_value_set(arguments, argument);
   }
   return answer;
 }
 
 /* The argument that getopt_long() or one of its letters stands for. */
-static struct hooke_argument *argument_of(struct hooke_arguments *arguments, int code) {
+static struct cli_argument *argument_of(struct cli_arguments *arguments, int code) {
   if (code == 0) return NULL;
   if (code >= FIRST_LONG) return &arguments->all[code - FIRST_LONG];
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_verb_row *own = arguments->all[i].own;
+    const struct cli_verb_row *own = arguments->all[i].own;
     if (own && own->letter == code) return &arguments->all[i];
   }
   return NULL;
 }
 
 /* The one word that is no option. */
-static int take_operand(struct hooke_arguments *arguments, int argc, char **argv) {
+static int take_operand(struct cli_arguments *arguments, int argc, char **argv) {
   const char *input = arguments->verb->input;
-  const char *name = arguments->verb->for_scene,
-             *instead = name ? hooke_arguments_text(arguments, name) : NULL;
+  const char *name = arguments->verb->for_scene, *instead = name ? cli_arguments_text(arguments, name) : NULL;
   if (instead) {
     arguments->scene = instead;
     if (optind >= argc) return HOOKE_EXIT_DONE;
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s has a scene of its own; leave out '%s'", name,
-                        instead, argv[optind]);
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %s has a scene of its own; leave out '%s'", name,
+                     instead, argv[optind]);
   }
   if (optind >= argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
-                        input ? input : "scene", arguments->verb->name,
-                        hooke_describe_operand(arguments->verb));
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                     input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb));
   }
   if (optind + 1 < argc) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
-                        input ? "file" : "scene", argv[optind], argv[optind + 1]);
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                     input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }
   arguments->scene = argv[optind];
   return HOOKE_EXIT_DONE;
 }
 
-static int parse_words(struct hooke_arguments *arguments, int argc, char **argv, const char *letters,
+static int parse_words(struct cli_arguments *arguments, int argc, char **argv, const char *letters,
                        const struct option *longs) {
   int code;
   opterr = 0;
   optind = 0; /* begins anew, whatever was parsed before */
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
-    struct hooke_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
+    struct cli_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
     if (!argument) {
       char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long one */
       return unknown_flag(arguments, optopt ? letter : argv[optind - 1]);
     }
     if (code == ':')
-      return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
-    if (code == '?') return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s takes no value", argument->flag);
+      return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
+    if (code == '?') return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s takes no value", argument->flag);
     int answer = take(arguments, argument, optarg);
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
-  arguments->help = hooke_arguments_text(arguments, "help") != NULL;
+  arguments->help = cli_arguments_text(arguments, "help") != NULL;
   if (arguments->help) return HOOKE_EXIT_DONE;
   int answer = set_what_added_up(arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
   if (arguments->verb->kind_options) {
     if (optind + 1 >= argc) return HOOKE_EXIT_DONE;
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
-                        argv[optind + 1], arguments->scene);
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
+                     argv[optind + 1], arguments->scene);
   }
   return take_operand(arguments, argc, argv);
 }
@@ -215,11 +212,11 @@ static int32_t is_for_help(int argc, char **argv) {
 }
 
 /* The kind comes first, since the other options hang on it; NULL if there is none. */
-static int find_kind(struct hooke_arguments *arguments, int argc, char **argv, const char **kind) {
+static int find_kind(struct cli_arguments *arguments, int argc, char **argv, const char **kind) {
   *kind = NULL;
   if (!arguments->verb->kind_options || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
   if (argc < 2 || argv[1][0] == '-') {
-    return hooke_report(
+    return hk_report(
         arguments, HOOKE_EXIT_USAGE,
         "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
         arguments->verb->name, arguments->verb->name);
@@ -228,14 +225,13 @@ static int find_kind(struct hooke_arguments *arguments, int argc, char **argv, c
     if (strcmp(hooke_part_kind(i), argv[1]) == 0) *kind = argv[1];
   }
   if (*kind) return HOOKE_EXIT_DONE;
-  const char *near = hooke_suggest(argv[1], next_kind, NULL);
-  return hooke_report(
-      arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them", argv[1],
-      near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "", arguments->verb->name);
+  const char *near = cli_suggest(argv[1], next_kind, NULL);
+  return hk_report(arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them",
+                   argv[1], near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
+                   arguments->verb->name);
 }
 
-int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
-                          struct hooke_arguments *arguments) {
+int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments) {
   memset(arguments, 0, sizeof *arguments);
   arguments->verb = verb;
   /* looked for first, so that wrong usage is reported in the form that was asked for */
@@ -244,7 +240,7 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
   }
   const char *kind;
   int answer = find_kind(arguments, argc, argv, &kind);
-  if (answer == HOOKE_EXIT_DONE) answer = hooke_arguments_collect(verb, kind, arguments);
+  if (answer == HOOKE_EXIT_DONE) answer = cli_arguments_collect(verb, kind, arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
 
   struct option *longs = calloc((size_t)arguments->count + 1, sizeof *longs);
@@ -253,7 +249,7 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
     char *letter = letters;
     *letter++ = ':';
     for (int32_t i = 0; i < arguments->count; i++) {
-      const struct hooke_argument *argument = &arguments->all[i];
+      const struct cli_argument *argument = &arguments->all[i];
       int32_t wants = argument->own ? argument->own->value != NULL : 1;
       const int wanted = is_flag(argument) ? optional_argument : wants ? required_argument : no_argument;
       longs[i] = (struct option){argument->flag, wanted, NULL, FIRST_LONG + i};
@@ -263,17 +259,17 @@ int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
       }
     }
     answer = parse_words(arguments, argc, argv, letters, longs);
-    arguments->json = hooke_arguments_text(arguments, "json") != NULL;
-    arguments->quiet = hooke_arguments_text(arguments, "quiet") != NULL;
+    arguments->json = cli_arguments_text(arguments, "json") != NULL;
+    arguments->quiet = cli_arguments_text(arguments, "quiet") != NULL;
   } else {
-    answer = hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+    answer = hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   }
   free(letters);
   free(longs);
   return answer;
 }
 
-void hooke_arguments_destroy(struct hooke_arguments *arguments) {
+void cli_arguments_destroy(struct cli_arguments *arguments) {
   for (int32_t i = 0; i < arguments->count; i++)
     free(arguments->all[i].value);
   free(arguments->all);
@@ -285,16 +281,16 @@ void hooke_arguments_destroy(struct hooke_arguments *arguments) {
 
 /* ---- asking ---- */
 
-const char *hooke_arguments_text(const struct hooke_arguments *arguments, const char *name) {
+const char *cli_arguments_text(const struct cli_arguments *arguments, const char *name) {
   for (int32_t i = 0; i < arguments->count; i++) {
     if (strcmp(arguments->all[i].name, name) == 0) return arguments->all[i].text;
   }
   return NULL;
 }
 
-int32_t hooke_arguments_apply(const struct hooke_arguments *arguments, hooke_options *options) {
+int32_t cli_arguments_apply(const struct cli_arguments *arguments, hooke_options *options) {
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
+    const struct cli_argument *argument = &arguments->all[i];
     if (argument->table != arguments->run || !argument->text) continue;
     int32_t status = hooke_options_set_text(options, argument->name, argument->value);
     if (status != HOOKE_OK) return status;

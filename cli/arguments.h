@@ -8,46 +8,44 @@
 enum { HOOKE_FLAG_SIZE = 64 };
 
 /* One option that a verb takes: a row of its own, or one of an option table. */
-struct hooke_argument {
-  char flag[HOOKE_FLAG_SIZE];       /* as typed, without the dashes */
-  const char *name;                 /* "atol_velocity", "output" */
-  const struct hooke_verb_row *own; /* NULL: row `row` of `table` */
+struct cli_argument {
+  char flag[HOOKE_FLAG_SIZE];     /* as typed, without the dashes */
+  const char *name;               /* "atol_velocity", "output" */
+  const struct cli_verb_row *own; /* NULL: row `row` of `table` */
   hooke_options *table;
   int64_t row;
   const char *text; /* what was given, "" for a switch; NULL: not given */
   char *value;      /* the same in SI units, for a row of a table */
 };
 
-struct hooke_arguments {
-  const struct hooke_verb *verb;
+struct cli_arguments {
+  const struct cli_verb *verb;
   const char *scene; /* or the kind, for a verb that takes one */
   int32_t help, json, quiet;
   hooke_options *run;     /* the option table of a run, holding what was given */
   hooke_options *more;    /* that of the verb, likewise; NULL: it has none */
   hooke_options *limits;  /* that of loading a scene, likewise; NULL: the verb takes none */
   hooke_options *of_kind; /* that of the kind, likewise; NULL: it has none */
-  struct hooke_argument *all;
+  struct cli_argument *all;
   int32_t count;
 };
 
 /* Fills `arguments`, which is zeros, with every option that the verb takes (with this `kind`, NULL: none): those of the kind,
  * those of its own table, its own, those of all verbs, those of a run. */
-int hooke_arguments_collect(const struct hooke_verb *verb, const char *kind,
-                            struct hooke_arguments *arguments);
+int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments);
 
 /* Parses what follows the verb (argv[0] is the verb); wrong usage is reported and gives HOOKE_EXIT_USAGE. The
  * caller destroys `arguments` in either case. */
-int hooke_arguments_parse(const struct hooke_verb *verb, int argc, char **argv,
-                          struct hooke_arguments *arguments);
-void hooke_arguments_destroy(struct hooke_arguments *arguments);
+int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments);
+void cli_arguments_destroy(struct cli_arguments *arguments);
 
 /* An option's name as it is typed, without the dashes: "atol-velocity". Returns `flag`. */
-const char *hooke_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
+const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 
 /* Text given for an option, NULL if it was not given. */
-const char *hooke_arguments_text(const struct hooke_arguments *arguments, const char *name);
+const char *cli_arguments_text(const struct cli_arguments *arguments, const char *name);
 
 /* Sets every option of a run that was given. */
-int32_t hooke_arguments_apply(const struct hooke_arguments *arguments, hooke_options *options);
+int32_t cli_arguments_apply(const struct cli_arguments *arguments, hooke_options *options);
 
 #endif

@@ -11,39 +11,39 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct hooke_verb *const verbs[] = {&hooke_verb_make,
-                                                 &hooke_verb_run,
-                                                 &hooke_verb_compare,
-                                                 &hooke_verb_study,
-                                                 &hooke_verb_limit,
-                                                 &hooke_verb_why,
-                                                 &hooke_verb_needs,
-                                                 &hooke_verb_check,
-                                                 &hooke_verb_view,
-                                                 &hooke_verb_verify,
-                                                 NULL};
+static const struct cli_verb *const verbs[] = {&cli_verb_make,
+                                               &cli_verb_run,
+                                               &cli_verb_compare,
+                                               &cli_verb_study,
+                                               &cli_verb_limit,
+                                               &cli_verb_why,
+                                               &cli_verb_needs,
+                                               &cli_verb_check,
+                                               &cli_verb_view,
+                                               &cli_verb_verify,
+                                               NULL};
 
-static int print_version(const struct hooke_program *program) {
+static int print_version(const struct cli_program *program) {
   (void)program;
-  hooke_usage_print_version(stdout);
+  cli_usage_print_version(stdout);
   return HOOKE_EXIT_DONE;
 }
 
-static int print_help(const struct hooke_program *program) {
-  hooke_usage_print_all(stdout, program);
+static int print_help(const struct cli_program *program) {
+  cli_usage_print_all(stdout, program);
   return HOOKE_EXIT_DONE;
 }
 
-static const struct hooke_program_row rows[] = {
+static const struct cli_program_row rows[] = {
     {"help", 'h', NULL, "verbs and methods; after a verb, its options with units and defaults", print_help},
     {"version", 0, NULL, "the version, and what it was built with", print_version},
     {"completion", 0, "bash", "a script that completes commands in bash; it is installed with the program",
-     hooke_completion_print_bash},
-    {"man", 0, NULL, "this program's manual page", hooke_man_print},
+     cli_completion_print_bash},
+    {"man", 0, NULL, "this program's manual page", cli_man_print},
     {NULL, 0, NULL, NULL, NULL},
 };
 
-static const struct hooke_program program = {
+static const struct cli_program program = {
     .verbs = verbs,
     .rows = rows,
     .summary = "integrates mass-spring systems and says how accurate each method is for what it costs",
@@ -58,7 +58,7 @@ static const char *next_verb(int64_t i, const void *ctx) {
   return verbs[i] ? verbs[i]->name : NULL;
 }
 
-static const struct hooke_verb *find_verb(const char *name) {
+static const struct cli_verb *find_verb(const char *name) {
   for (int64_t i = 0; verbs[i]; i++) {
     if (strcmp(verbs[i]->name, name) == 0) return verbs[i];
   }
@@ -66,36 +66,36 @@ static const struct hooke_verb *find_verb(const char *name) {
 }
 
 static int unknown_verb(const char *word) {
-  const char *near = hooke_suggest(word, next_verb, NULL);
+  const char *near = cli_suggest(word, next_verb, NULL);
   fputs("hooke: there is no ", stderr);
   fputs(word[0] == '-' ? "option '" : "verb '", stderr);
-  hooke_print_text(stderr, word);
+  cli_print_text(stderr, word);
   fputs("'", stderr);
   if (near) fprintf(stderr, ", did you mean '%s'?", near);
   fputs("; 'hooke --help' lists the verbs\n", stderr);
   return HOOKE_EXIT_USAGE;
 }
 
-static int do_verb(const struct hooke_verb *verb, int argc, char **argv) {
-  struct hooke_arguments arguments = {.verb = verb};
+static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
+  struct cli_arguments arguments = {.verb = verb};
   if (verb->kind_options && argc == 1) {
-    hooke_usage_print_verb(stderr, &arguments);
+    cli_usage_print_verb(stderr, &arguments);
     return HOOKE_EXIT_USAGE;
   }
-  int answer = hooke_arguments_parse(verb, argc, argv, &arguments);
+  int answer = cli_arguments_parse(verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE) {
     if (arguments.help) {
-      hooke_usage_print_verb(stdout, &arguments);
+      cli_usage_print_verb(stdout, &arguments);
     } else {
       answer = verb->function(&arguments);
     }
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
   return answer;
 }
 
-static const struct hooke_program_row *find_row(const char *word) {
-  for (const struct hooke_program_row *row = rows; row->name; row++) {
+static const struct cli_program_row *find_row(const char *word) {
+  for (const struct cli_program_row *row = rows; row->name; row++) {
     const char letter[3] = {'-', row->letter, '\0'};
     if (strncmp(word, "--", 2) == 0 && strcmp(word + 2, row->name) == 0) return row;
     if (row->letter && strcmp(word, letter) == 0) return row;
@@ -103,7 +103,7 @@ static const struct hooke_program_row *find_row(const char *word) {
   return NULL;
 }
 
-static int do_row(const struct hooke_program_row *row, const char *value) {
+static int do_row(const struct cli_program_row *row, const char *value) {
   if (row->value && (!value || strcmp(value, row->value) != 0)) {
     fprintf(stderr, "hooke: --%s wants a word after it: %s\n", row->name, row->value);
     return HOOKE_EXIT_USAGE;
@@ -113,17 +113,17 @@ static int do_row(const struct hooke_program_row *row, const char *value) {
 
 static int do_words(int argc, char **argv) {
   if (argc < 2) {
-    hooke_usage_print_all(stderr, &program);
+    cli_usage_print_all(stderr, &program);
     return HOOKE_EXIT_USAGE;
   }
-  const struct hooke_program_row *row = find_row(argv[1]);
+  const struct cli_program_row *row = find_row(argv[1]);
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
-  const struct hooke_verb *verb = find_verb(argv[1]);
+  const struct cli_verb *verb = find_verb(argv[1]);
   return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
 }
 
 static int end_output(int answer) {
-  const int error = hooke_print_flush();
+  const int error = cli_print_flush();
   if (error == 0 && !ferror(stdout)) return answer;
   fputs("hooke: could not write to standard output", stderr);
   if (error) fprintf(stderr, ": %s", strerror(error));

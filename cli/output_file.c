@@ -11,30 +11,29 @@
 
 enum { FOLDER_SIZE = 4096 };
 
-int hooke_output_file_check(const struct hooke_arguments *arguments, const char *flag, const char *file) {
+int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file) {
   struct stat there;
   char folder[FOLDER_SIZE] = ".";
   const char *slash = strrchr(file, '/');
   if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
   if (access(folder, W_OK) != 0) {
-    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file,
-                        strerror(errno));
+    return hk_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file, strerror(errno));
   }
   if (stat(file, &there) == 0 && !S_ISREG(there.st_mode)) {
-    return hooke_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
+    return hk_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
   }
-  return hooke_setup_check_other_file(arguments, file);
+  return cli_setup_check_other_file(arguments, file);
 }
 
-int hooke_output_file_check_report(const struct hooke_arguments *arguments, const char *report) {
+int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report) {
   if (!report) return HOOKE_EXIT_DONE;
   const char *library = hooke_build_fact("chartjs");
   if (!library || !library[0]) {
-    return hooke_report(
+    return hk_report(
         arguments, HOOKE_EXIT_NOT_BUILT,
         "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and writes no "
         "reports; run without --report",
         report);
   }
-  return hooke_output_file_check(arguments, "--report", report);
+  return cli_output_file_check(arguments, "--report", report);
 }

@@ -5,9 +5,9 @@
 #include "arguments.h"
 
 /* `file`, given to `flag`, can be written, and is not the scene. Returns the exit code. */
-int hooke_output_file_check(const struct hooke_arguments *arguments, const char *flag, const char *file);
+int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file);
 
 /* The same for --report, whose build must have what draws it; NULL is allowed. */
-int hooke_output_file_check_report(const struct hooke_arguments *arguments, const char *report);
+int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report);
 
 #endif

@@ -11,12 +11,12 @@
 
 enum { ROUNDED_DIGITS = 6 };
 
-const char *hooke_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
+const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
   snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", ROUNDED_DIGITS, value);
   return text;
 }
 
-const char *hooke_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
+const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
   /* to 15 digits every decimal survives, but in subnormal numbers, which have fewer */
   for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", digits, value);
@@ -74,15 +74,15 @@ static int32_t is_plain(const char *text) {
   return 1;
 }
 
-int32_t hooke_print_text(FILE *file, const char *text) {
+int32_t cli_print_text(FILE *file, const char *text) {
   int32_t count = 0;
   for (; *text; count++)
     text += print_character(file, text);
   return count;
 }
 
-void hooke_print_padded(FILE *file, int32_t width, const char *text) {
-  for (int32_t count = hooke_print_text(file, text); count < width; count++)
+void cli_print_padded(FILE *file, int32_t width, const char *text) {
+  for (int32_t count = cli_print_text(file, text); count < width; count++)
     fputc(' ', file);
 }
 
@@ -105,7 +105,7 @@ static void print_escaped(FILE *file, const char *text) {
   fputc('\'', file);
 }
 
-void hooke_print_quoted(FILE *file, const char *text) {
+void cli_print_quoted(FILE *file, const char *text) {
   static const char bare[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%";
   if (!is_plain(text)) {
     print_escaped(file, text);
@@ -119,14 +119,14 @@ void hooke_print_quoted(FILE *file, const char *text) {
   }
 }
 
-int hooke_print_flush(void) {
+int cli_print_flush(void) {
   static int first; /* what could not be written is not held back any longer */
   errno = 0;
   if (fflush(stdout) != 0 && first == 0) first = errno;
   return first;
 }
 
-int32_t hooke_print_end(FILE *stream, char **text) {
+int32_t cli_print_end(FILE *stream, char **text) {
   const int fine = stream && !ferror(stream);
   if (stream && fclose(stream) == 0 && fine && *text) return HOOKE_OK;
   free(*text);
@@ -134,7 +134,7 @@ int32_t hooke_print_end(FILE *stream, char **text) {
   return HOOKE_NO_MEMORY;
 }
 
-void hooke_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text) {
+void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text) {
   int32_t fresh = 1; /* no blank before the first word of a line */
   while (*text) {
     text += strspn(text, " ");
@@ -181,7 +181,7 @@ static void write_string(FILE *file, const char *text) {
   fputc('"', file);
 }
 
-static void write_key(struct hooke_json *json, const char *key) {
+static void write_key(struct cli_json *json, const char *key) {
   if (json->depth > 0) {
     int32_t *filled = &json->filled[json->depth - 1];
     if (*filled) fputs(", ", json->file);
@@ -193,19 +193,19 @@ static void write_key(struct hooke_json *json, const char *key) {
   }
 }
 
-void hooke_json_begin(struct hooke_json *json, FILE *file) {
+void cli_json_begin(struct cli_json *json, FILE *file) {
   memset(json, 0, sizeof *json);
   json->file = file;
-  hooke_json_open(json, NULL, '{');
+  cli_json_open(json, NULL, '{');
 }
 
-void hooke_json_end(struct hooke_json *json) {
+void cli_json_end(struct cli_json *json) {
   while (json->depth > 0)
-    hooke_json_close(json);
+    cli_json_close(json);
   fputc('\n', json->file);
 }
 
-void hooke_json_open(struct hooke_json *json, const char *key, char bracket) {
+void cli_json_open(struct cli_json *json, const char *key, char bracket) {
   write_key(json, key);
   fputc(bracket, json->file);
   json->bracket[json->depth] = bracket;
@@ -213,28 +213,28 @@ void hooke_json_open(struct hooke_json *json, const char *key, char bracket) {
   json->depth++;
 }
 
-void hooke_json_close(struct hooke_json *json) {
+void cli_json_close(struct cli_json *json) {
   json->depth--;
   fputc(json->bracket[json->depth] == '{' ? '}' : ']', json->file);
 }
 
-void hooke_json_number(struct hooke_json *json, const char *key, double value) {
+void cli_json_number(struct cli_json *json, const char *key, double value) {
   char text[HOOKE_NUMBER_SIZE];
   write_key(json, key);
-  fputs(isfinite(value) ? hooke_format_number(value, text) : "null", json->file);
+  fputs(isfinite(value) ? cli_format_number(value, text) : "null", json->file);
 }
 
-void hooke_json_flag(struct hooke_json *json, const char *key, int32_t value) {
+void cli_json_flag(struct cli_json *json, const char *key, int32_t value) {
   write_key(json, key);
   fputs(value ? "true" : "false", json->file);
 }
 
-void hooke_json_count(struct hooke_json *json, const char *key, int64_t value) {
+void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
   write_key(json, key);
   fprintf(json->file, "%" PRId64, value);
 }
 
-void hooke_json_text(struct hooke_json *json, const char *key, const char *text) {
+void cli_json_text(struct cli_json *json, const char *key, const char *text) {
   write_key(json, key);
   if (text) {
     write_string(json->file, text);
@@ -243,13 +243,13 @@ void hooke_json_text(struct hooke_json *json, const char *key, const char *text)
   }
 }
 
-void hooke_json_vectors(struct hooke_json *json, const char *key, int64_t rows, const double *xyz) {
-  hooke_json_open(json, key, '[');
+void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz) {
+  cli_json_open(json, key, '[');
   for (int64_t row = 0; row < rows; row++) {
-    hooke_json_open(json, NULL, '[');
+    cli_json_open(json, NULL, '[');
     for (int64_t i = 0; i < 3; i++)
-      hooke_json_number(json, NULL, xyz[3 * row + i]);
-    hooke_json_close(json);
+      cli_json_number(json, NULL, xyz[3 * row + i]);
+    cli_json_close(json);
   }
-  hooke_json_close(json);
+  cli_json_close(json);
 }

@@ -4,20 +4,20 @@
 
 #include "verb.h"
 
-struct hooke_program;
+struct cli_program;
 
-struct hooke_program_row {
+struct cli_program_row {
   const char *name;
   char letter;       /* 0: none */
   const char *value; /* the word that has to follow; NULL: none */
   const char *doc;
-  int (*print)(const struct hooke_program *program); /* an exit code */
+  int (*print)(const struct cli_program *program); /* an exit code */
 };
 
-struct hooke_program {
-  const struct hooke_verb *const *verbs; /* the end is NULL */
-  const struct hooke_program_row *rows;  /* the end has no name */
-  const char *summary, *text;            /* what it does, in a line and in a paragraph */
+struct cli_program {
+  const struct cli_verb *const *verbs; /* the end is NULL */
+  const struct cli_program_row *rows;  /* the end has no name */
+  const char *summary, *text;          /* what it does, in a line and in a paragraph */
 };
 
 #endif

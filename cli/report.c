@@ -6,7 +6,7 @@
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
 
-int hooke_exit_code(int32_t status) {
+int cli_exit_code(int32_t status) {
   switch (status) {
   case HOOKE_OK:
     return HOOKE_EXIT_DONE;
@@ -25,17 +25,17 @@ int hooke_exit_code(int32_t status) {
   }
 }
 
-int hooke_refusal(const struct hooke_arguments *arguments) {
+int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
-static void say(const struct hooke_arguments *arguments, const char *message) {
+static void say(const struct cli_arguments *arguments, const char *message) {
   fprintf(stderr, "hooke %s: ", arguments->verb->name);
-  hooke_print_text(stderr, message);
+  cli_print_text(stderr, message);
   fputc('\n', stderr);
 }
 
-int hooke_report(const struct hooke_arguments *arguments, int code, const char *format, ...) {
+int hk_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
@@ -43,23 +43,22 @@ int hooke_report(const struct hooke_arguments *arguments, int code, const char *
   va_end(args);
   say(arguments, message);
   if (arguments->json) {
-    struct hooke_json json;
-    hooke_json_begin(&json, stdout);
-    hooke_json_open(&json, "error", '{');
-    hooke_json_count(&json, "exit", code);
-    hooke_json_text(&json, "message", message);
-    hooke_json_end(&json);
+    struct cli_json json;
+    cli_json_begin(&json, stdout);
+    cli_json_open(&json, "error", '{');
+    cli_json_count(&json, "exit", code);
+    cli_json_text(&json, "message", message);
+    cli_json_end(&json);
   }
   return code;
 }
 
-int hooke_report_status(const struct hooke_arguments *arguments, int32_t status) {
+int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
   const char *message = hooke_last_error();
-  return hooke_report(arguments, hooke_exit_code(status), "%s",
-                      message[0] ? message : hooke_status_name(status));
+  return hk_report(arguments, cli_exit_code(status), "%s", message[0] ? message : hooke_status_name(status));
 }
 
-void hooke_report_words(const struct hooke_arguments *arguments, const char *format, ...) {
+void cli_report_words(const struct cli_arguments *arguments, const char *format, ...) {
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
@@ -68,12 +67,12 @@ void hooke_report_words(const struct hooke_arguments *arguments, const char *for
   say(arguments, message);
 }
 
-int hooke_report_missing_words(const struct hooke_arguments *arguments) {
-  hooke_report_words(arguments, "out of memory: a command to type is left out");
-  return hooke_exit_code(HOOKE_NO_MEMORY);
+int cli_report_missing_words(const struct cli_arguments *arguments) {
+  cli_report_words(arguments, "out of memory: a command to type is left out");
+  return cli_exit_code(HOOKE_NO_MEMORY);
 }
 
-static int32_t is_set_by(const struct hooke_setting *settings, const char *name) {
+static int32_t is_set_by(const struct cli_setting *settings, const char *name) {
   for (; settings->name; settings++) {
     if (settings->text && strcmp(settings->name, name) == 0) return 1;
   }
@@ -87,13 +86,13 @@ static void print_flag(FILE *file, const char *name) {
     fputc(*name == '_' ? '-' : *name, file);
 }
 
-void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, const char *verb,
-                          const struct hooke_setting *settings) {
+void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
+                        const struct cli_setting *settings) {
   int32_t same = strcmp(verb, arguments->verb->name) == 0;
   fprintf(file, "hooke %s ", verb);
-  hooke_print_quoted(file, arguments->scene);
+  cli_print_quoted(file, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
+    const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || is_set_by(settings, argument->name)) continue;
     if (!same && argument->table != arguments->run) continue;
     /* what --want would choose is given */
@@ -103,13 +102,13 @@ void hooke_report_command(FILE *file, const struct hooke_arguments *arguments, c
     print_flag(file, argument->name);
     if (argument->own && !argument->own->value) continue;
     fputc(' ', file);
-    hooke_print_quoted(file, argument->text);
+    cli_print_quoted(file, argument->text);
   }
   for (; settings->name; settings++) {
     if (!settings->text) continue;
     print_flag(file, settings->name);
     fputc(' ', file);
-    hooke_print_quoted(file, settings->text);
+    cli_print_quoted(file, settings->text);
   }
 }
 
@@ -132,8 +131,7 @@ static size_t distance(const char *a, const char *b) {
   return row[width];
 }
 
-const char *hooke_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx),
-                          const void *ctx) {
+const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
   const char *best = NULL;
   const char *candidate;
   size_t least = strlen(word) / 3 + 2; /* more changes than this is another word */
@@ -154,7 +152,7 @@ static const char *next_method(int64_t i, const void *ctx) {
   return hooke_method_name(i);
 }
 
-void hooke_report_methods(char *list, size_t size) {
+void cli_report_methods(char *list, size_t size) {
   list[0] = '\0';
   for (int64_t i = 0; i < hooke_method_count(); i++) {
     size_t used = strlen(list);
@@ -162,12 +160,12 @@ void hooke_report_methods(char *list, size_t size) {
   }
 }
 
-int hooke_report_unknown_method(const struct hooke_arguments *arguments, const char *flag, const char *word,
-                                size_t length) {
+int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
+                              size_t length) {
   char name[HOOKE_FLAG_SIZE], list[LIST_SIZE] = "";
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
-  hooke_report_methods(list, sizeof list);
-  const char *near = hooke_suggest(name, next_method, NULL);
-  return hooke_report(arguments, hooke_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
-                      flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
+  cli_report_methods(list, sizeof list);
+  const char *near = cli_suggest(name, next_method, NULL);
+  return hk_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
+                   flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
 }

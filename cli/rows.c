@@ -22,11 +22,11 @@ static const struct column {
                {"wall_seconds", "wall time", "[s]", 10, 0, 1}};
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
-static const char *method_of(const struct hooke_rows *rows, int64_t row) {
+static const char *method_of(const struct cli_rows *rows, int64_t row) {
   return rows->text(rows->source, row, "method");
 }
 
-int32_t hooke_rows_method_width(const struct hooke_rows *rows) {
+int32_t cli_rows_method_width(const struct cli_rows *rows) {
   size_t width = LEAST_WIDTH;
   for (int64_t row = 0; row < rows->count; row++) {
     size_t length = strlen(method_of(rows, row));
@@ -35,13 +35,13 @@ int32_t hooke_rows_method_width(const struct hooke_rows *rows) {
   return (int32_t)width;
 }
 
-void hooke_rows_print_cell(int32_t width, double value) {
+void cli_rows_print_cell(int32_t width, double value) {
   char cell[CELL_SIZE] = "-";
   if (!isnan(value)) snprintf(cell, sizeof cell, "%.4g", value);
   printf(" %*s", width, cell);
 }
 
-static void print_head(const struct hooke_rows *rows, int32_t method_width, int32_t second) {
+static void print_head(const struct cli_rows *rows, int32_t method_width, int32_t second) {
   printf("%-*s", method_width, second ? "" : "method");
   for (int i = 0; i < COLUMN_COUNT; i++) {
     printf(" %*s", columns[i].width, second ? columns[i].unit : columns[i].head);
@@ -50,21 +50,21 @@ static void print_head(const struct hooke_rows *rows, int32_t method_width, int3
   printf("\n");
 }
 
-static void print_row(const struct hooke_rows *rows, int64_t row, int32_t method_width) {
+static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_width) {
   printf("%-*s", method_width, method_of(rows, row));
   for (int i = 0; i < COLUMN_COUNT; i++) {
     double value = rows->number(rows->source, row, columns[i].what);
     if (columns[i].counts) {
       printf(" %*.0f", columns[i].width, value);
     } else {
-      hooke_rows_print_cell(columns[i].width, value);
+      cli_rows_print_cell(columns[i].width, value);
     }
     if (rows->mark && columns[i].marked) printf("%c", rows->mark(rows->source, row, columns[i].what));
   }
   printf("  %s\n", rows->text(rows->source, row, "status"));
 }
 
-void hooke_rows_print(const struct hooke_rows *rows, int32_t method_width) {
+void cli_rows_print(const struct cli_rows *rows, int32_t method_width) {
   print_head(rows, method_width, 0);
   print_head(rows, method_width, 1);
   for (int64_t row = 0; row < rows->count; row++) {
@@ -73,19 +73,19 @@ void hooke_rows_print(const struct hooke_rows *rows, int32_t method_width) {
   }
 }
 
-void hooke_rows_print_json(struct hooke_json *json, const struct hooke_rows *rows) {
+void cli_rows_print_json(struct cli_json *json, const struct cli_rows *rows) {
   static const char *const numbers[] = {
       "step",  "rtol",        "error", "error_max", "error_final", "energy_drift", "force_evaluations",
       "steps", "wall_seconds"};
-  hooke_json_open(json, "rows", '[');
+  cli_json_open(json, "rows", '[');
   for (int64_t row = 0; row < rows->count; row++) {
-    hooke_json_open(json, NULL, '{');
-    hooke_json_text(json, "method", method_of(rows, row));
+    cli_json_open(json, NULL, '{');
+    cli_json_text(json, "method", method_of(rows, row));
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-      hooke_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
-    hooke_json_text(json, "status", rows->text(rows->source, row, "status"));
+      cli_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
+    cli_json_text(json, "status", rows->text(rows->source, row, "status"));
     if (rows->print_more) rows->print_more(json, rows->source, row);
-    hooke_json_close(json);
+    cli_json_close(json);
   }
-  hooke_json_close(json);
+  cli_json_close(json);
 }

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-struct hooke_rows {
+struct cli_rows {
   const void *source;
   int64_t count;
   const char *(*text)(const void *source, int64_t row, const char *what); /* "method", "status" */
@@ -15,19 +15,19 @@ struct hooke_rows {
   /* what stands behind "error" and "wall_seconds" of a row; NULL: no room for marks */
   char (*mark)(const void *source, int64_t row, const char *what);
   /* what a row has besides, as JSON; NULL: nothing */
-  void (*print_more)(struct hooke_json *json, const void *source, int64_t row);
+  void (*print_more)(struct cli_json *json, const void *source, int64_t row);
 };
 
 /* Width of the column of methods. */
-int32_t hooke_rows_method_width(const struct hooke_rows *rows);
+int32_t cli_rows_method_width(const struct cli_rows *rows);
 
 /* A number in `width` columns to 4 digits, "-" where there is none. */
-void hooke_rows_print_cell(int32_t width, double value);
+void cli_rows_print_cell(int32_t width, double value);
 
 /* A table of all rows. */
-void hooke_rows_print(const struct hooke_rows *rows, int32_t method_width);
+void cli_rows_print(const struct cli_rows *rows, int32_t method_width);
 
 /* "rows": [...]. */
-void hooke_rows_print_json(struct hooke_json *json, const struct hooke_rows *rows);
+void cli_rows_print_json(struct cli_json *json, const struct cli_rows *rows);
 
 #endif

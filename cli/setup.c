@@ -34,7 +34,7 @@ static int32_t load_text(FILE *file, const hooke_options *limits, hooke_scene **
 }
 
 /* "-" is standard input, so that what `make` writes can be piped; files that it names are looked for here. */
-static int32_t load(const struct hooke_arguments *arguments, hooke_scene **loaded) {
+static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded) {
   return strcmp(arguments->scene, "-") == 0
              ? load_text(stdin, arguments->limits, loaded)
              : hooke_scene_load_within(arguments->scene, arguments->limits, loaded);
@@ -47,62 +47,62 @@ static void give_back(void) {
 #endif
 }
 
-int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
+int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
-  if (ferror(stdin)) return hooke_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (ferror(stdin)) return hk_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   setup->options = hooke_scene_run_options(setup->scene);
-  status = hooke_arguments_apply(arguments, setup->options);
+  status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   give_back();
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
-void hooke_setup_destroy(struct hooke_setup *setup) {
+void cli_setup_destroy(struct cli_setup *setup) {
   hooke_state_destroy(setup->state);
   hooke_scene_destroy(setup->scene);
 }
 
-int hooke_setup_require_duration(const struct hooke_arguments *arguments, const struct hooke_setup *setup) {
+int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
   if (hooke_options_number_count(setup->options, "duration") > 0) return HOOKE_EXIT_DONE;
-  return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                      "no duration: the scene's run names none; give one in seconds, such as --duration 1");
+  return hk_report(arguments, HOOKE_EXIT_USAGE,
+                   "no duration: the scene's run names none; give one in seconds, such as --duration 1");
 }
 
-int hooke_setup_require(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                        const char *method) {
+int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                      const char *method) {
   if (hooke_method_is_adaptive(method) < 0) { /* one given as an option was refused before */
-    return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT,
-                        "%s: run.method: there is no method '%s'; 'hooke --help' lists them",
-                        arguments->scene, method);
+    return hk_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                     "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
+                     method);
   }
   if (!hooke_method_is_built(method)) {
-    return hooke_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                        "%s is not in this build of hooke; 'hooke --version' says what it was built with",
-                        method);
+    return hk_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                     "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                     method);
   }
-  int code = hooke_setup_require_duration(arguments, setup);
+  int code = cli_setup_require_duration(arguments, setup);
   if (code != HOOKE_EXIT_DONE) return code;
   if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(setup->options, "step") == 0) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
-                        "seconds, such as --step 1e-3",
-                        method);
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
+                     "seconds, such as --step 1e-3",
+                     method);
   }
   return HOOKE_EXIT_DONE;
 }
 
-int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char *input, const char *what,
-                            const char *output) {
+int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
+                          const char *output) {
   struct stat in, out;
   if (output && stat(input, &in) == 0 && stat(output, &out) == 0 && in.st_dev == out.st_dev &&
       in.st_ino == out.st_ino) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output",
-                        output, what);
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output", output,
+                     what);
   }
   return HOOKE_EXIT_DONE;
 }
@@ -116,22 +116,21 @@ static int is_written(const char *file) {
   return written;
 }
 
-int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output) {
-  const int code = hooke_setup_check_apart(arguments, arguments->scene, "the scene", output);
+int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
+  const int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
   if (code != HOOKE_EXIT_DONE || !output || !is_written(output)) return code;
-  return hooke_report(arguments, HOOKE_EXIT_IO,
-                      "%s: another run is writing this file; wait for it to end, or name another file",
-                      output);
+  return hk_report(arguments, HOOKE_EXIT_IO,
+                   "%s: another run is writing this file; wait for it to end, or name another file", output);
 }
 
-int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output) {
+int cli_setup_check_output(const struct cli_arguments *arguments, const char *output) {
   const char *hdf5 = hooke_build_fact("hdf5");
   if (output && (!hdf5 || !hdf5[0])) {
-    return hooke_report(
+    return hk_report(
         arguments, HOOKE_EXIT_NOT_BUILT,
         "-o %s: this build of hooke has no HDF5 and writes no trajectories; run without -o, or build "
         "hooke with HDF5",
         output);
   }
-  return hooke_setup_check_other_file(arguments, output);
+  return cli_setup_check_other_file(arguments, output);
 }

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-struct hooke_setup {
+struct cli_setup {
   hooke_scene *scene;
   const hooke_system *system; /* the scene's */
   hooke_options *options;     /* the scene's, with what was given on the command line */
@@ -13,21 +13,21 @@ struct hooke_setup {
 
 /* Loads, applies, commits; failures are reported and come back as exit code. The caller destroys the set-up
  * in either case. */
-int hooke_setup_load(const struct hooke_arguments *arguments, struct hooke_setup *setup);
-void hooke_setup_destroy(struct hooke_setup *setup);
+int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
+void cli_setup_destroy(struct cli_setup *setup);
 
 /* Reports what a run by `method` lacks: a duration, a step, the method itself in this build; the first function a
  * duration alone. */
-int hooke_setup_require_duration(const struct hooke_arguments *arguments, const struct hooke_setup *setup);
-int hooke_setup_require(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                        const char *method);
+int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup);
+int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                      const char *method);
 
 /* `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
-int hooke_setup_check_apart(const struct hooke_arguments *arguments, const char *input, const char *what,
-                            const char *output);
+int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
+                          const char *output);
 /* Before any work: FILE of -o (NULL: none) is not the scene itself, no run is writing it, and for the second function this
  * build can write it as HDF5. */
-int hooke_setup_check_other_file(const struct hooke_arguments *arguments, const char *output);
-int hooke_setup_check_output(const struct hooke_arguments *arguments, const char *output);
+int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output);
+int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
 #endif

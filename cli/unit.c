@@ -19,11 +19,11 @@ static const struct unit {
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
-int32_t hooke_unit_has_others(const char *base) {
+int32_t cli_unit_has_others(const char *base) {
   return strcmp(base, "m") == 0 || strcmp(base, "s") == 0;
 }
 
-const char *hooke_unit_list(const char *base, char list[HOOKE_UNIT_LIST_SIZE]) {
+const char *cli_unit_list(const char *base, char list[HOOKE_UNIT_LIST_SIZE]) {
   list[0] = '\0';
   for (int i = 0; i < UNIT_COUNT; i++) {
     size_t used = strlen(list);
@@ -82,13 +82,13 @@ static struct number scan_number(const char *text) {
 static void write_in_base(const char *text, const struct number *number, const struct unit *unit, char *to) {
   if (unit->factor > 0) {
     char digits[HOOKE_NUMBER_SIZE];
-    sprintf(to, "%s", hooke_format_number(strtod(text, NULL) * unit->factor, digits));
+    sprintf(to, "%s", cli_format_number(strtod(text, NULL) * unit->factor, digits));
   } else {
     sprintf(to, "%.*se%ld", (int)number->mantissa, text, number->exponent + unit->exponent);
   }
 }
 
-char *hooke_unit_read(const char *text, const char *base, char word[HOOKE_UNIT_WORD_SIZE]) {
+char *cli_unit_read(const char *text, const char *base, char word[HOOKE_UNIT_WORD_SIZE]) {
   char *read = malloc(ROOM_PER_LETTER * (strlen(text) + 1));
   char *to = read;
   word[0] = '\0';

@@ -13,12 +13,12 @@ static void print_exits(FILE *file) {
   char text[HOOKE_DOC_SIZE] = "exit codes:";
   const char *meaning;
   int32_t code;
-  for (int32_t i = 0; (meaning = hooke_describe_exit(i, &code)); i++) {
+  for (int32_t i = 0; (meaning = cli_describe_exit(i, &code)); i++) {
     const size_t used = strlen(text);
     snprintf(text + used, sizeof text - used, "%s %d %s", i ? "," : "", (int)code, meaning);
   }
   fputc('\n', file);
-  hooke_print_wrapped(file, 0, 12, WIDTH, text);
+  cli_print_wrapped(file, 0, 12, WIDTH, text);
 }
 
 /* "  -o, --output FILE", then the text from column DOC_COLUMN on. */
@@ -34,13 +34,13 @@ static void print_row(FILE *file, char letter, const char *flag, const char *val
   } else {
     fprintf(file, "%*s", DOC_COLUMN - column, "");
   }
-  hooke_print_wrapped(file, DOC_COLUMN, DOC_COLUMN, WIDTH, doc);
+  cli_print_wrapped(file, DOC_COLUMN, DOC_COLUMN, WIDTH, doc);
 }
 
-void hooke_usage_print_all(FILE *file, const struct hooke_program *program) {
+void cli_usage_print_all(FILE *file, const struct cli_program *program) {
   fprintf(file, "usage: hooke VERB SCENE [options]\n\n%c%s.\n\nverbs:\n",
           toupper((unsigned char)program->summary[0]), program->summary + 1);
-  for (const struct hooke_verb *const *verb = program->verbs; *verb; verb++)
+  for (const struct cli_verb *const *verb = program->verbs; *verb; verb++)
     fprintf(file, "  %-10s %s\n", (*verb)->name, (*verb)->summary);
   fputs("\nmethods:\n", file);
   for (int64_t i = 0; i < hooke_method_count(); i++) {
@@ -50,40 +50,40 @@ void hooke_usage_print_all(FILE *file, const struct hooke_program *program) {
   }
   fputs("\nhooke VERB --help   the options of a verb, with units and defaults\n\nin place of a verb:\n",
         file);
-  for (const struct hooke_program_row *row = program->rows; row->name; row++)
+  for (const struct cli_program_row *row = program->rows; row->name; row++)
     print_row(file, row->letter, row->name, row->value, row->doc);
   print_exits(file);
 }
 
-static void print_option(FILE *file, const struct hooke_argument *argument) {
-  struct hooke_description is;
-  hooke_describe(argument, &is);
+static void print_option(FILE *file, const struct cli_argument *argument) {
+  struct cli_description is;
+  cli_describe(argument, &is);
   print_row(file, is.letter, is.flag, is.value[0] ? is.value : NULL, is.doc);
 }
 
 /* The rows of a table, after their title. */
-static void print_table(FILE *file, const struct hooke_arguments *arguments, const hooke_options *table) {
+static void print_table(FILE *file, const struct cli_arguments *arguments, const hooke_options *table) {
   char title[HOOKE_DOC_SIZE];
   const char *last = NULL, *doc = "";
   if (!table) return;
-  fprintf(file, "\n%s:\n", hooke_describe_table(arguments, table, title));
+  fprintf(file, "\n%s:\n", cli_describe_table(arguments, table, title));
   for (int32_t i = 0; i < arguments->count; i++) {
     if (arguments->all[i].table != table) continue;
-    const char *family = hooke_describe_family(&arguments->all[i], &doc);
+    const char *family = cli_describe_family(&arguments->all[i], &doc);
     if (family && family != last) fprintf(file, "  %s: %s\n", family, doc);
     last = family;
     print_option(file, &arguments->all[i]);
   }
 }
 
-static void print_kinds(FILE *file, const struct hooke_verb *verb) {
+static void print_kinds(FILE *file, const struct cli_verb *verb) {
   fputs("\nkinds:\n", file);
   for (int64_t i = 0; hooke_part_kind(i); i++)
     fprintf(file, "  %-10s %s\n", hooke_part_kind(i), hooke_part_kind_summary(i));
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
 }
 
-static void print_options(FILE *file, const struct hooke_arguments *arguments) {
+static void print_options(FILE *file, const struct cli_arguments *arguments) {
   char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
   fputs("\noptions:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -94,22 +94,22 @@ static void print_options(FILE *file, const struct hooke_arguments *arguments) {
   if (arguments->verb->input) return;
   print_table(file, arguments, arguments->run);
   print_table(file, arguments, arguments->limits);
-  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", hooke_unit_list("s", times),
-          hooke_unit_list("m", lengths));
+  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", cli_unit_list("s", times),
+          cli_unit_list("m", lengths));
 }
 
-void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments) {
-  const struct hooke_verb *verb = arguments->verb;
+void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
+  const struct cli_verb *verb = arguments->verb;
   const char *kind = verb->kind_options ? arguments->scene : NULL;
   char example[HOOKE_DOC_SIZE];
-  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : hooke_describe_operand(verb));
-  hooke_print_wrapped(file, 0, 0, WIDTH, verb->text);
+  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
+  cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
   if (verb->kind_options && !kind) {
     print_kinds(file, verb);
   } else {
     print_options(file, arguments);
   }
-  if (kind) fprintf(file, "\nexample:\n  %s\n", hooke_describe_example(arguments, example));
+  if (kind) fprintf(file, "\nexample:\n  %s\n", cli_describe_example(arguments, example));
   print_exits(file);
 }
 
@@ -120,7 +120,7 @@ static void print_part(FILE *file, const char *name, const char *what) {
   fprintf(file, "%-13s %s\n", name, fact && fact[0] ? fact : "not in this build");
 }
 
-void hooke_usage_print_version(FILE *file) {
+void cli_usage_print_version(FILE *file) {
   long threads = sysconf(_SC_NPROCESSORS_ONLN);
   fprintf(file, "hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   print_part(file, "SUNDIALS", "sundials");

@@ -8,12 +8,12 @@
 #include <stdio.h>
 
 /* `hooke --help`. */
-void hooke_usage_print_all(FILE *file, const struct hooke_program *program);
+void cli_usage_print_all(FILE *file, const struct cli_program *program);
 
 /* `hooke VERB --help`. */
-void hooke_usage_print_verb(FILE *file, const struct hooke_arguments *arguments);
+void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments);
 
 /* `hooke --version`. */
-void hooke_usage_print_version(FILE *file);
+void cli_usage_print_version(FILE *file);
 
 #endif

@@ -19,7 +19,7 @@ static int32_t is_size(const hooke_options *table, int64_t row) {
          hooke_options_row(table, row, "words")[0] == '\0';
 }
 
-int32_t hooke_value_adds_up(const struct hooke_argument *argument) {
+int32_t cli_value_adds_up(const struct cli_argument *argument) {
   return columns_of(argument->table, argument->row) > 0 ||
          hooke_options_row_number(argument->table, argument->row, "word_lists") == 1.0;
 }
@@ -34,17 +34,17 @@ static int64_t count_pieces(const char *text, size_t length) {
 }
 
 /* A semicolon ends a row, so that rows of a wrong length are told as such. */
-static int check_rows(const struct hooke_arguments *arguments, const struct hooke_argument *argument) {
+static int check_rows(const struct cli_arguments *arguments, const struct cli_argument *argument) {
   const int64_t columns = columns_of(argument->table, argument->row);
   int64_t row = 0;
   for (const char *at = argument->text; columns > 0 && strchr(argument->text, ';'); row++) {
     const size_t length = strcspn(at, ";");
     const int64_t count = length ? count_pieces(at, length) : 0;
     if (count != columns) {
-      return hooke_report(arguments, hooke_refusal(arguments),
-                          "--%s %s: row [%lld] has %lld number%s; allowed: %s", argument->flag,
-                          argument->text, (long long)row, (long long)count, count == 1 ? "" : "s",
-                          hooke_options_row(argument->table, argument->row, "allowed"));
+      return hk_report(arguments, cli_refusal(arguments),
+                       "--%s %s: row [%lld] has %lld number%s; allowed: %s", argument->flag, argument->text,
+                       (long long)row, (long long)count, count == 1 ? "" : "s",
+                       hooke_options_row(argument->table, argument->row, "allowed"));
     }
     at += length;
     if (*at++ == '\0') break;
@@ -53,7 +53,7 @@ static int check_rows(const struct hooke_arguments *arguments, const struct hook
 }
 
 /* A copy of what was given, with commas between all numbers. */
-static char *with_commas(const struct hooke_argument *argument) {
+static char *with_commas(const struct cli_argument *argument) {
   char *text = strdup(argument->text);
   const int32_t rows = columns_of(argument->table, argument->row) > 0;
   const int32_t size = is_size(argument->table, argument->row);
@@ -63,29 +63,29 @@ static char *with_commas(const struct hooke_argument *argument) {
   return text;
 }
 
-static int out_of_memory(const struct hooke_arguments *arguments) {
-  return hooke_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+static int out_of_memory(const struct cli_arguments *arguments) {
+  return hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
 }
 
-static int in_si_units(const struct hooke_arguments *arguments, const struct hooke_argument *argument,
+static int in_si_units(const struct cli_arguments *arguments, const struct cli_argument *argument,
                        char **text) {
   const char *unit = hooke_options_row(argument->table, argument->row, "unit");
   char word[HOOKE_UNIT_WORD_SIZE] = "", list[HOOKE_UNIT_LIST_SIZE];
-  if (!hooke_unit_has_others(unit)) return HOOKE_EXIT_DONE;
-  char *read = hooke_unit_read(*text, unit, word);
+  if (!cli_unit_has_others(unit)) return HOOKE_EXIT_DONE;
+  char *read = cli_unit_read(*text, unit, word);
   if (!read && !word[0]) return out_of_memory(arguments);
   if (!read) {
-    return hooke_report(arguments, hooke_refusal(arguments),
-                        "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
-                        argument->flag, argument->text, word, hooke_unit_list(unit, list), unit);
+    return hk_report(arguments, cli_refusal(arguments),
+                     "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
+                     argument->flag, argument->text, word, cli_unit_list(unit, list), unit);
   }
   free(*text);
   *text = read;
   return HOOKE_EXIT_DONE;
 }
 
-static int add_up(const struct hooke_arguments *arguments, struct hooke_argument *argument, char *more) {
-  if (!argument->value || !hooke_value_adds_up(argument)) {
+static int add_up(const struct cli_arguments *arguments, struct cli_argument *argument, char *more) {
+  if (!argument->value || !cli_value_adds_up(argument)) {
     free(argument->value);
     argument->value = more;
     return HOOKE_EXIT_DONE;
@@ -99,7 +99,7 @@ static int add_up(const struct hooke_arguments *arguments, struct hooke_argument
   return both ? HOOKE_EXIT_DONE : out_of_memory(arguments);
 }
 
-int hooke_value_read(const struct hooke_arguments *arguments, struct hooke_argument *argument) {
+int cli_value_read(const struct cli_arguments *arguments, struct cli_argument *argument) {
   int answer = check_rows(arguments, argument);
   if (answer != HOOKE_EXIT_DONE) return answer;
   char *text = with_commas(argument);
@@ -119,17 +119,17 @@ static const char *without_name(const char *message, const char *name) {
                                                                                         : message;
 }
 
-int hooke_value_set(const struct hooke_arguments *arguments, const struct hooke_argument *argument) {
+int cli_value_set(const struct cli_arguments *arguments, const struct cli_argument *argument) {
   const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
-  const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : hooke_refusal(arguments);
-  return hooke_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
-                      without_name(hooke_last_error(), argument->name));
+  const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
+  return hk_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
+                   without_name(hooke_last_error(), argument->name));
 }
 
 /* ---- examples ---- */
 
-const char *hooke_value_example(const hooke_options *table, int64_t row, char text[HOOKE_EXAMPLE_SIZE]) {
+const char *cli_value_example(const hooke_options *table, int64_t row, char text[HOOKE_EXAMPLE_SIZE]) {
   const int64_t columns = columns_of(table, row);
   int64_t commas = 0;
   snprintf(text, HOOKE_EXAMPLE_SIZE, "%s", hooke_options_row(table, row, "example"));
@@ -142,16 +142,16 @@ const char *hooke_value_example(const hooke_options *table, int64_t row, char te
   return text;
 }
 
-int hooke_value_of_study(const struct hooke_arguments *arguments, const char *name, const char *base,
-                         double *value) {
-  const char *text = hooke_arguments_text(arguments, name);
+int cli_value_of_study(const struct cli_arguments *arguments, const char *name, const char *base,
+                       double *value) {
+  const char *text = cli_arguments_text(arguments, name);
   char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
   hooke_options *options = NULL;
   if (!text) return HOOKE_EXIT_DONE;
-  char *plain = hooke_unit_read(text, base, word);
+  char *plain = cli_unit_read(text, base, word);
   if (!plain) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name,
-                        text, word, hooke_unit_list(base, list));
+    return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name, text,
+                     word, cli_unit_list(base, list));
   }
   int32_t status = hooke_study_options_create(&options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
@@ -159,5 +159,5 @@ int hooke_value_of_study(const struct hooke_arguments *arguments, const char *na
   hooke_options_destroy(options);
   free(plain);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
+                            : hk_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
 }

@@ -6,7 +6,7 @@
 #include "hooke.h"
 
 /* What the program answers to the shell. */
-enum hooke_exit {
+enum cli_exit {
   HOOKE_EXIT_DONE = 0,
   HOOKE_EXIT_USAGE = 2,
   HOOKE_EXIT_BAD_INPUT = 3,
@@ -17,17 +17,17 @@ enum hooke_exit {
   HOOKE_EXIT_INTERRUPTED = 130
 };
 
-struct hooke_arguments;
+struct cli_arguments;
 
 /* One option of a verb's own; `value` names what follows it, NULL for a switch. */
-struct hooke_verb_row {
+struct cli_verb_row {
   const char *name;
   char letter; /* 0: none */
   const char *value;
   const char *doc;
 };
 
-struct hooke_verb {
+struct cli_verb {
   const char *name;
   const char
       *input; /* what it works on, such as "OUT.h5", with no options of a run; NULL: a scene, with them */
@@ -35,7 +35,7 @@ struct hooke_verb {
   const char *text;    /* a paragraph for --help */
   const char
       *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
-  const struct hooke_verb_row *rows;
+  const struct cli_verb_row *rows;
   int32_t row_count;
   int32_t (*options)(
       hooke_options **options); /* makes an option table of the verb's own; NULL: it has none */
@@ -44,20 +44,20 @@ struct hooke_verb {
                                                        table; NULL: it takes a scene */
   const char *for_scene; /* its option that stands for the scene; NULL: there is none */
   const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
-  int (*function)(const struct hooke_arguments *arguments);
+  int (*function)(const struct cli_arguments *arguments);
 };
 
 #define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
 
-extern const struct hooke_verb hooke_verb_run;
-extern const struct hooke_verb hooke_verb_check;
-extern const struct hooke_verb hooke_verb_compare;
-extern const struct hooke_verb hooke_verb_study;
-extern const struct hooke_verb hooke_verb_limit;
-extern const struct hooke_verb hooke_verb_why;
-extern const struct hooke_verb hooke_verb_needs;
-extern const struct hooke_verb hooke_verb_make;
-extern const struct hooke_verb hooke_verb_view;
-extern const struct hooke_verb hooke_verb_verify;
+extern const struct cli_verb cli_verb_run;
+extern const struct cli_verb cli_verb_check;
+extern const struct cli_verb cli_verb_compare;
+extern const struct cli_verb cli_verb_study;
+extern const struct cli_verb cli_verb_limit;
+extern const struct cli_verb cli_verb_why;
+extern const struct cli_verb cli_verb_needs;
+extern const struct cli_verb cli_verb_make;
+extern const struct cli_verb cli_verb_view;
+extern const struct cli_verb cli_verb_verify;
 
 #endif

@@ -30,7 +30,7 @@ static double seconds_since(const struct timespec *from, const struct timespec *
   return (double)(now->tv_sec - from->tv_sec) + 1e-9 * (double)(now->tv_nsec - from->tv_nsec);
 }
 
-void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *arguments) {
+void cli_watch_start(struct hk_watch *watch, const struct cli_arguments *arguments) {
   watch->show = !arguments->quiet && isatty(STDERR_FILENO);
   watch->shown = 0;
   clock_gettime(CLOCK_MONOTONIC, &watch->start);
@@ -51,20 +51,20 @@ static void print_left(double seconds) {
   }
 }
 
-static void show(struct hooke_watch *watch, double done, const char *what, double elapsed) {
+static void show(struct hk_watch *watch, double done, const char *what, double elapsed) {
   char bar[BAR + 1];
   for (int i = 0; i < BAR; i++)
     bar[i] = (double)i < done * BAR ? '#' : '.';
   bar[BAR] = '\0';
   fputs("\r\033[K", stderr);
-  if (what && hooke_print_text(stderr, what) > 0) fputc(' ', stderr);
+  if (what && cli_print_text(stderr, what) > 0) fputc(' ', stderr);
   fprintf(stderr, "%s %3d %%  ", bar, (int)(100.0 * done));
   if (done > 0.0 && elapsed * (1.0 - done) / done < 1e6 * HOUR) print_left(elapsed * (1.0 - done) / done);
   fflush(stderr);
   watch->shown = 1;
 }
 
-int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *what) {
+int32_t cli_watch_tell(struct hk_watch *watch, double done, const char *what) {
   if (interrupted) return 1;
   if (!watch->show) return 0;
   struct timespec now;
@@ -76,15 +76,15 @@ int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *wha
   return 0;
 }
 
-int32_t hooke_watch_progress(double done, const char *what, void *watch) {
-  return hooke_watch_tell(watch, done, what);
+int32_t cli_watch_progress(double done, const char *what, void *watch) {
+  return cli_watch_tell(watch, done, what);
 }
 
-void hooke_watch_end(struct hooke_watch *watch) {
+void cli_watch_end(struct hk_watch *watch) {
   if (watch->shown) fputs("\r\033[K", stderr);
   watch->shown = 0;
 }
 
-int32_t hooke_watch_interrupted(void) {
+int32_t cli_watch_interrupted(void) {
   return interrupted != 0;
 }

@@ -9,25 +9,25 @@
 
 #define HOOKE_BETWEEN_LOOKS 0.01 /* [s] at signals, while a run goes on */
 
-struct hooke_watch {
+struct hk_watch {
   int32_t show; /* standard error is a terminal, and words are wanted */
   int32_t shown;
   struct timespec start, last;
 };
 
 /* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; no number of them kills. */
-void hooke_watch_start(struct hooke_watch *watch, const struct hooke_arguments *arguments);
+void cli_watch_start(struct hk_watch *watch, const struct cli_arguments *arguments);
 
 /* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */
-int32_t hooke_watch_tell(struct hooke_watch *watch, double done, const char *what);
+int32_t cli_watch_tell(struct hk_watch *watch, double done, const char *what);
 
 /* The same as a hooke_progress of the library, with the watch as its context. */
-int32_t hooke_watch_progress(double done, const char *what, void *watch);
+int32_t cli_watch_progress(double done, const char *what, void *watch);
 
 /* Takes the line of progress away. Signals stay caught, so that what was computed can be put away. */
-void hooke_watch_end(struct hooke_watch *watch);
+void cli_watch_end(struct hk_watch *watch);
 
 /* 1 if a signal came. */
-int32_t hooke_watch_interrupted(void);
+int32_t cli_watch_interrupted(void);
 
 #endif

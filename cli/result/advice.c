@@ -27,49 +27,49 @@ static int32_t add_chosen(const hooke_why *why, hooke_options *changes) {
 }
 
 /* The options that are set, as settings whose numbers are in `text`; how many. */
-static int32_t collect(const hooke_options *changes, struct hooke_setting *settings,
+static int32_t collect(const hooke_options *changes, struct cli_setting *settings,
                        char text[][HOOKE_NUMBER_SIZE]) {
   int32_t count = 0;
   for (int64_t row = 0; row < hooke_options_row_count(changes) && count + 1 < MOST_SETTINGS; row++) {
     const char *name = hooke_options_row(changes, row, "name");
     if (!hooke_options_is_set(changes, name)) continue;
     const int32_t is_number = hooke_options_number_count(changes, name) > 0;
-    const char *value = is_number ? hooke_format_number(hooke_options_number(changes, name), text[count])
+    const char *value = is_number ? cli_format_number(hooke_options_number(changes, name), text[count])
                                   : hooke_options_text(changes, name);
-    settings[count++] = (struct hooke_setting){name, value};
+    settings[count++] = (struct cli_setting){name, value};
   }
-  settings[count] = (struct hooke_setting){NULL, NULL};
+  settings[count] = (struct cli_setting){NULL, NULL};
   return count;
 }
 
-int32_t hooke_advice_command(const struct hooke_arguments *arguments, const hooke_why *why, int64_t place,
-                             char **command) {
-  struct hooke_setting settings[MOST_SETTINGS];
+int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_why *why, int64_t place,
+                           char **command) {
+  struct cli_setting settings[MOST_SETTINGS];
   char text[MOST_SETTINGS][HOOKE_NUMBER_SIZE];
   size_t size;
   hooke_options *changes = NULL;
   *command = NULL;
   int32_t status = hooke_run_options_create(&changes);
   if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
-  const int32_t was_picked = hooke_arguments_text(arguments, "want") != NULL;
+  const int32_t was_picked = cli_arguments_text(arguments, "want") != NULL;
   if (status == HOOKE_OK && was_picked && changes_any(changes)) status = add_chosen(why, changes);
   if (status == HOOKE_OK && collect(changes, settings, text) > 0) {
     FILE *stream = open_memstream(command, &size);
-    if (stream) hooke_report_command(stream, arguments, "run", settings);
-    status = hooke_print_end(stream, command);
+    if (stream) cli_report_command(stream, arguments, "run", settings);
+    status = cli_print_end(stream, command);
   }
   hooke_options_destroy(changes);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-int32_t hooke_advice_print(FILE *file, const struct hooke_arguments *arguments, const hooke_why *why,
-                           int64_t most) {
+int32_t cli_advice_print(FILE *file, const struct cli_arguments *arguments, const hooke_why *why,
+                         int64_t most) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_why_advice_count(why) && k < most; k++) {
     char *command;
-    if (hooke_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
+    if (cli_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     fprintf(file, "%s ", k == 0 ? "what to do:" : "or:");
-    hooke_print_text(file, hooke_why_advice_text(why, k, "change"));
+    cli_print_text(file, hooke_why_advice_text(why, k, "change"));
     fputc('\n', file);
     if (command) fprintf(file, "  %s\n", command);
     free(command);

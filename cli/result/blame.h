@@ -5,7 +5,7 @@
 #include "print.h"
 
 /* One entry: a spring between `first` and `second`, or, where `force` is not "", that force. */
-void hooke_blame_json(struct hooke_json *json, const char *force, double first, double second,
-                      const char *group, double share);
+void cli_blame_json(struct cli_json *json, const char *force, double first, double second, const char *group,
+                    double share);
 
 #endif

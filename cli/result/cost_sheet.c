@@ -9,20 +9,20 @@
 
 enum { LEAST_WIDTH = 16 };
 
-int hooke_cost_sheet_find(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                          hooke_cost **cost) {
-  struct hooke_watch watch;
+int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                        hooke_cost **cost) {
+  struct hk_watch watch;
   int32_t status = hooke_cost_create(setup->system, setup->options, arguments->more, cost);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  hooke_watch_start(&watch, arguments);
-  hooke_cost_on_progress(*cost, hooke_watch_progress, &watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  cli_watch_start(&watch, arguments);
+  hooke_cost_on_progress(*cost, cli_watch_progress, &watch);
   status = hooke_cost_find(*cost, setup->state);
-  hooke_watch_end(&watch);
+  cli_watch_end(&watch);
   if (status == HOOKE_STOPPED) {
-    hooke_report_words(arguments, "interrupted; kept: what was found so far");
+    cli_report_words(arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;
   }
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
 /* ---- words ---- */
@@ -64,7 +64,7 @@ static void print_limit(double limit) {
 
 static void print_name(int width, const char *name) {
   printf("  ");
-  hooke_print_padded(stdout, width, name);
+  cli_print_padded(stdout, width, name);
 }
 
 /* Of a group that was not looked at, or not yet when it was interrupted, nothing is known. */
@@ -88,7 +88,7 @@ static void print_whole(const hooke_cost *cost, const hooke_system *system, int 
   print_limit(hooke_cost_figure(cost, "step_limit"));
 }
 
-void hooke_cost_sheet_print_left_out(const hooke_system *system) {
+void cli_cost_sheet_print_left_out(const hooke_system *system) {
   const int64_t dropped = hooke_system_dropped_spring_count(system), idle = hooke_system_idle_count(system);
   if (dropped > 0) {
     printf("dropped      %" PRId64 " %s neither stiffness nor damping\n", dropped,
@@ -100,7 +100,7 @@ void hooke_cost_sheet_print_left_out(const hooke_system *system) {
   }
 }
 
-void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
+void cli_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
   char step[HOOKE_NUMBER_SIZE];
   int width = LEAST_WIDTH;
   int64_t unknown = 0;
@@ -110,7 +110,7 @@ void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) 
     if (is_known(cost, row) && length > width) width = length;
   }
   printf("cost of a step of %s, %s s, on this machine:\n", hooke_cost_method(cost),
-         hooke_format_rounded(hooke_cost_figure(cost, "step"), step));
+         cli_format_rounded(hooke_cost_figure(cost, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_cost_row_count(cost) > 0) printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
@@ -127,30 +127,29 @@ void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) 
 
 /* ---- JSON ---- */
 
-static void print_numbers(struct hooke_json *json, const hooke_cost *cost, int64_t row) {
+static void print_numbers(struct cli_json *json, const hooke_cost *cost, int64_t row) {
   static const char *const numbers[] = {"nanoseconds", "resolution", "memory_bytes", "step_limit_without"};
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    hooke_json_number(json, numbers[k], hooke_cost_number(cost, row, numbers[k]));
+    cli_json_number(json, numbers[k], hooke_cost_number(cost, row, numbers[k]));
 }
 
-void hooke_cost_sheet_print_json(struct hooke_json *json, const hooke_cost *cost,
-                                 const hooke_system *system) {
+void cli_cost_sheet_print_json(struct cli_json *json, const hooke_cost *cost, const hooke_system *system) {
   static const char *const figures[] = {"step", "nanoseconds", "resolution", "memory_bytes", "step_limit"};
-  hooke_json_open(json, "cost", '{');
-  hooke_json_text(json, "method", hooke_cost_method(cost));
+  cli_json_open(json, "cost", '{');
+  cli_json_text(json, "method", hooke_cost_method(cost));
   for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++)
-    hooke_json_number(json, figures[k], hooke_cost_figure(cost, figures[k]));
-  hooke_json_count(json, "dropped_springs", hooke_system_dropped_spring_count(system));
-  hooke_json_count(json, "idle_particles", hooke_system_idle_count(system));
-  hooke_json_open(json, "rows", '[');
+    cli_json_number(json, figures[k], hooke_cost_figure(cost, figures[k]));
+  cli_json_count(json, "dropped_springs", hooke_system_dropped_spring_count(system));
+  cli_json_count(json, "idle_particles", hooke_system_idle_count(system));
+  cli_json_open(json, "rows", '[');
   for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
-    hooke_json_open(json, NULL, '{');
-    hooke_json_text(json, "ingredient", hooke_cost_text(cost, row, "name"));
-    hooke_json_text(json, "kind", hooke_cost_text(cost, row, "kind"));
-    hooke_json_number(json, "springs", hooke_cost_number(cost, row, "springs"));
+    cli_json_open(json, NULL, '{');
+    cli_json_text(json, "ingredient", hooke_cost_text(cost, row, "name"));
+    cli_json_text(json, "kind", hooke_cost_text(cost, row, "kind"));
+    cli_json_number(json, "springs", hooke_cost_number(cost, row, "springs"));
     print_numbers(json, cost, row);
-    hooke_json_close(json);
+    cli_json_close(json);
   }
-  hooke_json_close(json);
-  hooke_json_close(json);
+  cli_json_close(json);
+  cli_json_close(json);
 }

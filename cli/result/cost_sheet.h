@@ -7,14 +7,14 @@
 
 /* Finds the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures are reported and
  * come back as exit code, HOOKE_EXIT_INTERRUPTED with the rows found so far. */
-int hooke_cost_sheet_find(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                          hooke_cost **cost);
+int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                        hooke_cost **cost);
 
 /* The table on standard output. */
-void hooke_cost_sheet_print(const hooke_cost *cost, const hooke_system *system);
+void cli_cost_sheet_print(const hooke_cost *cost, const hooke_system *system);
 /* What commit has left out, on standard output. */
-void hooke_cost_sheet_print_left_out(const hooke_system *system);
+void cli_cost_sheet_print_left_out(const hooke_system *system);
 /* "cost": {...} */
-void hooke_cost_sheet_print_json(struct hooke_json *json, const hooke_cost *cost, const hooke_system *system);
+void cli_cost_sheet_print_json(struct cli_json *json, const hooke_cost *cost, const hooke_system *system);
 
 #endif

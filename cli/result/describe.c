@@ -23,7 +23,7 @@ static const struct {
 };
 enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };
 
-const char *hooke_describe_exit(int32_t i, int32_t *code) {
+const char *cli_describe_exit(int32_t i, int32_t *code) {
   if (i >= EXIT_COUNT) return NULL;
   *code = exits[i].code;
   return exits[i].meaning;
@@ -39,21 +39,21 @@ static void add(char *text, const char *format, ...) {
   va_end(args);
 }
 
-static int32_t takes_methods(const struct hooke_argument *argument) {
+static int32_t takes_methods(const struct cli_argument *argument) {
   return strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0;
 }
 
-static const char *property(const struct hooke_argument *argument, const char *name) {
+static const char *property(const struct cli_argument *argument, const char *name) {
   return hooke_options_row(argument->table, argument->row, name);
 }
 
 /* ---- options ---- */
 
 /* Whether it has to be given, or what it is if it is not. */
-static void add_default(char *doc, const struct hooke_argument *argument) {
+static void add_default(char *doc, const struct cli_argument *argument) {
   const char *fallback = property(argument, "default"), *family = property(argument, "family");
   char example[HOOKE_EXAMPLE_SIZE];
-  hooke_value_example(argument->table, argument->row, example);
+  cli_value_example(argument->table, argument->row, example);
   if (hooke_options_row_number(argument->table, argument->row, "required") == 0.0 || fallback[0]) {
     add(doc, "; default: %s", fallback[0] ? fallback : "none");
     return;
@@ -62,20 +62,20 @@ static void add_default(char *doc, const struct hooke_argument *argument) {
   if (example[0]) add(doc, ", such as %s", example);
 }
 
-static void describe_row(const struct hooke_argument *argument, struct hooke_description *description) {
+static void describe_row(const struct cli_argument *argument, struct cli_description *description) {
   const char *type = property(argument, "type"), *unit = property(argument, "unit");
   char methods[HOOKE_DOC_SIZE / 4];
   if (strcmp(type, "flag") != 0) {
     for (size_t i = 0; type[i] && type[i] != ' '; i++)
       description->value[i] = (char)toupper((unsigned char)type[i]);
   }
-  if (takes_methods(argument)) hooke_report_methods(methods, sizeof methods);
+  if (takes_methods(argument)) cli_report_methods(methods, sizeof methods);
   add(description->doc, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
       property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
   add_default(description->doc, argument);
 }
 
-void hooke_describe(const struct hooke_argument *argument, struct hooke_description *description) {
+void cli_describe(const struct cli_argument *argument, struct cli_description *description) {
   memset(description, 0, sizeof *description);
   description->flag = argument->flag;
   if (!argument->own) {
@@ -87,7 +87,7 @@ void hooke_describe(const struct hooke_argument *argument, struct hooke_descript
   add(description->doc, "%s", argument->own->doc);
 }
 
-const char *hooke_describe_family(const struct hooke_argument *argument, const char **doc) {
+const char *cli_describe_family(const struct cli_argument *argument, const char **doc) {
   const char *family = argument->table ? property(argument, "family") : "";
   if (!family[0]) return NULL;
   for (int64_t row = 0; row < hooke_options_row_count(argument->table); row++) {
@@ -97,10 +97,10 @@ const char *hooke_describe_family(const struct hooke_argument *argument, const c
   return family;
 }
 
-const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
-                                 int32_t *many) {
+const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
+                               int32_t *many) {
   words[0] = '\0';
-  *many = strcmp(argument->name, "methods") == 0 || (argument->table && hooke_value_adds_up(argument));
+  *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_value_adds_up(argument));
   for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
     add(words, "%s%s", i ? " " : "", hooke_method_name(i));
   if (words[0] || !argument->table) return words;
@@ -110,7 +110,7 @@ const char *hooke_describe_words(const struct hooke_argument *argument, char wor
 }
 
 /* Its own options say it by what they call their value: FILE, FILE.html. */
-const char *hooke_describe_file(const struct hooke_argument *argument) {
+const char *cli_describe_file(const struct cli_argument *argument) {
   static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
   const char *value = argument->own ? argument->own->value : NULL;
   if (argument->table) return strcmp(argument->name, "file") == 0 ? "" : NULL;
@@ -123,12 +123,12 @@ const char *hooke_describe_file(const struct hooke_argument *argument) {
 
 /* ---- verbs ---- */
 
-const char *hooke_describe_operand(const struct hooke_verb *verb) {
+const char *cli_describe_operand(const struct cli_verb *verb) {
   return verb->kind_options ? "KIND" : verb->input ? verb->input : "SCENE";
 }
 
-const char *hooke_describe_table(const struct hooke_arguments *arguments, const hooke_options *table,
-                                 char title[HOOKE_DOC_SIZE]) {
+const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
+                               char title[HOOKE_DOC_SIZE]) {
   const int32_t makes = arguments->verb->kind_options != NULL;
   title[0] = '\0';
   if (table == arguments->of_kind) {
@@ -146,16 +146,16 @@ const char *hooke_describe_table(const struct hooke_arguments *arguments, const 
 }
 
 /* What is required, one of what has an example besides, and the first family. */
-const char *hooke_describe_example(const struct hooke_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
+const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
   const char *first = "";
   command[0] = '\0';
   add(command, "hooke %s %s", arguments->verb->name, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
+    const struct cli_argument *argument = &arguments->all[i];
     char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != arguments->of_kind) continue;
     const char *family = property(argument, "family");
-    if (!hooke_value_example(argument->table, argument->row, example)[0]) continue;
+    if (!cli_value_example(argument->table, argument->row, example)[0]) continue;
     if (!first[0]) first = family;
     if (family[0] == '\0' || strcmp(family, first) == 0)
       add(command, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag, example);

@@ -6,37 +6,37 @@
 
 enum { HOOKE_DOC_SIZE = 1024 };
 
-struct hooke_description {
+struct cli_description {
   char letter; /* 0: none */
   const char *flag;
   char value[HOOKE_FLAG_SIZE]; /* what follows the flag, "" for nothing */
   char doc[HOOKE_DOC_SIZE];
 };
 
-void hooke_describe(const struct hooke_argument *argument, struct hooke_description *description);
+void cli_describe(const struct cli_argument *argument, struct cli_description *description);
 
 /* The family that an option belongs to, and what that is; NULL: none. */
-const char *hooke_describe_family(const struct hooke_argument *argument, const char **doc);
+const char *cli_describe_family(const struct cli_argument *argument, const char **doc);
 
 /* What a verb is given: "SCENE", "KIND", "OUT.h5". */
-const char *hooke_describe_operand(const struct hooke_verb *verb);
+const char *cli_describe_operand(const struct cli_verb *verb);
 
 /* The title over the options of a table. */
-const char *hooke_describe_table(const struct hooke_arguments *arguments, const hooke_options *table,
-                                 char title[HOOKE_DOC_SIZE]);
+const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
+                               char title[HOOKE_DOC_SIZE]);
 
 /* A whole command that makes a part of the kind at hand, from the examples of its table. */
-const char *hooke_describe_example(const struct hooke_arguments *arguments, char command[HOOKE_DOC_SIZE]);
+const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
 
 /* The words that may follow an option, between blanks: methods, choices; "" if it takes anything. `many` is 1 if it
  * takes several, with commas between. */
-const char *hooke_describe_words(const struct hooke_argument *argument, char words[HOOKE_DOC_SIZE],
-                                 int32_t *many);
+const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
+                               int32_t *many);
 
 /* The ending of the files that an option takes, "" for any; NULL if it takes no file. */
-const char *hooke_describe_file(const struct hooke_argument *argument);
+const char *cli_describe_file(const struct cli_argument *argument);
 
 /* Code and meaning of exit `i`; NULL past the last. */
-const char *hooke_describe_exit(int32_t i, int32_t *code);
+const char *cli_describe_exit(int32_t i, int32_t *code);
 
 #endif

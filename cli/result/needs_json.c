@@ -7,124 +7,124 @@ static const char *const cost_numbers[] = {"wall_seconds", "springs", "step_limi
                                            "step",         "rtol",    "force_evaluations", "steps"};
 enum { COSTS = sizeof cost_numbers / sizeof cost_numbers[0] };
 
-static void print_full(struct hooke_json *json, const hooke_needs *needs) {
-  hooke_json_open(json, "full", '{');
+static void print_full(struct cli_json *json, const hooke_needs *needs) {
+  cli_json_open(json, "full", '{');
   for (int k = 0; k < COSTS; k++)
-    hooke_json_number(json, cost_numbers[k], hooke_needs_figure(needs, cost_numbers[k]));
-  hooke_json_number(json, "step_error", hooke_needs_figure(needs, "step_error"));
-  hooke_json_number(json, "own_error", hooke_needs_figure(needs, "own_error"));
-  hooke_json_number(json, "moved", hooke_needs_figure(needs, "moved"));
-  hooke_json_close(json);
+    cli_json_number(json, cost_numbers[k], hooke_needs_figure(needs, cost_numbers[k]));
+  cli_json_number(json, "step_error", hooke_needs_figure(needs, "step_error"));
+  cli_json_number(json, "own_error", hooke_needs_figure(needs, "own_error"));
+  cli_json_number(json, "moved", hooke_needs_figure(needs, "moved"));
+  cli_json_close(json);
 }
 
-static void print_warnings(struct hooke_json *json, const hooke_needs *needs) {
+static void print_warnings(struct cli_json *json, const hooke_needs *needs) {
   char text[HOOKE_NEEDS_TRUST];
   const char *note = hooke_needs_word(needs, "note");
-  hooke_json_open(json, "warnings", '[');
-  if (hooke_needs_results_trust(needs, text)) hooke_json_text(json, NULL, text);
-  if (note[0]) hooke_json_text(json, NULL, note);
-  hooke_json_close(json);
+  cli_json_open(json, "warnings", '[');
+  if (cli_needs_results_trust(needs, text)) cli_json_text(json, NULL, text);
+  if (note[0]) cli_json_text(json, NULL, note);
+  cli_json_close(json);
 }
 
 /* null where it cannot be told */
-static void print_needed(struct hooke_json *json, double needed) {
+static void print_needed(struct cli_json *json, double needed) {
   if (isnan(needed))
-    hooke_json_text(json, "needed", NULL);
+    cli_json_text(json, "needed", NULL);
   else
-    hooke_json_flag(json, "needed", needed == 1.0);
+    cli_json_flag(json, "needed", needed == 1.0);
 }
 
-static void print_rows(struct hooke_json *json, const hooke_needs *needs) {
-  hooke_json_open(json, "rows", '[');
+static void print_rows(struct cli_json *json, const hooke_needs *needs) {
+  cli_json_open(json, "rows", '[');
   for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    hooke_json_open(json, NULL, '{');
-    hooke_json_text(json, "without", hooke_needs_text(needs, row, "without"));
-    hooke_json_text(json, "kind", hooke_needs_text(needs, row, "kind"));
-    hooke_json_number(json, "error", hooke_needs_number(needs, row, "error"));
+    cli_json_open(json, NULL, '{');
+    cli_json_text(json, "without", hooke_needs_text(needs, row, "without"));
+    cli_json_text(json, "kind", hooke_needs_text(needs, row, "kind"));
+    cli_json_number(json, "error", hooke_needs_number(needs, row, "error"));
     for (int k = 0; k < COSTS; k++)
-      hooke_json_number(json, cost_numbers[k], hooke_needs_number(needs, row, cost_numbers[k]));
+      cli_json_number(json, cost_numbers[k], hooke_needs_number(needs, row, cost_numbers[k]));
     print_needed(json, hooke_needs_number(needs, row, "needed"));
-    hooke_json_text(json, "note", hooke_needs_text(needs, row, "note"));
-    hooke_json_close(json);
+    cli_json_text(json, "note", hooke_needs_text(needs, row, "note"));
+    cli_json_close(json);
   }
-  hooke_json_close(json);
+  cli_json_close(json);
 }
 
 /* The full scene's own cheapest run within the want. */
-static void print_cheapest(struct hooke_json *json, const hooke_needs *needs) {
+static void print_cheapest(struct cli_json *json, const hooke_needs *needs) {
   static const char *const numbers[] = {"cheapest_error", "cheapest_wall_seconds",      "cheapest_step",
                                         "cheapest_rtol",  "cheapest_force_evaluations", "cheapest_steps"};
-  hooke_json_open(json, "full", '{');
+  cli_json_open(json, "full", '{');
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    hooke_json_number(json, numbers[k] + sizeof "cheapest_" - 1, hooke_needs_figure(needs, numbers[k]));
-  hooke_json_close(json);
+    cli_json_number(json, numbers[k] + sizeof "cheapest_" - 1, hooke_needs_figure(needs, numbers[k]));
+  cli_json_close(json);
 }
 
-static void print_lean(struct hooke_json *json, const struct hooke_needs_results *results) {
+static void print_lean(struct cli_json *json, const struct cli_needs_results *results) {
   static const char *const numbers[] = {"lean_wall_seconds",      "lean_springs", "lean_step_limit",
                                         "lean_particles",         "lean_step",    "lean_rtol",
                                         "lean_force_evaluations", "lean_steps"};
   const hooke_needs *needs = results->needs;
   if (!hooke_needs_lean(needs)) {
-    hooke_json_text(json, "lean", NULL);
+    cli_json_text(json, "lean", NULL);
     return;
   }
-  hooke_json_open(json, "lean", '{');
-  hooke_json_text(json, "scene", results->written);
-  hooke_json_open(json, "without", '[');
+  cli_json_open(json, "lean", '{');
+  cli_json_text(json, "scene", results->written);
+  cli_json_open(json, "without", '[');
   for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
     if (hooke_needs_number(needs, row, "left_out") == 1.0)
-      hooke_json_text(json, NULL, hooke_needs_text(needs, row, "without"));
+      cli_json_text(json, NULL, hooke_needs_text(needs, row, "without"));
   }
-  hooke_json_close(json);
-  hooke_json_number(json, "error", hooke_needs_figure(needs, "lean_error"));
+  cli_json_close(json);
+  cli_json_number(json, "error", hooke_needs_figure(needs, "lean_error"));
   for (int k = 0; k < COSTS; k++)
-    hooke_json_number(json, numbers[k] + sizeof "lean_" - 1, hooke_needs_figure(needs, numbers[k]));
+    cli_json_number(json, numbers[k] + sizeof "lean_" - 1, hooke_needs_figure(needs, numbers[k]));
   print_cheapest(json, needs);
-  hooke_json_number(json, "times_less", hooke_needs_figure(needs, "times_less"));
-  hooke_json_text(json, "other_method", hooke_needs_word(needs, "other_method"));
-  hooke_json_number(json, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
-  hooke_json_text(json, "note", hooke_needs_word(needs, "lean_note"));
-  hooke_json_text(json, "command", results->command);
-  hooke_json_close(json);
+  cli_json_number(json, "times_less", hooke_needs_figure(needs, "times_less"));
+  cli_json_text(json, "other_method", hooke_needs_word(needs, "other_method"));
+  cli_json_number(json, "other_seconds", hooke_needs_figure(needs, "other_seconds"));
+  cli_json_text(json, "note", hooke_needs_word(needs, "lean_note"));
+  cli_json_text(json, "command", results->command);
+  cli_json_close(json);
 }
 
-static void print_cells(struct hooke_json *json, const hooke_needs *needs, int64_t part, const char *key,
+static void print_cells(struct cli_json *json, const hooke_needs *needs, int64_t part, const char *key,
                         const char *const numbers[3]) {
-  hooke_json_open(json, key, '[');
+  cli_json_open(json, key, '[');
   for (int a = 0; a < 3; a++) {
     const double cells = hooke_needs_part_number(needs, part, numbers[a]);
-    if (!isnan(cells)) hooke_json_number(json, NULL, cells);
+    if (!isnan(cells)) cli_json_number(json, NULL, cells);
   }
-  hooke_json_close(json);
+  cli_json_close(json);
 }
 
-static void print_parts(struct hooke_json *json, const hooke_needs *needs) {
+static void print_parts(struct cli_json *json, const hooke_needs *needs) {
   static const char *const has[] = {"cells", "cells_second", "cells_third"};
   static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
   static const char *const numbers[] = {"change", "change_fine", "order", "error", "factor"};
-  hooke_json_open(json, "parts", '[');
+  cli_json_open(json, "parts", '[');
   for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
-    hooke_json_open(json, NULL, '{');
-    hooke_json_text(json, "part", hooke_needs_part_text(needs, part, "part"));
+    cli_json_open(json, NULL, '{');
+    cli_json_text(json, "part", hooke_needs_part_text(needs, part, "part"));
     print_cells(json, needs, part, "cells", has);
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-      hooke_json_number(json, numbers[k], hooke_needs_part_number(needs, part, numbers[k]));
+      cli_json_number(json, numbers[k], hooke_needs_part_number(needs, part, numbers[k]));
     print_cells(json, needs, part, "wanted", wanted);
-    hooke_json_text(json, "note", hooke_needs_part_text(needs, part, "note"));
-    hooke_json_close(json);
+    cli_json_text(json, "note", hooke_needs_part_text(needs, part, "note"));
+    cli_json_close(json);
   }
-  hooke_json_close(json);
+  cli_json_close(json);
 }
 
-void hooke_needs_results_print_json(const struct hooke_needs_results *results) {
+void cli_needs_results_print_json(const struct cli_needs_results *results) {
   const hooke_needs *needs = results->needs;
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_number(&json, "want", hooke_needs_figure(needs, "want"));
-  hooke_json_text(&json, "method", hooke_needs_word(needs, "method"));
-  hooke_json_number(&json, "duration", hooke_needs_figure(needs, "duration"));
-  hooke_json_number(&json, "judged_until", hooke_needs_figure(needs, "judged_until"));
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_number(&json, "want", hooke_needs_figure(needs, "want"));
+  cli_json_text(&json, "method", hooke_needs_word(needs, "method"));
+  cli_json_number(&json, "duration", hooke_needs_figure(needs, "duration"));
+  cli_json_number(&json, "judged_until", hooke_needs_figure(needs, "judged_until"));
   print_warnings(&json, needs);
   print_full(&json, needs);
   if (results->refine) {
@@ -133,5 +133,5 @@ void hooke_needs_results_print_json(const struct hooke_needs_results *results) {
     print_rows(&json, needs);
     print_lean(&json, results);
   }
-  hooke_json_end(&json);
+  cli_json_end(&json);
 }

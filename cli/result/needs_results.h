@@ -5,9 +5,9 @@
 #include "print.h"
 #include "setup.h"
 
-struct hooke_needs_results {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
+struct cli_needs_results {
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
   hooke_needs *needs;
   int32_t refine;      /* 1: resolutions instead of ingredients */
   const char *written; /* file of the lean scene, NULL: none */
@@ -16,8 +16,8 @@ struct hooke_needs_results {
 
 enum { HOOKE_NEEDS_TRUST = 256 };
 /* Says until when it holds; 0: to the end, and there is nothing to say. */
-int32_t hooke_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]);
-void hooke_needs_results_print(const struct hooke_needs_results *results);
-void hooke_needs_results_print_json(const struct hooke_needs_results *results);
+int32_t cli_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]);
+void cli_needs_results_print(const struct cli_needs_results *results);
+void cli_needs_results_print_json(const struct cli_needs_results *results);
 
 #endif

@@ -24,33 +24,33 @@ static void print_limit(double limit) {
   if (isinf(limit))
     printf(" %10s", "none");
   else
-    hooke_rows_print_cell(10, limit);
+    cli_rows_print_cell(10, limit);
 }
 
 static void print_costs(double evaluations, double per_step, double wall, double limit) {
   printf(" %12.0f", evaluations);
-  hooke_rows_print_cell(10, per_step);
-  hooke_rows_print_cell(10, wall);
+  cli_rows_print_cell(10, per_step);
+  cli_rows_print_cell(10, wall);
   print_limit(limit);
 }
 
 static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
   const char *note = hooke_needs_text(needs, row, "note");
   const double wall = hooke_needs_number(needs, row, "wall_seconds");
-  hooke_print_padded(stdout, width, hooke_needs_text(needs, row, "without"));
+  cli_print_padded(stdout, width, hooke_needs_text(needs, row, "without"));
   if (isnan(hooke_needs_number(needs, row, "error"))) {
     printf("  needed: ");
-    hooke_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
+    cli_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
     return;
   }
-  hooke_rows_print_cell(10, hooke_needs_number(needs, row, "error"));
+  cli_rows_print_cell(10, hooke_needs_number(needs, row, "error"));
   print_costs(hooke_needs_number(needs, row, "force_evaluations"),
               nanoseconds(wall, hooke_needs_number(needs, row, "steps")), wall,
               hooke_needs_number(needs, row, "step_limit"));
   const double needed = hooke_needs_number(needs, row, "needed");
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
   printf("  %s%s", verdict, note[0] ? "; " : "");
-  hooke_print_text(stdout, note);
+  cli_print_text(stdout, note);
   printf("\n");
 }
 
@@ -99,17 +99,17 @@ static void print_saving(const hooke_needs *needs) {
            hooke_needs_word(needs, "method"), hooke_needs_figure(needs, "cheapest_wall_seconds"), ratio,
            cheaper);
   printf("%-*s", LABEL, "");
-  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }
 
-static void print_lean(const struct hooke_needs_results *results) {
+static void print_lean(const struct cli_needs_results *results) {
   const hooke_needs *needs = results->needs;
   if (!hooke_needs_lean(needs)) return;
   int32_t left_out = 0;
   for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
     if (hooke_needs_number(needs, row, "left_out") != 1.0) continue;
     printf("%s%-*s", left_out ? "" : "\n", LABEL, left_out ? "" : "lean");
-    hooke_print_text(stdout, hooke_needs_text(needs, row, "without"));
+    cli_print_text(stdout, hooke_needs_text(needs, row, "without"));
     printf("\n");
     left_out++;
   }
@@ -122,11 +122,11 @@ static void print_lean(const struct hooke_needs_results *results) {
   print_saving(needs);
   if (hooke_needs_word(needs, "lean_note")[0]) {
     printf("%-*s", LABEL, "");
-    hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_needs_word(needs, "lean_note"));
+    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_needs_word(needs, "lean_note"));
   }
   printf("%-*s", LABEL, "");
   if (results->command)
-    hooke_print_text(stdout, results->command);
+    cli_print_text(stdout, results->command);
   else
     printf("add -o LEAN.json to have it as a scene");
   printf("\n");
@@ -157,20 +157,20 @@ static void print_parts(const hooke_needs *needs) {
          "order", "left [m]", "want asks for");
   for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
     const char *note = hooke_needs_part_text(needs, part, "note");
-    hooke_print_padded(stdout, width, hooke_needs_part_text(needs, part, "part"));
+    cli_print_padded(stdout, width, hooke_needs_part_text(needs, part, "part"));
     print_cells(needs, part, has);
     for (int k = 0; k < 4; k++)
-      hooke_rows_print_cell(k == 2 ? 8 : 12, hooke_needs_part_number(needs, part, numbers[k]));
+      cli_rows_print_cell(k == 2 ? 8 : 12, hooke_needs_part_number(needs, part, numbers[k]));
     print_cells(needs, part, wanted);
     printf("\n");
     if (note[0]) {
       printf("%*s", width + 1, "");
-      hooke_print_wrapped(stdout, width + 1, width + 1, WIDTH, note);
+      cli_print_wrapped(stdout, width + 1, width + 1, WIDTH, note);
     }
   }
 }
 
-int32_t hooke_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]) {
+int32_t cli_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]) {
   const double until = hooke_needs_figure(needs, "judged_until");
   if (until >= hooke_needs_figure(needs, "duration") * (1.0 - 1e-9)) return 0;
   snprintf(
@@ -183,21 +183,21 @@ int32_t hooke_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEED
 
 static void print_warning(const char *text) {
   printf("%-*s", LABEL, "WARNING");
-  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
   printf("\n");
 }
 
 static void print_warnings(const hooke_needs *needs) {
   char text[HOOKE_NEEDS_TRUST];
   const char *note = hooke_needs_word(needs, "note");
-  if (hooke_needs_results_trust(needs, text)) print_warning(text);
+  if (cli_needs_results_trust(needs, text)) print_warning(text);
   if (note[0]) print_warning(note);
 }
 
-void hooke_needs_results_print(const struct hooke_needs_results *results) {
+void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_needs *needs = results->needs;
   const char *title = hooke_scene_title(results->setup.scene);
-  hooke_print_text(stdout, title && title[0] ? title : results->arguments->scene);
+  cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
   printf("\n%s%s, %g m wanted", hooke_needs_word(needs, "method"),
          hooke_needs_figure(needs, "method_picked") == 1.0 ? " (picked)" : "",
          hooke_needs_figure(needs, "want"));

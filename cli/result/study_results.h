@@ -6,25 +6,25 @@
 #include "rows.h"
 #include "setup.h"
 
-struct hooke_study_results {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
-  struct hooke_methods methods;
+struct cli_study_results {
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
+  struct cli_methods methods;
   hooke_study *study;
   int32_t interrupted;
   char *command; /* the run that is recommended, or the closest one; NULL: there is none */
 };
 
 /* The rows as a table. */
-struct hooke_rows hooke_study_results_rows(const struct hooke_study_results *results);
+struct cli_rows cli_study_results_rows(const struct cli_study_results *results);
 
 /* 1 if there is a recommendation: one that meets the want, or the closest to it of a study that came to its end. */
-int32_t hooke_study_results_recommend(const struct hooke_study_results *results);
+int32_t cli_study_results_recommend(const struct cli_study_results *results);
 
-void hooke_study_results_print(const struct hooke_study_results *results);
-void hooke_study_results_print_json(const struct hooke_study_results *results);
+void cli_study_results_print(const struct cli_study_results *results);
+void cli_study_results_print_json(const struct cli_study_results *results);
 
 /* 1 if the reference, and with it every error, is trusted up to the end of the run. */
-int32_t hooke_study_results_trust_all(const hooke_study *study);
+int32_t cli_study_results_trust_all(const hooke_study *study);
 
 #endif

@@ -12,20 +12,20 @@ enum { LABEL = 16, WIDTH = 110, CELL = 11, SETTING = 12, HEAD_SIZE = 128, TEXT_S
 static const double SEEN = 2.0;
 static const int MEMBERS_ADVISED = 16;
 
-const char *hooke_study_nth(const hooke_study *study, const char *what, int64_t number) {
+const char *cli_study_nth(const hooke_study *study, const char *what, int64_t number) {
   char word[HOOKE_STUDY_WORD_SIZE];
   snprintf(word, sizeof word, "%s:%lld", what, (long long)number);
   const char *text = hooke_study_reference(study, word);
   return text ? text : "";
 }
 
-double hooke_study_of(const hooke_study *study, int64_t row, const char *what, const char *quantity) {
+double cli_study_of(const hooke_study *study, int64_t row, const char *what, const char *quantity) {
   char word[HOOKE_STUDY_WORD_SIZE];
   snprintf(word, sizeof word, "%s:%s", what, quantity);
   return row < 0 ? hooke_study_figure(study, word) : hooke_study_number(study, row, word);
 }
 
-const char *hooke_study_unit(const hooke_study *study, const char *quantity) {
+const char *cli_study_unit(const hooke_study *study, const char *quantity) {
   char word[HOOKE_STUDY_WORD_SIZE];
   snprintf(word, sizeof word, "unit:%s", quantity);
   const char *unit = hooke_study_reference(study, word);
@@ -34,21 +34,21 @@ const char *hooke_study_unit(const hooke_study *study, const char *quantity) {
 
 /* "57.y [m]" */
 static const char *head_of(const hooke_study *study, const char *quantity, char head[HEAD_SIZE]) {
-  const char *unit = hooke_study_unit(study, quantity);
+  const char *unit = cli_study_unit(study, quantity);
   snprintf(head, HEAD_SIZE, "%.100s%s%s%s", quantity, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
   return head;
 }
 
 static void print_words(const char *label, const char *text) {
   printf("%-*s", LABEL, label);
-  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }
 
 /* Text on the right of a column. */
 static void print_right(int width, const char *text) {
   for (int k = (int)strlen(text); k < width; k++)
     fputc(' ', stdout);
-  hooke_print_text(stdout, text);
+  cli_print_text(stdout, text);
 }
 
 static void print_setting(int width, double step, double rtol) {
@@ -76,24 +76,24 @@ static void print_error(int width, double value, double agreement) {
 
 static void print_cells(const hooke_study *study, int64_t row, const int *width) {
   for (int64_t k = 0; k < (int64_t)hooke_study_figure(study, "watched"); k++) {
-    const char *quantity = hooke_study_nth(study, "watched", k);
-    const double agreement = hooke_study_of(study, -1, "agreement", quantity);
+    const char *quantity = cli_study_nth(study, "watched", k);
+    const double agreement = cli_study_of(study, -1, "agreement", quantity);
     if (row < 0)
       print_error(width[k], agreement, -1.0);
     else
-      print_error(width[k], hooke_study_of(study, row, "watched", quantity), agreement);
+      print_error(width[k], cli_study_of(study, row, "watched", quantity), agreement);
   }
   printf("\n");
 }
 
-void hooke_study_watched_print(const struct hooke_study_results *results, int32_t method_width) {
+void cli_study_watched_print(const struct cli_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
   const int64_t count = (int64_t)hooke_study_figure(study, "watched");
   int *width = count > 0 ? calloc((size_t)count, sizeof *width) : NULL;
   if (width == NULL) return;
   printf("\n%-*s %*s", method_width, "error in", SETTING, "step [s]");
   for (int64_t k = 0; k < count; k++)
-    width[k] = print_head(study, hooke_study_nth(study, "watched", k));
+    width[k] = print_head(study, cli_study_nth(study, "watched", k));
   printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
   print_cells(study, -1, width);
   for (int64_t row = 0; row < hooke_study_row_count(study); row++) {
@@ -139,22 +139,22 @@ static void print_source(const hooke_study *study, int32_t method_width, const c
   printf("  %-*s ", method_width, method);
   print_setting(SETTING, step, rtol);
   printf(" %5.0f", statistic(study, method, quantity, "members"));
-  hooke_rows_print_cell(CELL, statistic(study, method, quantity, "mean"));
-  hooke_rows_print_cell(CELL, statistic(study, method, quantity, "spread"));
+  cli_rows_print_cell(CELL, statistic(study, method, quantity, "mean"));
+  cli_rows_print_cell(CELL, statistic(study, method, quantity, "spread"));
   print_bias(study, method, quantity);
 }
 
-static void print_quantity(const struct hooke_study_results *results, int32_t method_width,
+static void print_quantity(const struct cli_study_results *results, int32_t method_width,
                            const char *quantity) {
   char head[HEAD_SIZE];
-  hooke_print_text(stdout, head_of(results->study, quantity, head));
+  cli_print_text(stdout, head_of(results->study, quantity, head));
   printf("\n");
   print_source(results->study, method_width, "reference", quantity);
   for (int32_t m = 0; m < results->methods.count; m++)
     print_source(results->study, method_width, results->methods.name[m], quantity);
 }
 
-static void print_ensemble(const struct hooke_study_results *results, int32_t method_width) {
+static void print_ensemble(const struct cli_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
   char text[TEXT_SIZE];
   if (isnan(hooke_study_figure(study, "statistics_from"))) {
@@ -177,18 +177,18 @@ static void print_ensemble(const struct hooke_study_results *results, int32_t me
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
   for (int64_t k = 0; k < (int64_t)hooke_study_figure(study, "quantities"); k++)
-    print_quantity(results, method_width, hooke_study_nth(study, "quantity", k));
+    print_quantity(results, method_width, cli_study_nth(study, "quantity", k));
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
          "standard errors of it;\nbelow %.0f none is seen, and where there is none, one figure in twenty is "
          "above, more with few runs\n",
          SEEN);
 }
 
-void hooke_study_statistics_print(const struct hooke_study_results *results, int32_t method_width) {
+void cli_study_statistics_print(const struct cli_study_results *results, int32_t method_width) {
   const hooke_study *study = results->study;
   const double until = hooke_study_figure(study, "trusted_until");
-  const int32_t whole = hooke_study_results_trust_all(study);
-  const char *asked = hooke_arguments_text(results->arguments, "ensemble");
+  const int32_t whole = cli_study_results_trust_all(study);
+  const char *asked = cli_arguments_text(results->arguments, "ensemble");
   char text[TEXT_SIZE];
   if (hooke_study_figure(study, "members") > 0.0) {
     print_ensemble(results, method_width);

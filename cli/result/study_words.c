@@ -22,7 +22,7 @@ static void print_fact(const char *label, const char *format, ...) {
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   printf("%-*s", LABEL, label);
-  hooke_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }
 
 /* ---- the reference ---- */
@@ -67,10 +67,10 @@ static void print_growth(const hooke_study *study) {
 static void print_trust(const hooke_study *study, double agreement) {
   double until = hooke_study_figure(study, "trusted_until");
   double duration = hooke_study_figure(study, "duration");
-  const int32_t whole = hooke_study_results_trust_all(study);
+  const int32_t whole = cli_study_results_trust_all(study);
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
-  hooke_format_rounded(until, time);
-  hooke_format_rounded(duration, all);
+  cli_format_rounded(until, time);
+  cli_format_rounded(duration, all);
   int32_t parted = until < hooke_study_figure(study, "checked_until");
   print_fact("agreement",
              "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
@@ -105,16 +105,16 @@ static void print_order(const hooke_study *study, const char *method, int32_t wi
              hooke_study_order(study, method, "high"));
   }
   printf("%-*s %7s %16s", width, method, seen, interval);
-  hooke_rows_print_cell(7, theory);
+  cli_rows_print_cell(7, theory);
   if (note && note[0]) {
     printf("  ");
-    hooke_print_wrapped(stdout, width + 35, width + 35, WIDTH + 20, note);
+    cli_print_wrapped(stdout, width + 35, width + 35, WIDTH + 20, note);
   } else {
     printf("\n");
   }
 }
 
-static void print_orders(const struct hooke_study_results *results, int32_t width) {
+static void print_orders(const struct cli_study_results *results, int32_t width) {
   int32_t any = 0;
   for (int32_t i = 0; i < results->methods.count; i++) {
     const char *method = results->methods.name[i];
@@ -155,17 +155,17 @@ static void print_margin(const hooke_study *study) {
                "holds_start", "error_start");
 }
 
-static void print_recommendation(const struct hooke_study_results *results) {
+static void print_recommendation(const struct cli_study_results *results) {
   const hooke_study *study = results->study;
   double want = hooke_study_recommendation_number(study, "want");
   int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
   char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
-  hooke_format_rounded(want, text);
-  hooke_format_rounded(hooke_study_figure(study, "trusted_until"), time);
+  cli_format_rounded(want, text);
+  cli_format_rounded(hooke_study_figure(study, "trusted_until"), time);
   printf("\n");
   if (met) {
     print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
-               time, hooke_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
+               time, cli_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
   } else {
     print_fact("recommendation", "none for an error of at most %s m: %s", text,
                hooke_study_recommendation_text(study, "note"));
@@ -173,7 +173,7 @@ static void print_recommendation(const struct hooke_study_results *results) {
   if (!results->command) return;
   if (!met) print_fact("closest", "%s", hooke_study_recommendation_text(study, "method"));
   printf("%*s", LABEL, "");
-  hooke_print_text(stdout, results->command);
+  cli_print_text(stdout, results->command);
   printf("\n");
   print_fact("", "error %.3g m, wall time %.3g s, %.0f force evaluations, as measured",
              hooke_study_recommendation_number(study, "error"),
@@ -183,7 +183,7 @@ static void print_recommendation(const struct hooke_study_results *results) {
 }
 
 /* What the columns mean, and the marks that occur. */
-static void print_legend(const struct hooke_rows *rows) {
+static void print_legend(const struct cli_rows *rows) {
   int32_t shared = 0;
   for (int64_t row = 0; row < rows->count; row++)
     shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
@@ -193,28 +193,28 @@ static void print_legend(const struct hooke_rows *rows) {
          shared ? "; +: other rows ran beside it, so its time may be too long" : "");
 }
 
-void hooke_study_results_print(const struct hooke_study_results *results) {
-  const struct hooke_arguments *arguments = results->arguments;
-  const struct hooke_rows rows = hooke_study_results_rows(results);
+void cli_study_results_print(const struct cli_study_results *results) {
+  const struct cli_arguments *arguments = results->arguments;
+  const struct cli_rows rows = cli_study_results_rows(results);
   const char *title = hooke_scene_title(results->setup.scene);
-  int32_t width = hooke_rows_method_width(&rows);
+  int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  hooke_print_text(stdout, title && title[0] ? title : arguments->scene);
-  printf(", %s s\n", hooke_format_rounded(hooke_study_figure(results->study, "duration"), text));
+  cli_print_text(stdout, title && title[0] ? title : arguments->scene);
+  printf(", %s s\n", cli_format_rounded(hooke_study_figure(results->study, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
     printf("\n");
-    hooke_rows_print(&rows, width);
+    cli_rows_print(&rows, width);
     print_legend(&rows);
-    hooke_study_watched_print(results, width);
+    cli_study_watched_print(results, width);
   }
   if (hooke_study_figure(results->study, "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
   if (rows.count > 0) print_orders(results, width);
-  if (hooke_study_results_recommend(results)) {
+  if (cli_study_results_recommend(results)) {
     print_recommendation(results);
-  } else if (rows.count > 0 && !arguments->quiet && !hooke_arguments_text(arguments, "want")) {
+  } else if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
     printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
   }
-  hooke_study_statistics_print(results, width);
+  cli_study_statistics_print(results, width);
 }

@@ -7,9 +7,9 @@
 #include "hooke.h"
 
 /* The keys "triples", "bending_groups", "tetrahedra", "altitude_groups" and "derived". */
-void hooke_derived_json(struct hooke_json *json, const hooke_system *system);
+void cli_derived_json(struct cli_json *json, const hooke_system *system);
 
 /* The same in lines; nothing where there is nothing. */
-void hooke_derived_words(const hooke_system *system);
+void cli_derived_words(const hooke_system *system);
 
 #endif

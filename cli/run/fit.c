@@ -13,7 +13,7 @@ static const double MOST_COUNTED = 9e15;
 static const double MOST_STEPS = 1e8; /* that a run may mean without anyone asking for them */
 
 struct fit {
-  const struct hooke_arguments *arguments;
+  const struct cli_arguments *arguments;
   hooke_options *options;
   double step, every, duration; /* NaN: not given */
 };
@@ -42,9 +42,9 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
   char text[HOOKE_NUMBER_SIZE];
   const int32_t status = hooke_options_set_number(fit->options, name, value);
   *number = value;
-  if (status != HOOKE_OK) return hooke_report_status(fit->arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(fit->arguments, status);
   if (!fit->arguments->quiet)
-    hooke_report_words(fit->arguments, "%s is %s s: %s", name, hooke_format_rounded(value, text), why);
+    cli_report_words(fit->arguments, "%s is %s s: %s", name, cli_format_rounded(value, text), why);
   return HOOKE_EXIT_DONE;
 }
 
@@ -52,21 +52,20 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
   if (safe == 0.0)
-    return hooke_report(fit->arguments, HOOKE_EXIT_USAGE,
-                        "no step: %s is certain to be stable here at no step; give one with --step, or take "
-                        "another method",
-                        method);
-  return hooke_report(
-      fit->arguments, HOOKE_EXIT_USAGE,
-      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
-      "give one with --step, or take another method",
-      method, safe);
+    return hk_report(fit->arguments, HOOKE_EXIT_USAGE,
+                     "no step: %s is certain to be stable here at no step; give one with --step, or take "
+                     "another method",
+                     method);
+  return hk_report(fit->arguments, HOOKE_EXIT_USAGE,
+                   "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
+                   "give one with --step, or take another method",
+                   method, safe);
 }
 
 static int choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {
   double safe = NAN;
   const int32_t status = hooke_step_bound(system, method, q, &safe);
-  if (status != HOOKE_OK) return hooke_report_status(fit->arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(fit->arguments, status);
   const int limited = !isnan(safe) && !isinf(safe);
   double most = limited ? SHARE_OF_SAFE * safe : SHARE_OF_DURATION * fit->duration;
   if (!(most > 0.0) || fit->duration / most > MOST_STEPS) return refuse(fit, method, safe);
@@ -91,14 +90,14 @@ static int move_times(struct fit *fit) {
   return code;
 }
 
-int hooke_fit_run(const struct hooke_arguments *arguments, struct hooke_setup *setup) {
+int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup) {
   const char *method = hooke_options_text(setup->options, "method");
   struct fit fit = {.arguments = arguments,
                     .options = setup->options,
                     .step = hooke_options_number(setup->options, "step"),
                     .every = hooke_options_number(setup->options, "every"),
                     .duration = hooke_options_number(setup->options, "duration")};
-  if (hooke_arguments_text(arguments, "strict") || isnan(fit.duration)) return HOOKE_EXIT_DONE;
+  if (cli_arguments_text(arguments, "strict") || isnan(fit.duration)) return HOOKE_EXIT_DONE;
   if (hooke_method_is_adaptive(method) != 0) return HOOKE_EXIT_DONE;
   if (isnan(fit.step)) {
     const int code = choose_step(&fit, setup->system, hooke_state_position(setup->state), method);

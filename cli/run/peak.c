@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 /* Of /proc/self/status, which counts from the start of this program; getrusage() begins with what the caller had. */
-struct hooke_peak hooke_peak_look(void) {
-  struct hooke_peak peak = {0, 0};
+struct cli_peak cli_peak_look(void) {
+  struct cli_peak peak = {0, 0};
   char line[256];
   int64_t kilobytes;
   FILE *file = fopen("/proc/self/status", "r");
@@ -31,13 +31,13 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
 }
 
 /* What the estimate of the error has besides: three states, and another run whose ends are kept. */
-static int64_t count_estimate(const struct hooke_setup *setup, int64_t of_method) {
+static int64_t count_estimate(const struct cli_setup *setup, int64_t of_method) {
   const int64_t positions = hooke_state_size(setup->state) * (int64_t)sizeof(double);
   return 8 * positions + of_method;
 }
 
 /* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
-static int32_t count_method(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
+static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
                             int64_t *bytes) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
@@ -49,8 +49,8 @@ static int32_t count_method(const struct hooke_arguments *arguments, const struc
   return status;
 }
 
-int hooke_peak_of_run(const struct hooke_arguments *arguments, const struct hooke_setup *setup,
-                      struct hooke_peak loaded, int64_t *bytes, int64_t *counted) {
+int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                    struct cli_peak loaded, int64_t *bytes, int64_t *counted) {
   const char *method = hooke_options_text(setup->options, "method");
   const int32_t adaptive = hooke_method_is_adaptive(method);
   const int32_t can_run = !(adaptive >= 0 && !hooke_method_is_built(method)) &&
@@ -59,7 +59,7 @@ int hooke_peak_of_run(const struct hooke_arguments *arguments, const struct hook
       hooke_system_memory(setup->system) + (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
   int64_t of_method = 0;
   const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t running =
       (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup, of_method) : 0);
   *bytes = running > loaded.most ? running : loaded.most;

@@ -17,16 +17,16 @@ static int32_t may_be_given(const char *name) {
   return 0;
 }
 
-int hooke_resume_check(const struct hooke_arguments *arguments) {
-  const char *file = hooke_arguments_text(arguments, "resume");
-  if (!file && hooke_arguments_text(arguments, "checkpoint") && !hooke_arguments_text(arguments, "output")) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "--checkpoint keeps places to go on from beside the output; give one with -o OUT.h5");
+int cli_resume_check(const struct cli_arguments *arguments) {
+  const char *file = cli_arguments_text(arguments, "resume");
+  if (!file && cli_arguments_text(arguments, "checkpoint") && !cli_arguments_text(arguments, "output")) {
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "--checkpoint keeps places to go on from beside the output; give one with -o OUT.h5");
   }
   for (int32_t i = 0; file && i < arguments->count; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
+    const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || may_be_given(argument->name)) continue;
-    return hooke_report(
+    return hk_report(
         arguments, HOOKE_EXIT_USAGE,
         "--resume goes on with the scene and the options of %s, so that the bits are those of a run that "
         "never stopped; leave out --%s",
@@ -35,13 +35,13 @@ int hooke_resume_check(const struct hooke_arguments *arguments) {
   return HOOKE_EXIT_DONE;
 }
 
-void hooke_resume_tell_how(const struct hooke_arguments *arguments, const char *output, int32_t kept) {
+void cli_resume_tell_how(const struct cli_arguments *arguments, const char *output, int32_t kept) {
   if (kept == HOOKE_UNSUITED)
-    hooke_report_words(
+    cli_report_words(
         arguments,
         "this method goes on from checkpoints alone, and --checkpoint DT was not given: it begins again");
   fputs("to go on:\n  hooke run --resume ", stderr);
-  hooke_print_quoted(stderr, output);
+  cli_print_quoted(stderr, output);
   fputc('\n', stderr);
 }
 
@@ -60,7 +60,7 @@ static int32_t read_steps(hooke_record *record, int64_t frames, int64_t *steps) 
   return status;
 }
 
-int32_t hooke_resume_read_finished(const char *output, hooke_state *state, int64_t *frames, int64_t *steps) {
+int32_t cli_resume_read_finished(const char *output, hooke_state *state, int64_t *frames, int64_t *steps) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(output, &record);
   if (status == HOOKE_OK) status = hooke_record_read(record, -1, state);

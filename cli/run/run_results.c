@@ -8,93 +8,93 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double *position_of(const struct hooke_run *run) {
+static const double *position_of(const struct hk_run *run) {
   return hooke_state_position(run->setup.state);
 }
 
-static const double *velocity_of(const struct hooke_run *run) {
+static const double *velocity_of(const struct hk_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
 
-static const hooke_options *options_of(const struct hooke_run *run) {
+static const hooke_options *options_of(const struct hk_run *run) {
   return hooke_integrator_options(run->integrator);
 }
 
-const char *hooke_run_method(const struct hooke_run *run) {
+const char *cli_run_method(const struct hk_run *run) {
   return hooke_options_text(options_of(run), "method");
 }
 
-static double option_of(const struct hooke_run *run, const char *name) {
+static double option_of(const struct hk_run *run, const char *name) {
   return hooke_options_number(options_of(run), name);
 }
 
-static int is_adaptive(const struct hooke_run *run) {
-  return hooke_method_is_adaptive(hooke_run_method(run)) != 0;
+static int is_adaptive(const struct hk_run *run) {
+  return hooke_method_is_adaptive(cli_run_method(run)) != 0;
 }
 
 /* -1: not known, as a file keeps no count but that of steps. */
-static int64_t count_of(const struct hooke_run *run, const char *what) {
+static int64_t count_of(const struct hk_run *run, const char *what) {
   if (!run->was_finished) return hooke_integrator_count(run->integrator, what);
   return strcmp(what, "steps") == 0 ? run->finished_steps : -1;
 }
 
 /* ---- for a program ---- */
 
-static void print_json_count(struct hooke_json *json, const struct hooke_run *run, const char *what) {
+static void print_json_count(struct cli_json *json, const struct hk_run *run, const char *what) {
   const int64_t count = count_of(run, what);
   if (count < 0)
-    hooke_json_number(json, what, NAN);
+    cli_json_number(json, what, NAN);
   else
-    hooke_json_count(json, what, count);
+    cli_json_count(json, what, count);
 }
 
-static void print_json_motion(struct hooke_json *json, const struct hooke_run *run) {
+static void print_json_motion(struct cli_json *json, const struct hk_run *run) {
   double momentum[3];
-  hooke_json_open(json, "energy", '{');
-  hooke_json_number(json, "initial", run->energy_before);
-  hooke_json_number(json, "final", run->energy_after);
-  hooke_json_close(json);
+  cli_json_open(json, "energy", '{');
+  cli_json_number(json, "initial", run->energy_before);
+  cli_json_number(json, "final", run->energy_after);
+  cli_json_close(json);
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
-  hooke_json_open(json, "momentum", '[');
+  cli_json_open(json, "momentum", '[');
   for (int i = 0; i < 3; i++)
-    hooke_json_number(json, NULL, momentum[i]);
-  hooke_json_close(json);
+    cli_json_number(json, NULL, momentum[i]);
+  cli_json_close(json);
 }
 
-static void print_json(const struct hooke_run *run, int32_t with_final) {
+static void print_json(const struct hk_run *run, int32_t with_final) {
   const hooke_system *system = run->setup.system;
   const int32_t outcome = run->outcome;
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "status",
-                  outcome == HOOKE_OK         ? "finished"
-                  : outcome == HOOKE_DIVERGED ? "diverged"
-                                              : "stopped");
-  hooke_json_text(&json, "method", hooke_run_method(run));
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "status",
+                outcome == HOOKE_OK         ? "finished"
+                : outcome == HOOKE_DIVERGED ? "diverged"
+                                            : "stopped");
+  cli_json_text(&json, "method", cli_run_method(run));
   if (is_adaptive(run)) {
-    hooke_json_number(&json, "rtol", option_of(run, "rtol"));
-    hooke_json_number(&json, "atol", option_of(run, "atol"));
+    cli_json_number(&json, "rtol", option_of(run, "rtol"));
+    cli_json_number(&json, "atol", option_of(run, "atol"));
   } else {
-    hooke_json_number(&json, "step", option_of(run, "step"));
+    cli_json_number(&json, "step", option_of(run, "step"));
   }
-  hooke_json_number(&json, "time", hooke_state_time(run->setup.state));
+  cli_json_number(&json, "time", hooke_state_time(run->setup.state));
   print_json_count(&json, run, "steps");
   print_json_count(&json, run, "force_evaluations");
-  hooke_json_number(&json, "wall_seconds",
-                    run->was_finished ? NAN : hooke_integrator_wall_seconds(run->integrator));
-  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
-  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
+  cli_json_number(&json, "wall_seconds",
+                  run->was_finished ? NAN : hooke_integrator_wall_seconds(run->integrator));
+  cli_json_count(&json, "particles", hooke_system_particle_count(system));
+  cli_json_count(&json, "springs", hooke_system_spring_count(system));
   print_json_motion(&json, run);
-  hooke_json_text(&json, "output", run->output);
-  hooke_json_text(&json, "diagnosis", hooke_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
-  hooke_want_print_json(run, &json);
+  cli_json_text(&json, "output", run->output);
+  cli_json_text(&json, "diagnosis", cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
+  cli_want_print_json(run, &json);
   if (with_final) {
     const int64_t particles = hooke_system_particle_count(system);
-    hooke_json_open(&json, "final", '{');
-    hooke_json_vectors(&json, "position", particles, position_of(run));
-    hooke_json_vectors(&json, "velocity", particles, velocity_of(run));
+    cli_json_open(&json, "final", '{');
+    cli_json_vectors(&json, "position", particles, position_of(run));
+    cli_json_vectors(&json, "velocity", particles, velocity_of(run));
   }
-  hooke_json_end(&json);
+  cli_json_end(&json);
 }
 
 /* ---- for a person ---- */
@@ -105,17 +105,17 @@ static void print_row(const char *label) {
 
 static void print_quantity(double value, const char *unit) {
   char text[HOOKE_NUMBER_SIZE];
-  printf("%s %s", hooke_format_rounded(value, text), unit);
+  printf("%s %s", cli_format_rounded(value, text), unit);
 }
 
-static void print_count(const struct hooke_run *run, const char *label, const char *what) {
+static void print_count(const struct hk_run *run, const char *label, const char *what) {
   const int64_t count = count_of(run, what);
   if (count <= 0) return;
   print_row(label);
   printf("%" PRId64 "\n", count);
 }
 
-static void print_work(const struct hooke_run *run) {
+static void print_work(const struct hk_run *run) {
   const int64_t springs = hooke_system_spring_count(run->setup.system);
   const int64_t steps = count_of(run, "steps");
   const double seconds = hooke_integrator_wall_seconds(run->integrator);
@@ -135,12 +135,12 @@ static void print_work(const struct hooke_run *run) {
   printf("\n");
 }
 
-static void print_method(const struct hooke_run *run) {
+static void print_method(const struct hk_run *run) {
   char text[HOOKE_NUMBER_SIZE];
   print_row("method");
-  printf("%s, ", hooke_run_method(run));
+  printf("%s, ", cli_run_method(run));
   if (is_adaptive(run)) {
-    printf("rtol %s, atol ", hooke_format_rounded(option_of(run, "rtol"), text));
+    printf("rtol %s, atol ", cli_format_rounded(option_of(run, "rtol"), text));
     print_quantity(option_of(run, "atol"), "m\n");
   } else {
     printf("step ");
@@ -148,7 +148,7 @@ static void print_method(const struct hooke_run *run) {
   }
 }
 
-static void print_motion(const struct hooke_run *run) {
+static void print_motion(const struct hk_run *run) {
   double momentum[3];
   char text[HOOKE_NUMBER_SIZE];
   print_row("energy");
@@ -158,17 +158,17 @@ static void print_motion(const struct hooke_run *run) {
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
   print_row("momentum");
   for (int i = 0; i < 3; i++)
-    printf("%s ", hooke_format_rounded(momentum[i], text));
+    printf("%s ", cli_format_rounded(momentum[i], text));
   printf("kg m/s\n");
 }
 
-static void print_words(const struct hooke_run *run) {
+static void print_words(const struct hk_run *run) {
   const hooke_system *system = run->setup.system;
   const char *title = hooke_scene_title(run->setup.scene);
   const int64_t particles = hooke_system_particle_count(system);
   if (title && title[0]) {
     print_row("scene");
-    hooke_print_text(stdout, title);
+    cli_print_text(stdout, title);
     printf("\n");
   }
   print_row("particles");
@@ -182,35 +182,35 @@ static void print_words(const struct hooke_run *run) {
   print_motion(run);
   if (run->output) {
     print_row("output");
-    hooke_print_text(stdout, run->output);
+    cli_print_text(stdout, run->output);
     printf(" (%" PRId64 " frame%s)\n", run->frames, run->frames == 1 ? "" : "s");
   }
 }
 
-static void print_final(const struct hooke_run *run) {
+static void print_final(const struct hk_run *run) {
   const double *q = position_of(run), *v = velocity_of(run);
   char text[HOOKE_NUMBER_SIZE];
   printf("\nparticle x y z [m] vx vy vz [m/s]\n");
   for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
     printf("%" PRId64, i);
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_rounded(q[3 * i + k], text));
+      printf(" %s", cli_format_rounded(q[3 * i + k], text));
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", hooke_format_rounded(v[3 * i + k], text));
+      printf(" %s", cli_format_rounded(v[3 * i + k], text));
     printf("\n");
   }
 }
 
-void hooke_run_print(const struct hooke_run *run) {
+void cli_run_print(const struct hk_run *run) {
   if (run->arguments->json)
-    print_json(run, hooke_arguments_text(run->arguments, "final") != NULL);
+    print_json(run, cli_arguments_text(run->arguments, "final") != NULL);
   else
     print_words(run);
-  hooke_print_flush();
+  cli_print_flush();
 }
 
-void hooke_run_print_final(const struct hooke_run *run) {
-  if (run->arguments->json || !hooke_arguments_text(run->arguments, "final")) return;
+void cli_run_print_final(const struct hk_run *run) {
+  if (run->arguments->json || !cli_arguments_text(run->arguments, "final")) return;
   print_final(run);
-  hooke_print_flush();
+  cli_print_flush();
 }

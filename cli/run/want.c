@@ -12,85 +12,84 @@ static const double MOST_RISE = 0.01; /* of what the scene has: from there on en
 
 /* ---- picking ---- */
 
-static int refuse_typed(const struct hooke_arguments *arguments) {
+static int refuse_typed(const struct cli_arguments *arguments) {
   static const char *const chosen[] = {"step", "rtol", "atol", "atol_velocity"};
   char flag[HOOKE_FLAG_SIZE];
   for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++) {
-    if (!hooke_arguments_text(arguments, chosen[k])) continue;
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "--want picks the step or the tolerance; leave out --%s, or --want",
-                        hooke_arguments_flag(chosen[k], flag));
+    if (!cli_arguments_text(arguments, chosen[k])) continue;
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "--want picks the step or the tolerance; leave out --%s, or --want",
+                     cli_arguments_flag(chosen[k], flag));
   }
   return HOOKE_EXIT_DONE;
 }
 
-static void tell_choice(const struct hooke_run *run, const char *done, const char *want) {
+static void tell_choice(const struct hk_run *run, const char *done, const char *want) {
   const hooke_options *options = run->setup.options;
   const char *method = hooke_options_text(options, "method");
   const int adaptive = hooke_method_is_adaptive(method);
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
-  hooke_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
-                     hooke_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
-                     adaptive ? "" : " s");
+  cli_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
+                   cli_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
+                   adaptive ? "" : " s");
 }
 
-int hooke_want_pick(struct hooke_run *run) {
-  const struct hooke_arguments *arguments = run->arguments;
-  const char *text = hooke_arguments_text(arguments, "want");
+int cli_want_pick(struct hk_run *run) {
+  const struct cli_arguments *arguments = run->arguments;
+  const char *text = cli_arguments_text(arguments, "want");
   double want = NAN;
-  int code = text ? hooke_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
+  int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = hooke_value_of_study(arguments, "want", "m", &want);
+  if (code == HOOKE_EXIT_DONE && text) code = cli_value_of_study(arguments, "want", "m", &want);
   if (code != HOOKE_EXIT_DONE) return code;
-  if (!text && (run->resumed || hooke_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
+  if (!text && (run->resumed || cli_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
   int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  hooke_estimate_on_progress(run->estimate, hooke_watch_progress, &run->watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  hooke_estimate_on_progress(run->estimate, cli_watch_progress, &run->watch);
   if (!text) return HOOKE_EXIT_DONE;
-  hooke_watch_start(&run->watch, arguments);
-  status = hooke_estimate_pick(run->estimate, hooke_arguments_text(arguments, "method"), run->setup.options);
-  hooke_watch_end(&run->watch);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  cli_watch_start(&run->watch, arguments);
+  status = hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
+  cli_watch_end(&run->watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   tell_choice(run, "picked for an error of", text);
   return HOOKE_EXIT_DONE;
 }
 
 /* ---- after the run ---- */
 
-int32_t hooke_want_measure(struct hooke_run *run) {
+int32_t cli_want_measure(struct hk_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
-  hooke_watch_start(&run->watch, run->arguments);
+  cli_watch_start(&run->watch, run->arguments);
   const int32_t status = hooke_estimate_measure(run->estimate, run->integrator, run->setup.state);
-  hooke_watch_end(&run->watch);
+  cli_watch_end(&run->watch);
   return status;
 }
 
-static double number_of(const struct hooke_run *run, const char *what) {
+static double number_of(const struct hk_run *run, const char *what) {
   return hooke_estimate_number(run->estimate, what);
 }
 
-static int is_wanted(const struct hooke_run *run) {
+static int is_wanted(const struct hk_run *run) {
   return run->estimate && !isnan(number_of(run, "wanted"));
 }
 
-int32_t hooke_want_goes_on(struct hooke_run *run) {
+int32_t cli_want_goes_on(struct hk_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
-  if (hooke_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
+  if (cli_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
   const char *note = hooke_estimate_text(run->estimate, "note");
   const double error = number_of(run, "estimate"), wanted = number_of(run, "wanted");
   if (!run->arguments->quiet && error > wanted)
-    hooke_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error,
-                       wanted);
+    cli_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error, wanted);
   else if (!run->arguments->quiet)
-    hooke_report_words(run->arguments, "that run does not do: %s", note);
-  tell_choice(run, "once more for", hooke_arguments_text(run->arguments, "want"));
+    cli_report_words(run->arguments, "that run does not do: %s", note);
+  tell_choice(run, "once more for", cli_arguments_text(run->arguments, "want"));
   return 1;
 }
 
 /* "against the same method at half the step" and the like. */
-static const char *source_of(const struct hooke_run *run, const char *by) {
+static const char *source_of(const struct hk_run *run, const char *by) {
   if (strcmp(by, "reference") == 0) return "against a reference that was checked by another";
   if (is_wanted(run))
     return strcmp(by, "tolerance") == 0 ? "against the same method at a hundredth of the tolerance"
@@ -99,16 +98,16 @@ static const char *source_of(const struct hooke_run *run, const char *by) {
   return strcmp(by, "tolerance") == 0 ? "from runs at looser tolerances" : "from runs at larger steps";
 }
 
-static void warn(const struct hooke_run *run) {
+static void warn(const struct hk_run *run) {
   const double rise = number_of(run, "energy_rise");
   if (rise > MOST_RISE && !run->arguments->quiet)
-    hooke_report_words(run->arguments,
-                       "warning: energy rose by itself, over the last half of the run by %.3g %% of what the "
-                       "scene has: this step is too large, or the method does not suit the scene",
-                       100.0 * rise);
+    cli_report_words(run->arguments,
+                     "warning: energy rose by itself, over the last half of the run by %.3g %% of what the "
+                     "scene has: this step is too large, or the method does not suit the scene",
+                     100.0 * rise);
 }
 
-static void print_verdict(const struct hooke_run *run) {
+static void print_verdict(const struct hk_run *run) {
   const double met = number_of(run, "met");
   const char *note = hooke_estimate_text(run->estimate, "note");
   if (!is_wanted(run)) return;
@@ -119,7 +118,7 @@ static void print_verdict(const struct hooke_run *run) {
   printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
 }
 
-void hooke_want_print(const struct hooke_run *run) {
+void cli_want_print(const struct hk_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return;
   const char *by = hooke_estimate_text(run->estimate, "by");
   const double from = number_of(run, "known_from"), until = number_of(run, "known_until");
@@ -136,38 +135,38 @@ void hooke_want_print(const struct hooke_run *run) {
            number_of(run, "estimate"), source_of(run, by));
   print_verdict(run);
   printf("\n");
-  hooke_print_flush();
+  cli_print_flush();
   warn(run);
 }
 
-static void print_json_error(const struct hooke_run *run, struct hooke_json *json) {
+static void print_json_error(const struct hk_run *run, struct cli_json *json) {
   const char *by = hooke_estimate_text(run->estimate, "by");
-  hooke_json_open(json, "error", '{');
-  hooke_json_number(json, "estimate", number_of(run, "estimate"));
-  hooke_json_number(json, "known_from", number_of(run, "known_from"));
-  hooke_json_number(json, "known_until", number_of(run, "known_until"));
-  hooke_json_text(json, "by", by);
-  hooke_json_number(json, "energy_rise", number_of(run, "energy_rise"));
-  hooke_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
-  hooke_json_close(json);
+  cli_json_open(json, "error", '{');
+  cli_json_number(json, "estimate", number_of(run, "estimate"));
+  cli_json_number(json, "known_from", number_of(run, "known_from"));
+  cli_json_number(json, "known_until", number_of(run, "known_until"));
+  cli_json_text(json, "by", by);
+  cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
+  cli_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
+  cli_json_close(json);
 }
 
-void hooke_want_print_json(const struct hooke_run *run, struct hooke_json *json) {
+void cli_want_print_json(const struct hk_run *run, struct cli_json *json) {
   if (!run->estimate) return;
   const double met = number_of(run, "met");
   if (run->outcome == HOOKE_OK) print_json_error(run, json);
   if (!is_wanted(run)) return;
-  hooke_json_open(json, "want", '{');
-  hooke_json_number(json, "wanted", number_of(run, "wanted"));
+  cli_json_open(json, "want", '{');
+  cli_json_number(json, "wanted", number_of(run, "wanted"));
   if (isnan(met))
-    hooke_json_number(json, "met", NAN);
+    cli_json_number(json, "met", NAN);
   else
-    hooke_json_flag(json, "met", met == 1.0);
-  hooke_json_number(json, "seconds", number_of(run, "seconds"));
-  hooke_json_close(json);
+    cli_json_flag(json, "met", met == 1.0);
+  cli_json_number(json, "seconds", number_of(run, "seconds"));
+  cli_json_close(json);
 }
 
-int hooke_want_exit_code(const struct hooke_run *run) {
+int cli_want_exit_code(const struct hk_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return HOOKE_EXIT_DONE;
-  return hooke_watch_interrupted() ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_NOT_MET;
+  return cli_watch_interrupted() ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_NOT_MET;
 }

@@ -16,8 +16,8 @@
 enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 
 struct check {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
   hooke_cost *cost;        /* NULL: not asked for */
   double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
   int64_t memory, counted; /* at the peak of a run; of system, state and method alone [bytes] */
@@ -67,7 +67,7 @@ static void warn_of_method(struct check *check) {
          method);
   } else if (step > bound) {
     warn(check, "the step of the run, %s s, is above %s s, up to which %s is certain to be stable",
-         hooke_format_rounded(step, taken), hooke_format_rounded(bound, limit), method);
+         cli_format_rounded(step, taken), cli_format_rounded(bound, limit), method);
   }
 }
 
@@ -145,40 +145,40 @@ static void print_memory(const struct check *check) {
 
 static void print_json(const struct check *check) {
   const hooke_system *system = check->setup.system;
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_count(&json, "particles", hooke_system_particle_count(system));
-  hooke_json_count(&json, "springs", hooke_system_spring_count(system));
-  hooke_json_open(&json, "groups", '[');
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_count(&json, "particles", hooke_system_particle_count(system));
+  cli_json_count(&json, "springs", hooke_system_spring_count(system));
+  cli_json_open(&json, "groups", '[');
   for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
-    hooke_json_open(&json, NULL, '{');
-    hooke_json_text(&json, "name", hooke_system_group_name(system, i));
-    hooke_json_count(&json, "springs", hooke_system_group_size(system, i));
-    hooke_json_close(&json);
+    cli_json_open(&json, NULL, '{');
+    cli_json_text(&json, "name", hooke_system_group_name(system, i));
+    cli_json_count(&json, "springs", hooke_system_group_size(system, i));
+    cli_json_close(&json);
   }
-  hooke_json_close(&json);
-  hooke_derived_json(&json, system);
-  hooke_json_open(&json, "forces", '[');
+  cli_json_close(&json);
+  cli_derived_json(&json, system);
+  cli_json_open(&json, "forces", '[');
   for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
-    hooke_json_text(&json, NULL, hooke_system_force_name(system, i));
+    cli_json_text(&json, NULL, hooke_system_force_name(system, i));
   }
-  hooke_json_close(&json);
-  hooke_json_count(&json, "memory_bytes", check->memory);
-  hooke_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
-  hooke_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
-  hooke_json_open(&json, "step_limit", '{');
+  cli_json_close(&json);
+  cli_json_count(&json, "memory_bytes", check->memory);
+  cli_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
+  cli_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
+  cli_json_open(&json, "step_limit", '{');
   for (int64_t i = 0; i < hooke_method_count(); i++) {
-    hooke_json_number(&json, hooke_method_name(i), check->bound[i]);
+    cli_json_number(&json, hooke_method_name(i), check->bound[i]);
   }
-  hooke_json_close(&json);
-  hooke_json_open(&json, "warnings", '[');
+  cli_json_close(&json);
+  cli_json_open(&json, "warnings", '[');
   for (int64_t i = 0; i < check->warning_count; i++)
-    hooke_json_text(&json, NULL, check->warning[i]);
-  hooke_json_close(&json);
-  hooke_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
-  hooke_json_count(&json, "idle_particles", hooke_system_idle_count(system));
-  if (check->cost) hooke_cost_sheet_print_json(&json, check->cost, system);
-  hooke_json_end(&json);
+    cli_json_text(&json, NULL, check->warning[i]);
+  cli_json_close(&json);
+  cli_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
+  cli_json_count(&json, "idle_particles", hooke_system_idle_count(system));
+  if (check->cost) cli_cost_sheet_print_json(&json, check->cost, system);
+  cli_json_end(&json);
 }
 
 static void print_groups(const hooke_system *system) {
@@ -186,7 +186,7 @@ static void print_groups(const hooke_system *system) {
   for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
     const char *name = hooke_system_group_name(system, i);
     printf("  %10" PRId64 " ", hooke_system_group_size(system, i));
-    hooke_print_text(stdout, name[0] ? name : "(no name)");
+    cli_print_text(stdout, name[0] ? name : "(no name)");
     printf("\n");
   }
 }
@@ -209,7 +209,7 @@ static void print_limits(const struct check *check) {
     } else if (bound == 0.0) {
       printf("none: stable at no step\n");
     } else {
-      printf("%s s\n", hooke_format_rounded(bound, text));
+      printf("%s s\n", cli_format_rounded(bound, text));
     }
   }
 }
@@ -229,13 +229,13 @@ static void print_words(const struct check *check) {
   int64_t particles = hooke_system_particle_count(system);
   if (title && title[0]) {
     printf("scene        ");
-    hooke_print_text(stdout, title);
+    cli_print_text(stdout, title);
     printf("\n");
   }
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_free_count(system));
   print_groups(system);
-  hooke_derived_words(system);
+  cli_derived_words(system);
   printf("forces       ");
   for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
     printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));
@@ -244,24 +244,24 @@ static void print_words(const struct check *check) {
   print_memory(check);
   print_cost(check);
   print_limits(check);
-  hooke_cost_sheet_print_left_out(system);
-  if (check->cost) hooke_cost_sheet_print(check->cost, system);
-  hooke_print_flush();
+  cli_cost_sheet_print_left_out(system);
+  if (check->cost) cli_cost_sheet_print(check->cost, system);
+  cli_print_flush();
   for (int64_t i = 0; i < check->warning_count; i++) {
-    hooke_report_words(check->arguments, "warning: %s", check->warning[i]);
+    cli_report_words(check->arguments, "warning: %s", check->warning[i]);
   }
 }
 
-static int check_and_tell(struct check *check, struct hooke_peak loaded) {
-  int code = hooke_peak_of_run(check->arguments, &check->setup, loaded, &check->memory, &check->counted);
+static int check_and_tell(struct check *check, struct cli_peak loaded) {
+  int code = cli_peak_of_run(check->arguments, &check->setup, loaded, &check->memory, &check->counted);
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = find_bounds(check);
   if (status == HOOKE_OK) warn_of_method(check);
   warn_of_coincident_springs(check);
   if (status == HOOKE_OK) status = warn_of_loose_particles(check);
-  if (status != HOOKE_OK) return hooke_report(check->arguments, hooke_exit_code(status), "out of memory");
-  if (hooke_arguments_text(check->arguments, "cost"))
-    code = hooke_cost_sheet_find(check->arguments, &check->setup, &check->cost);
+  if (status != HOOKE_OK) return hk_report(check->arguments, cli_exit_code(status), "out of memory");
+  if (cli_arguments_text(check->arguments, "cost"))
+    code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
   if (check->arguments->json) {
     print_json(check);
@@ -271,21 +271,21 @@ static int check_and_tell(struct check *check, struct hooke_peak loaded) {
   return code;
 }
 
-static int do_check(const struct hooke_arguments *arguments) {
+static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
-  int code = hooke_setup_load(arguments, &check.setup);
-  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, hooke_peak_look());
+  int code = cli_setup_load(arguments, &check.setup);
+  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, cli_peak_look());
   hooke_cost_destroy(check.cost);
   free(check.bound);
-  hooke_setup_destroy(&check.setup);
+  cli_setup_destroy(&check.setup);
   return code;
 }
 
-static const struct hooke_verb_row rows[] = {
+static const struct cli_verb_row rows[] = {
     {"cost", 0, NULL, "what each ingredient costs, too: time, memory, and the largest step without it"},
 };
 
-const struct hooke_verb hooke_verb_check = {
+const struct cli_verb cli_verb_check = {
     .name = "check",
     .summary = "validates a scene and tells its size, its memory and its step limits, without running it",
     .text =

@@ -13,13 +13,13 @@
 enum { COLUMNS = 5, MESSAGE_SIZE = 2048 };
 
 struct compare {
-  const struct hooke_arguments *arguments;
-  struct hooke_methods methods;
-  struct hooke_setup setup;
+  const struct cli_arguments *arguments;
+  struct cli_methods methods;
+  struct cli_setup setup;
   hooke_comparison *comparison;
   hooke_comparison_file *file; /* NULL without -o */
   const char *output;
-  struct hooke_watch watch;
+  struct hk_watch watch;
 };
 
 /* ---- running ---- */
@@ -31,7 +31,7 @@ static int32_t prepare(struct compare *compare) {
     status = hooke_comparison_add(compare->comparison, compare->methods.name[i]);
   }
   if (status != HOOKE_OK) return status;
-  hooke_comparison_on_progress(compare->comparison, hooke_watch_progress, &compare->watch);
+  hooke_comparison_on_progress(compare->comparison, cli_watch_progress, &compare->watch);
   if (!compare->output) return HOOKE_OK;
   return hooke_comparison_file_create(compare->output, compare->setup.system, compare->comparison,
                                       hooke_scene_text(compare->setup.scene), &compare->file);
@@ -41,19 +41,19 @@ static int32_t prepare(struct compare *compare) {
  * which is not reported yet. */
 static int run_all(struct compare *compare) {
   char message[MESSAGE_SIZE];
-  hooke_watch_start(&compare->watch, compare->arguments);
+  cli_watch_start(&compare->watch, compare->arguments);
   int32_t status = prepare(compare);
-  if (status != HOOKE_OK) return hooke_report_status(compare->arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(compare->arguments, status);
   int32_t outcome = hooke_comparison_run(compare->comparison);
-  hooke_watch_end(&compare->watch);
+  cli_watch_end(&compare->watch);
   snprintf(message, sizeof message, "%s", hooke_last_error());
   status = hooke_comparison_file_close(compare->file);
   compare->file = NULL;
   /* a file that fails stops the comparison; its own message says more */
-  if (status != HOOKE_OK && outcome >= 0) return hooke_report_status(compare->arguments, status);
-  if (outcome == HOOKE_STOPPED && hooke_watch_interrupted()) return HOOKE_EXIT_INTERRUPTED;
+  if (status != HOOKE_OK && outcome >= 0) return cli_report_status(compare->arguments, status);
+  if (outcome == HOOKE_STOPPED && cli_watch_interrupted()) return HOOKE_EXIT_INTERRUPTED;
   if (outcome == HOOKE_OK) return HOOKE_EXIT_DONE;
-  return hooke_report(compare->arguments, hooke_exit_code(outcome), "the reference: %s", message);
+  return hk_report(compare->arguments, cli_exit_code(outcome), "the reference: %s", message);
 }
 
 /* ---- results ---- */
@@ -76,29 +76,29 @@ static double number_of(const void *comparison, int64_t row, const char *what) {
   return hooke_comparison_number(comparison, row, what);
 }
 
-static struct hooke_rows rows_of(const struct compare *compare) {
-  return (struct hooke_rows){.source = compare->comparison,
-                             .count = rows_done(compare->comparison),
-                             .text = text_of,
-                             .number = number_of};
+static struct cli_rows rows_of(const struct compare *compare) {
+  return (struct cli_rows){.source = compare->comparison,
+                           .count = rows_done(compare->comparison),
+                           .text = text_of,
+                           .number = number_of};
 }
 
 static void print_json(const struct compare *compare) {
-  const struct hooke_rows rows = rows_of(compare);
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "scene", compare->arguments->scene);
-  hooke_json_number(&json, "duration", hooke_options_number(compare->setup.options, "duration"));
-  hooke_json_open(&json, "reference", '{');
-  hooke_json_open(&json, "methods", '[');
-  hooke_json_text(&json, NULL, hooke_comparison_reference(compare->comparison));
-  hooke_json_close(&json);
+  const struct cli_rows rows = rows_of(compare);
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "scene", compare->arguments->scene);
+  cli_json_number(&json, "duration", hooke_options_number(compare->setup.options, "duration"));
+  cli_json_open(&json, "reference", '{');
+  cli_json_open(&json, "methods", '[');
+  cli_json_text(&json, NULL, hooke_comparison_reference(compare->comparison));
+  cli_json_close(&json);
   /* one reference, unchecked by a second: these do not apply */
-  hooke_json_number(&json, "agreement", (double)NAN);
-  hooke_json_number(&json, "trusted_until", (double)NAN);
-  hooke_json_close(&json);
-  hooke_rows_print_json(&json, &rows);
-  hooke_json_end(&json);
+  cli_json_number(&json, "agreement", (double)NAN);
+  cli_json_number(&json, "trusted_until", (double)NAN);
+  cli_json_close(&json);
+  cli_rows_print_json(&json, &rows);
+  cli_json_end(&json);
 }
 
 /* Error over time at a few frames, evenly spaced, the last one included. */
@@ -108,33 +108,33 @@ static void print_errors(const hooke_comparison *comparison, int32_t width) {
   printf("error [m]: root mean square over free particles of the distance to the reference\n%-*s", width,
          "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
-    hooke_rows_print_cell(10, hooke_comparison_series(comparison, 0, "time")[last * i / frames]);
+    cli_rows_print_cell(10, hooke_comparison_series(comparison, 0, "time")[last * i / frames]);
   printf("\n");
   for (int64_t row = 0; row < rows_done(comparison); row++) {
     const double *error = hooke_comparison_series(comparison, row, "error");
     printf("%-*s", width, hooke_comparison_text(comparison, row, "method"));
     for (int64_t i = 1; i <= frames; i++)
-      hooke_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
+      cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
   }
 }
 
 static void print_words(const struct compare *compare) {
   const char *title = hooke_scene_title(compare->setup.scene);
-  const struct hooke_rows rows = rows_of(compare);
-  int32_t width = hooke_rows_method_width(&rows);
+  const struct cli_rows rows = rows_of(compare);
+  int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  hooke_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
-  printf(", %s s\n", hooke_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
+  cli_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
+  printf(", %s s\n", cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
   printf("reference: %s at tight tolerance\n\n", hooke_comparison_reference(compare->comparison));
   if (rows.count > 0) {
     print_errors(compare->comparison, width);
     printf("\n");
-    hooke_rows_print(&rows, width);
+    cli_rows_print(&rows, width);
   }
   if (compare->output) {
     printf("\noutput: ");
-    hooke_print_text(stdout, compare->output);
+    cli_print_text(stdout, compare->output);
     printf("\n");
   }
 }
@@ -147,10 +147,10 @@ static int compare_and_tell(struct compare *compare) {
   } else {
     print_words(compare);
   }
-  hooke_print_flush();
+  cli_print_flush();
   if (code == HOOKE_EXIT_INTERRUPTED) {
-    hooke_report_words(compare->arguments, "interrupted; the rows done so far are kept%s%s",
-                       compare->output ? " in " : "", compare->output ? compare->output : "");
+    cli_report_words(compare->arguments, "interrupted; the rows done so far are kept%s%s",
+                     compare->output ? " in " : "", compare->output ? compare->output : "");
   }
   return code;
 }
@@ -158,32 +158,32 @@ static int compare_and_tell(struct compare *compare) {
 /* What every method of the comparison needs, asked for before anything runs. */
 static int require_all(const struct compare *compare) {
   for (int64_t i = 0; i < compare->methods.count; i++) {
-    int code = hooke_setup_require(compare->arguments, &compare->setup, compare->methods.name[i]);
+    int code = cli_setup_require(compare->arguments, &compare->setup, compare->methods.name[i]);
     if (code != HOOKE_EXIT_DONE) return code;
   }
   return HOOKE_EXIT_DONE;
 }
 
-static int do_compare(const struct hooke_arguments *arguments) {
-  struct compare compare = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
-  int code = hooke_methods_choose(arguments, &compare.methods);
-  if (code == HOOKE_EXIT_DONE) code = hooke_setup_check_output(arguments, compare.output);
+static int do_compare(const struct cli_arguments *arguments) {
+  struct compare compare = {.arguments = arguments, .output = cli_arguments_text(arguments, "output")};
+  int code = cli_methods_choose(arguments, &compare.methods);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, compare.output);
   if (code != HOOKE_EXIT_DONE) return code;
-  code = hooke_setup_load(arguments, &compare.setup);
+  code = cli_setup_load(arguments, &compare.setup);
   if (code == HOOKE_EXIT_DONE) code = require_all(&compare);
   if (code == HOOKE_EXIT_DONE) code = compare_and_tell(&compare);
   hooke_comparison_destroy(compare.comparison);
-  hooke_setup_destroy(&compare.setup);
+  cli_setup_destroy(&compare.setup);
   return code;
 }
 
-static const struct hooke_verb_row own_rows[] = {
+static const struct cli_verb_row own_rows[] = {
     {"methods", 'm', "A,B,...", "the methods to compare; default: all that this build has"},
     {"output", 'o', "FILE",
      "writes every run, the table and the error over time to FILE (HDF5), replacing it"},
 };
 
-const struct hooke_verb hooke_verb_compare = {
+const struct cli_verb cli_verb_compare = {
     .name = "compare",
     .summary = "the scene by each method against CVODE at tight tolerance",
     .text = "Runs the scene by each method and by CVODE at tight tolerance, and prints how far each method "

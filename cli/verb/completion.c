@@ -46,29 +46,29 @@ static const char head[] =
 
 /* ---- one verb ---- */
 
-static void print_flags(const struct hooke_arguments *arguments) {
+static void print_flags(const struct cli_arguments *arguments) {
   printf("      options=\"");
   for (int32_t i = 0; i < arguments->count; i++) {
-    struct hooke_description is;
-    hooke_describe(&arguments->all[i], &is);
+    struct cli_description is;
+    cli_describe(&arguments->all[i], &is);
     if (is.letter) printf("-%c ", is.letter);
     printf("--%s%s", is.flag, i + 1 < arguments->count ? " " : "\"\n");
   }
 }
 
-static void print_pattern(const struct hooke_description *is) {
+static void print_pattern(const struct cli_description *is) {
   printf("--%s", is->flag);
   if (is->letter) printf(" | -%c", is->letter);
 }
 
 /* What follows an option: one of some words, or a file. */
-static void print_value(const struct hooke_argument *argument) {
-  struct hooke_description is;
+static void print_value(const struct cli_argument *argument) {
+  struct cli_description is;
   char words[HOOKE_DOC_SIZE];
-  const char *ending = hooke_describe_file(argument);
+  const char *ending = cli_describe_file(argument);
   int32_t many;
-  hooke_describe(argument, &is);
-  hooke_describe_words(argument, words, &many);
+  cli_describe(argument, &is);
+  cli_describe_words(argument, words, &many);
   if (!words[0] && !ending) return;
   printf("        ");
   print_pattern(&is);
@@ -82,15 +82,15 @@ static void print_value(const struct hooke_argument *argument) {
 }
 
 /* What follows the others that take a value is for nobody to know. */
-static void print_unknown(const struct hooke_arguments *arguments) {
+static void print_unknown(const struct cli_arguments *arguments) {
   int32_t count = 0;
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_argument *argument = &arguments->all[i];
-    struct hooke_description is;
+    const struct cli_argument *argument = &arguments->all[i];
+    struct cli_description is;
     char words[HOOKE_DOC_SIZE];
     int32_t many;
-    hooke_describe(argument, &is);
-    if (!is.value[0] || hooke_describe_words(argument, words, &many)[0] || hooke_describe_file(argument))
+    cli_describe(argument, &is);
+    if (!is.value[0] || cli_describe_words(argument, words, &many)[0] || cli_describe_file(argument))
       continue;
     printf("%s", count++ ? " | " : "        ");
     print_pattern(&is);
@@ -99,9 +99,9 @@ static void print_unknown(const struct hooke_arguments *arguments) {
 }
 
 /* Each function here that tells of a verb returns an exit code, of what is reported already. */
-static int print_verb(const struct hooke_verb *verb, const char *kind) {
-  struct hooke_arguments arguments = {.verb = verb};
-  const int code = hooke_arguments_collect(verb, kind, &arguments);
+static int print_verb(const struct cli_verb *verb, const char *kind) {
+  struct cli_arguments arguments = {.verb = verb};
+  const int code = cli_arguments_collect(verb, kind, &arguments);
   if (code == HOOKE_EXIT_DONE) {
     printf("    \"%s%s%s\")\n", verb->name, kind ? " " : "", kind ? kind : "");
     if (!kind) printf("      operand=\"%s\"\n", verb->input ? "h5" : "json h5");
@@ -112,14 +112,14 @@ static int print_verb(const struct hooke_verb *verb, const char *kind) {
     print_unknown(&arguments);
     printf("      esac\n      ;;\n");
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
   return code;
 }
 
-static int print_verbs(const struct hooke_program *program) {
+static int print_verbs(const struct cli_program *program) {
   int code = HOOKE_EXIT_DONE;
   for (int32_t i = 0; program->verbs[i] && code == HOOKE_EXIT_DONE; i++) {
-    const struct hooke_verb *verb = program->verbs[i];
+    const struct cli_verb *verb = program->verbs[i];
     if (!verb->kind_options) code = print_verb(verb, NULL);
     for (int64_t k = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(k); k++)
       code = print_verb(verb, hooke_part_kind(k));
@@ -129,13 +129,13 @@ static int print_verbs(const struct hooke_program *program) {
 
 /* ---- the program ---- */
 
-static void print_first_word(const struct hooke_program *program) {
+static void print_first_word(const struct cli_program *program) {
   printf("  if ((COMP_CWORD == 1)); then\n    _hooke_words \"");
   for (int32_t i = 0; program->verbs[i]; i++)
     printf("%s ", program->verbs[i]->name);
-  for (const struct hooke_program_row *row = program->rows; row->name; row++)
+  for (const struct cli_program_row *row = program->rows; row->name; row++)
     printf("--%s%s", row->name, row[1].name ? " " : "\"\n    return\n  fi\n");
-  for (const struct hooke_program_row *row = program->rows; row->name; row++) {
+  for (const struct cli_program_row *row = program->rows; row->name; row++) {
     if (row->value)
       printf("  if [[ $verb == --%s ]]; then\n    _hooke_words \"%s\"\n    return\n  fi\n", row->name,
              row->value);
@@ -143,7 +143,7 @@ static void print_first_word(const struct hooke_program *program) {
 }
 
 /* The kind is the second word of a verb that takes one. */
-static void print_kinds(const struct hooke_verb *verb) {
+static void print_kinds(const struct cli_verb *verb) {
   if (!verb->kind_options) return;
   printf("  if [[ $verb == %s ]]; then\n    if ((COMP_CWORD == 2)); then\n      _hooke_words \"", verb->name);
   for (int64_t k = 0; hooke_part_kind(k); k++)
@@ -151,7 +151,7 @@ static void print_kinds(const struct hooke_verb *verb) {
   printf("--help\"\n      return\n    fi\n    what=\"%s ${COMP_WORDS[2]}\"\n  fi\n", verb->name);
 }
 
-int hooke_completion_print_bash(const struct hooke_program *program) {
+int cli_completion_print_bash(const struct cli_program *program) {
   fputs(head, stdout);
   print_first_word(program);
   for (int32_t i = 0; program->verbs[i]; i++)

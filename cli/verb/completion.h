@@ -5,6 +5,6 @@
 #include "program.h"
 
 /* Prints a script for bash: verbs, kinds, options and their words, and files. The exit code, of what is reported already. */
-int hooke_completion_print_bash(const struct hooke_program *program);
+int cli_completion_print_bash(const struct cli_program *program);
 
 #endif

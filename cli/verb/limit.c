@@ -18,8 +18,8 @@
 enum { MOST_SPRINGS = 5, WIDTH = 110, INDENT = 12 };
 
 struct limit {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
   hooke_limit *limit;
   int32_t along, interrupted, diverged;
 };
@@ -33,7 +33,7 @@ static int read_state(struct limit *l, const char *at) {
   errno = 0;
   const long long frame = colon ? strtoll(colon + 1, &end, 10) : -1;
   if (colon && (end == colon + 1 || *end || errno)) {
-    return hooke_report(
+    return hk_report(
         l->arguments, HOOKE_EXIT_USAGE,
         "--at %s: allowed: a trajectory and a frame of it, FILE:FRAME, counted from 0, or from -1 "
         "backwards; the last one if not given",
@@ -41,45 +41,45 @@ static int read_state(struct limit *l, const char *at) {
   }
   hooke_record *record = NULL;
   char *file = strndup(at, colon ? (size_t)(colon - at) : strlen(at));
-  if (!file) return hooke_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  const char *report = hooke_arguments_text(l->arguments, "report");
-  const int code = hooke_setup_check_apart(l->arguments, file, "the trajectory of --at", report);
+  if (!file) return hk_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  const char *report = cli_arguments_text(l->arguments, "report");
+  const int code = cli_setup_check_apart(l->arguments, file, "the trajectory of --at", report);
   int32_t status = code == HOOKE_EXIT_DONE ? hooke_record_open(file, &record) : HOOKE_OK;
   if (status == HOOKE_OK && record) status = hooke_record_read(record, frame, l->setup.state);
   free(file);
   hooke_record_close(record);
   if (code != HOOKE_EXIT_DONE) return code;
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(l->arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
 }
 
 /* ---- finding ---- */
 
-static int check_names(const struct hooke_arguments *arguments) {
-  struct hooke_methods methods;
-  if (!hooke_arguments_text(arguments, "methods")) return HOOKE_EXIT_DONE;
-  return hooke_methods_choose(arguments, &methods);
+static int check_names(const struct cli_arguments *arguments) {
+  struct cli_methods methods;
+  if (!cli_arguments_text(arguments, "methods")) return HOOKE_EXIT_DONE;
+  return cli_methods_choose(arguments, &methods);
 }
 
 static int check_needs(const struct limit *l) {
   const char *method = hooke_options_text(l->setup.options, "method");
-  if (l->along) return hooke_setup_require(l->arguments, &l->setup, method);
+  if (l->along) return cli_setup_require(l->arguments, &l->setup, method);
   if (hooke_options_number(l->arguments->more, "nonlinear") != 0.0)
-    return hooke_setup_require_duration(l->arguments, &l->setup);
+    return cli_setup_require_duration(l->arguments, &l->setup);
   return HOOKE_EXIT_DONE;
 }
 
 static int find(struct limit *l) {
-  struct hooke_watch watch;
+  struct hk_watch watch;
   int32_t status = hooke_limit_create(l->setup.system, l->setup.options, l->arguments->more, &l->limit);
-  if (status != HOOKE_OK) return hooke_report_status(l->arguments, status);
-  hooke_watch_start(&watch, l->arguments);
-  hooke_limit_on_progress(l->limit, hooke_watch_progress, &watch);
+  if (status != HOOKE_OK) return cli_report_status(l->arguments, status);
+  cli_watch_start(&watch, l->arguments);
+  hooke_limit_on_progress(l->limit, cli_watch_progress, &watch);
   status =
       l->along ? hooke_limit_along(l->limit, l->setup.state) : hooke_limit_find(l->limit, l->setup.state);
-  hooke_watch_end(&watch);
+  cli_watch_end(&watch);
   l->interrupted = status == HOOKE_STOPPED;
   l->diverged = status > 0 && !l->interrupted;
-  return status >= 0 ? HOOKE_EXIT_DONE : hooke_report_status(l->arguments, status);
+  return status >= 0 ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
 }
 
 static const char *title_of(const struct limit *l) {
@@ -93,58 +93,57 @@ static double number_of(const struct limit *l, int64_t row, const char *what) {
   return hooke_limit_number(l->limit, row, what);
 }
 
-static void print_row_json(struct hooke_json *json, const struct limit *l, int64_t row) {
+static void print_row_json(struct cli_json *json, const struct limit *l, int64_t row) {
   static const char *const numbers[] = {"bound", "predicted", "measured", "ratio", "steps_run"};
-  hooke_json_open(json, NULL, '{');
-  hooke_json_text(json, "method", hooke_limit_text(l->limit, row, "method"));
+  cli_json_open(json, NULL, '{');
+  cli_json_text(json, "method", hooke_limit_text(l->limit, row, "method"));
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    hooke_json_number(json, numbers[k], number_of(l, row, numbers[k]));
-  hooke_json_flag(json, "never_stable", number_of(l, row, "never_stable") == 1.0);
-  hooke_json_flag(json, "exact", number_of(l, row, "exact") == 1.0);
+    cli_json_number(json, numbers[k], number_of(l, row, numbers[k]));
+  cli_json_flag(json, "never_stable", number_of(l, row, "never_stable") == 1.0);
+  cli_json_flag(json, "exact", number_of(l, row, "exact") == 1.0);
   if (l->along) {
-    hooke_json_number(json, "smallest", number_of(l, row, "smallest"));
-    hooke_json_number(json, "smallest_time", number_of(l, row, "smallest_time"));
+    cli_json_number(json, "smallest", number_of(l, row, "smallest"));
+    cli_json_number(json, "smallest_time", number_of(l, row, "smallest_time"));
   }
-  hooke_json_text(json, "note", hooke_limit_text(l->limit, row, "note"));
-  hooke_json_close(json);
+  cli_json_text(json, "note", hooke_limit_text(l->limit, row, "note"));
+  cli_json_close(json);
 }
 
-static void print_remedy_json(struct hooke_json *json, const hooke_limit *limit) {
+static void print_remedy_json(struct cli_json *json, const hooke_limit *limit) {
   static const char *const numbers[] = {"springs", "particles", "cost", "factor", "gain", "gain_predicted"};
   if (!hooke_limit_remedy_text(limit, "sentence")) {
-    hooke_json_text(json, "remedy", NULL);
+    cli_json_text(json, "remedy", NULL);
     return;
   }
-  hooke_json_open(json, "remedy", '{');
-  hooke_json_text(json, "kind", hooke_limit_remedy_text(limit, "kind"));
+  cli_json_open(json, "remedy", '{');
+  cli_json_text(json, "kind", hooke_limit_remedy_text(limit, "kind"));
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    hooke_json_number(json, numbers[k], hooke_limit_remedy_number(limit, numbers[k]));
-  hooke_json_text(json, "sentence", hooke_limit_remedy_text(limit, "sentence"));
-  hooke_json_close(json);
+    cli_json_number(json, numbers[k], hooke_limit_remedy_number(limit, numbers[k]));
+  cli_json_text(json, "sentence", hooke_limit_remedy_text(limit, "sentence"));
+  cli_json_close(json);
 }
 
 static void print_json(const struct limit *l) {
   const hooke_limit *limit = l->limit;
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_number(&json, "time", hooke_state_time(l->setup.state));
-  hooke_json_number(&json, "frequency_max", hooke_limit_figure(limit, "frequency_max"));
-  hooke_json_number(&json, "rate_max", hooke_limit_figure(limit, "rate_max"));
-  hooke_json_number(&json, "clamped", hooke_limit_figure(limit, "clamped"));
-  hooke_json_open(&json, "rows", '[');
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_number(&json, "time", hooke_state_time(l->setup.state));
+  cli_json_number(&json, "frequency_max", hooke_limit_figure(limit, "frequency_max"));
+  cli_json_number(&json, "rate_max", hooke_limit_figure(limit, "rate_max"));
+  cli_json_number(&json, "clamped", hooke_limit_figure(limit, "clamped"));
+  cli_json_open(&json, "rows", '[');
   for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
     print_row_json(&json, l, row);
-  hooke_json_close(&json);
-  hooke_json_open(&json, "blame", '[');
+  cli_json_close(&json);
+  cli_json_open(&json, "blame", '[');
   for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++) {
-    hooke_blame_json(&json, hooke_limit_blame_text(limit, k, "force"),
-                     hooke_limit_blame_number(limit, k, "first"),
-                     hooke_limit_blame_number(limit, k, "second"), hooke_limit_blame_text(limit, k, "group"),
-                     hooke_limit_blame_number(limit, k, "share"));
+    cli_blame_json(&json, hooke_limit_blame_text(limit, k, "force"),
+                   hooke_limit_blame_number(limit, k, "first"), hooke_limit_blame_number(limit, k, "second"),
+                   hooke_limit_blame_text(limit, k, "group"), hooke_limit_blame_number(limit, k, "share"));
   }
-  hooke_json_close(&json);
+  cli_json_close(&json);
   print_remedy_json(&json, limit);
-  hooke_json_end(&json);
+  cli_json_end(&json);
 }
 
 /* ---- words ---- */
@@ -199,7 +198,7 @@ static void print_notes(const struct limit *l, int32_t width) {
     if (!any) printf("\n");
     any = 1;
     printf("%-*s  ", width, hooke_limit_text(l->limit, row, "method"));
-    hooke_print_wrapped(stdout, width + 2, width + 2, WIDTH, note);
+    cli_print_wrapped(stdout, width + 2, width + 2, WIDTH, note);
   }
 }
 
@@ -220,14 +219,14 @@ static void print_blame(const hooke_limit *limit) {
            hooke_limit_blame_number(limit, k, "second"));
     if (group && group[0]) {
       printf(", group ");
-      hooke_print_text(stdout, group);
+      cli_print_text(stdout, group);
     }
     printf("\n");
   }
   if (count > MOST_SPRINGS) printf("%-*sand others with less\n", INDENT, "");
   if (!sentence) return;
   printf("%-*s", INDENT, "remedy");
-  hooke_print_wrapped(stdout, INDENT, INDENT, WIDTH, sentence);
+  cli_print_wrapped(stdout, INDENT, INDENT, WIDTH, sentence);
 }
 
 static void print_words(const struct limit *l) {
@@ -238,8 +237,8 @@ static void print_words(const struct limit *l) {
     const int32_t length = (int32_t)strlen(hooke_limit_text(limit, row, "method"));
     if (length > width) width = length;
   }
-  hooke_print_text(stdout, title_of(l));
-  printf(", at t = %s s\n", hooke_format_rounded(hooke_state_time(l->setup.state), text));
+  cli_print_text(stdout, title_of(l));
+  printf(", at t = %s s\n", cli_format_rounded(hooke_state_time(l->setup.state), text));
   printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", hooke_limit_figure(limit, "frequency_max"),
          hooke_limit_figure(limit, "rate_max"));
   const double clamped = hooke_limit_figure(limit, "clamped");
@@ -258,14 +257,14 @@ static int tell(const struct limit *l) {
     print_json(l);
   else
     print_words(l);
-  hooke_print_flush();
+  cli_print_flush();
   if (l->interrupted) {
-    hooke_report_words(l->arguments, "interrupted; kept: what was found so far");
+    cli_report_words(l->arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;
   }
   if (!l->diverged) return HOOKE_EXIT_DONE;
-  hooke_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
-                     hooke_last_error());
+  cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
+                   hooke_last_error());
   return HOOKE_EXIT_DIVERGED;
 }
 
@@ -274,28 +273,28 @@ static int write_report(const struct limit *l, const char *report, int code) {
   if (!report || isnan(hooke_limit_figure(l->limit, "frequency_max"))) return code;
   const int32_t status = hooke_limit_write_report(l->limit, l->setup.state, report, title_of(l));
   if (status == HOOKE_OK) return code;
-  hooke_report_words(l->arguments, "%s", hooke_last_error());
-  return hooke_exit_code(status);
+  cli_report_words(l->arguments, "%s", hooke_last_error());
+  return cli_exit_code(status);
 }
 
-static int do_limit(const struct hooke_arguments *arguments) {
-  struct limit l = {.arguments = arguments, .along = hooke_arguments_text(arguments, "along") != NULL};
-  const char *at = hooke_arguments_text(arguments, "at");
-  const char *report = hooke_arguments_text(arguments, "report");
+static int do_limit(const struct cli_arguments *arguments) {
+  struct limit l = {.arguments = arguments, .along = cli_arguments_text(arguments, "along") != NULL};
+  const char *at = cli_arguments_text(arguments, "at");
+  const char *report = cli_arguments_text(arguments, "report");
   int code = check_names(arguments);
-  if (code == HOOKE_EXIT_DONE) code = hooke_output_file_check_report(arguments, report);
+  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
-  code = hooke_setup_load(arguments, &l.setup);
+  code = cli_setup_load(arguments, &l.setup);
   if (code == HOOKE_EXIT_DONE && at) code = read_state(&l, at);
   if (code == HOOKE_EXIT_DONE) code = check_needs(&l);
   if (code == HOOKE_EXIT_DONE) code = find(&l);
   if (code == HOOKE_EXIT_DONE) code = write_report(&l, report, tell(&l));
   hooke_limit_destroy(l.limit);
-  hooke_setup_destroy(&l.setup);
+  cli_setup_destroy(&l.setup);
   return code;
 }
 
-static const struct hooke_verb_row own_rows[] = {
+static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
     {"along", 0, NULL, "at every frame of the run: the smallest limit met and when, predicted alone"},
@@ -304,7 +303,7 @@ static const struct hooke_verb_row own_rows[] = {
      "it"},
 };
 
-const struct hooke_verb hooke_verb_limit = {
+const struct cli_verb cli_verb_limit = {
     .name = "limit",
     .summary = "the largest stable step of each method, predicted and measured, and what it hangs on",
     .text =

@@ -11,7 +11,7 @@
 #include <string.h>
 
 struct make {
-  const struct hooke_arguments *arguments;
+  const struct cli_arguments *arguments;
   const char *output; /* NULL: standard output */
   hooke_options *run; /* of `arguments`; NULL: nothing of it was given */
   hooke_system *system;
@@ -32,12 +32,12 @@ static int32_t is_missing(const hooke_options *table, int64_t row) {
 static int check_required(const struct make *make) {
   char list[2 * HOOKE_DOC_SIZE] = "";
   for (int32_t i = 0; i < make->arguments->count; i++) {
-    const struct hooke_argument *argument = &make->arguments->all[i];
+    const struct cli_argument *argument = &make->arguments->all[i];
     char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != make->arguments->of_kind || !is_missing(argument->table, argument->row)) continue;
     const char *unit = hooke_options_row(argument->table, argument->row, "unit");
     const size_t used = strlen(list);
-    hooke_value_example(argument->table, argument->row, example);
+    cli_value_example(argument->table, argument->row, example);
     const char *quote = strchr(example, ';') ? "'" : "";
     snprintf(list + used, sizeof list - used, "%s--%s (%s%s%s%s)", used ? "; " : "", argument->flag,
              hooke_options_row(argument->table, argument->row, "doc"), unit[0] ? " [" : "", unit,
@@ -48,7 +48,7 @@ static int check_required(const struct make *make) {
                quote);
   }
   if (!list[0]) return HOOKE_EXIT_DONE;
-  return hooke_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
+  return hk_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
 }
 
 /* The row of `table` whose name the message begins with; -1: none. */
@@ -71,13 +71,13 @@ static int report_option(const struct make *make, const hooke_options *table, in
   const int64_t row = row_of_message(table, message);
   char flag[HOOKE_FLAG_SIZE], example[HOOKE_DOC_SIZE];
   if (row < 0 && status == HOOKE_BAD_VALUE) {
-    return hooke_report(make->arguments, hooke_exit_code(status), "%s; for example: %s", message,
-                        hooke_describe_example(make->arguments, example));
+    return hk_report(make->arguments, cli_exit_code(status), "%s; for example: %s", message,
+                     cli_describe_example(make->arguments, example));
   }
-  if (row < 0) return hooke_report_status(make->arguments, status);
+  if (row < 0) return cli_report_status(make->arguments, status);
   const char *name = hooke_options_row(table, row, "name");
-  hooke_arguments_flag(name, flag);
-  return hooke_report(make->arguments, hooke_exit_code(status), "--%s%s", flag, message + strlen(name));
+  cli_arguments_flag(name, flag);
+  return hk_report(make->arguments, cli_exit_code(status), "--%s%s", flag, message + strlen(name));
 }
 
 /* ---- making ---- */
@@ -89,18 +89,18 @@ static int read_file(const struct make *make) {
   const int32_t status = hooke_mesh_read(hooke_options_text(part, "file"), part);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   if (row_of_message(part, hooke_last_error()) >= 0) return report_option(make, part, status);
-  return hooke_report(make->arguments, hooke_exit_code(status), "--file %s", hooke_last_error());
+  return hk_report(make->arguments, cli_exit_code(status), "--file %s", hooke_last_error());
 }
 
 static const char *text_of(const struct make *make, const char *name, const char *otherwise) {
-  const char *text = hooke_arguments_text(make->arguments, name);
+  const char *text = cli_arguments_text(make->arguments, name);
   return text ? text : otherwise;
 }
 
 static int build(struct make *make) {
-  const struct hooke_arguments *arguments = make->arguments;
+  const struct cli_arguments *arguments = make->arguments;
   int32_t status = hooke_system_create(&make->system);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = hooke_scene_options_apply(arguments->more, make->system);
   if (status != HOOKE_OK) return report_option(make, arguments->more, status);
   const int code = read_file(make);
@@ -117,8 +117,8 @@ static int check_run(const struct make *make) {
   const char *method = hooke_options_text(make->run, "method");
   hooke_integrator *integrator = NULL;
   if (!hooke_method_is_built(method)) {
-    hooke_report_words(make->arguments,
-                       "warning: %s is not in this build of hooke, which cannot run the scene", method);
+    cli_report_words(make->arguments, "warning: %s is not in this build of hooke, which cannot run the scene",
+                     method);
     return HOOKE_EXIT_DONE;
   }
   if (hooke_method_is_adaptive(method) == 0 && !hooke_options_is_set(make->run, "step"))
@@ -133,37 +133,37 @@ static int read_back(struct make *make) {
   const char *name = make->output ? make->output : "standard output";
   const char *slash = make->output ? strrchr(make->output, '/') : NULL;
   char *folder = slash ? strndup(make->output, (size_t)(slash - make->output + 1)) : strdup(".");
-  if (!folder) return hooke_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  if (!folder) return hk_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   int32_t status = hooke_scene_of_system(make->system, hooke_options_text(make->arguments->more, "title"),
                                          make->run, name, folder, &make->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(make->scene);
   free(folder);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(make->arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(make->arguments, status);
 }
 
 /* ---- telling ---- */
 
 static void print_json(const struct make *make) {
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "scene", make->output);
-  hooke_json_text(&json, "kind", make->arguments->scene);
-  hooke_json_count(&json, "particles", hooke_system_particle_count(make->system));
-  hooke_json_count(&json, "springs", hooke_system_spring_count(make->system));
-  hooke_json_end(&json);
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "scene", make->output);
+  cli_json_text(&json, "kind", make->arguments->scene);
+  cli_json_count(&json, "particles", hooke_system_particle_count(make->system));
+  cli_json_count(&json, "springs", hooke_system_spring_count(make->system));
+  cli_json_end(&json);
 }
 
 /* What was made; and for a step that was not given, who knows it. */
 static void tell(const struct make *make) {
   const int64_t particles = hooke_system_particle_count(make->system);
   if (make->arguments->quiet) return;
-  hooke_report_words(
+  cli_report_words(
       make->arguments, "%s: a %s of %" PRId64 " particles (%" PRId64 " pinned), %" PRId64 " springs",
       make->output ? make->output : "standard output", make->arguments->scene, particles,
       particles - hooke_system_free_count(make->system), hooke_system_spring_count(make->system));
   if (!make->output || (make->run && hooke_options_is_set(make->run, "step"))) return;
   fputs("the largest stable steps: hooke limit ", stderr);
-  hooke_print_quoted(stderr, make->output);
+  cli_print_quoted(stderr, make->output);
   fputs(" --predict\n", stderr);
 }
 
@@ -174,19 +174,19 @@ static int write(const struct make *make) {
   }
   const int32_t status = hooke_scene_write(make->output, make->system,
                                            hooke_options_text(make->arguments->more, "title"), make->run);
-  if (status != HOOKE_OK) return hooke_report_status(make->arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(make->arguments, status);
   if (make->arguments->json) print_json(make);
   return HOOKE_EXIT_DONE;
 }
 
-static int do_make(const struct hooke_arguments *arguments) {
-  struct make make = {.arguments = arguments, .output = hooke_arguments_text(arguments, "output")};
+static int do_make(const struct cli_arguments *arguments) {
+  struct make make = {.arguments = arguments, .output = cli_arguments_text(arguments, "output")};
   if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
   for (int64_t row = 0; row < hooke_options_row_count(arguments->run); row++) {
     if (hooke_options_is_set(arguments->run, hooke_options_row(arguments->run, row, "name")))
       make.run = arguments->run;
   }
-  int code = make.output ? hooke_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
+  int code = make.output ? cli_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = check_required(&make);
   if (code == HOOKE_EXIT_DONE) code = build(&make);
   if (code == HOOKE_EXIT_DONE) code = check_run(&make);
@@ -202,13 +202,13 @@ static int32_t scene_options(hooke_options **options) {
   return hooke_scene_options_create("scene", options);
 }
 
-static const struct hooke_verb_row own_rows[] = {
+static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "SCENE.json",
      "writes the scene there, replacing it; without it, or with -, to standard output"},
     {"name", 0, "NAME", "name of the part, before those of its spring groups; default: its kind"},
 };
 
-const struct hooke_verb hooke_verb_make = {
+const struct cli_verb cli_verb_make = {
     .name = "make",
     .summary = "writes a scene of one part, such as a cloth, from options",
     .text = "Writes a scene of one part. Every key of the part, of the scene and of its run is an option; "

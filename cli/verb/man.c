@@ -35,7 +35,7 @@ static void escape(char text[TEXT_SIZE], const char *words) {
 static void print_paragraph(const char *words) {
   char text[TEXT_SIZE] = "";
   escape(text, words);
-  hooke_print_wrapped(stdout, 0, 0, LINE, text);
+  cli_print_wrapped(stdout, 0, 0, LINE, text);
 }
 
 /* A command as it is typed, over several lines if it is long. */
@@ -84,27 +84,27 @@ static void print_title(const char *name) {
 
 /* ---- options ---- */
 
-static void print_option(const struct hooke_argument *argument) {
-  struct hooke_description is;
+static void print_option(const struct cli_argument *argument) {
+  struct cli_description is;
   char flag[HOOKE_FLAG_SIZE + 8] = "";
-  hooke_describe(argument, &is);
+  cli_describe(argument, &is);
   if (is.letter) snprintf(flag, sizeof flag, "-%c, ", is.letter);
   snprintf(flag + strlen(flag), sizeof flag - strlen(flag), "--%s", is.flag);
   print_item(flag, is.value, is.doc);
 }
 
 /* A verb's own options, or those of all verbs. */
-static void print_own(const struct hooke_arguments *arguments, int32_t shared) {
-  const struct hooke_verb *verb = arguments->verb;
+static void print_own(const struct cli_arguments *arguments, int32_t shared) {
+  const struct cli_verb *verb = arguments->verb;
   for (int32_t i = 0; i < arguments->count; i++) {
-    const struct hooke_verb_row *own = arguments->all[i].own;
+    const struct cli_verb_row *own = arguments->all[i].own;
     if (!own) continue;
     const int32_t of_verb = verb->rows && own >= verb->rows && own < verb->rows + verb->row_count;
     if (of_verb != shared) print_option(&arguments->all[i]);
   }
 }
 
-static void print_table(const struct hooke_arguments *arguments, const hooke_options *table) {
+static void print_table(const struct cli_arguments *arguments, const hooke_options *table) {
   for (int32_t i = 0; table && i < arguments->count; i++) {
     if (arguments->all[i].table == table) print_option(&arguments->all[i]);
   }
@@ -112,33 +112,33 @@ static void print_table(const struct hooke_arguments *arguments, const hooke_opt
 
 /* ---- verbs ---- */
 
-static void print_heading(const struct hooke_verb *verb, const char *operand) {
+static void print_heading(const struct cli_verb *verb, const char *operand) {
   printf(".SS hooke %s %s [options]\n", verb->name, operand);
 }
 
 /* Each function here that tells of a verb returns an exit code, of what is reported already. */
-static int print_kind(const struct hooke_verb *verb, int64_t kind) {
-  struct hooke_arguments arguments = {.verb = verb};
+static int print_kind(const struct cli_verb *verb, int64_t kind) {
+  struct cli_arguments arguments = {.verb = verb};
   char example[HOOKE_DOC_SIZE], words[2 * HOOKE_DOC_SIZE];
-  const int code = hooke_arguments_collect(verb, hooke_part_kind(kind), &arguments);
+  const int code = cli_arguments_collect(verb, hooke_part_kind(kind), &arguments);
   if (code == HOOKE_EXIT_DONE) {
     print_heading(verb, hooke_part_kind(kind));
     snprintf(words, sizeof words, "Makes a %s: %s.", hooke_part_kind(kind), hooke_part_kind_summary(kind));
     print_paragraph(words);
     print_table(&arguments, arguments.of_kind);
     printf(".PP\nFor example:\n");
-    print_command(hooke_describe_example(&arguments, example));
+    print_command(cli_describe_example(&arguments, example));
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
   return code;
 }
 
-static int print_verb(const struct hooke_verb *verb) {
-  struct hooke_arguments arguments = {.verb = verb};
+static int print_verb(const struct cli_verb *verb) {
+  struct cli_arguments arguments = {.verb = verb};
   char words[HOOKE_DOC_SIZE];
-  int code = hooke_arguments_collect(verb, NULL, &arguments);
+  int code = cli_arguments_collect(verb, NULL, &arguments);
   if (code == HOOKE_EXIT_DONE) {
-    print_heading(verb, hooke_describe_operand(verb));
+    print_heading(verb, cli_describe_operand(verb));
     print_paragraph(verb->text);
     print_own(&arguments, 0);
     print_table(&arguments, arguments.more);
@@ -148,25 +148,25 @@ static int print_verb(const struct hooke_verb *verb) {
       print_paragraph(words);
     }
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
   for (int64_t kind = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(kind); kind++)
     code = print_kind(verb, kind);
   return code;
 }
 
 /* What all verbs take, from one that takes it all. */
-static int print_options(const struct hooke_program *program) {
-  const struct hooke_verb all = {.name = program->verbs[0]->name};
-  struct hooke_arguments arguments = {.verb = &all};
+static int print_options(const struct cli_program *program) {
+  const struct cli_verb all = {.name = program->verbs[0]->name};
+  struct cli_arguments arguments = {.verb = &all};
   char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE], words[HOOKE_DOC_SIZE];
   print_title("options");
   print_paragraph("In place of a verb:");
-  for (const struct hooke_program_row *row = program->rows; row->name; row++) {
+  for (const struct cli_program_row *row = program->rows; row->name; row++) {
     const char letter[] = {'-', row->letter, ',', ' ', '\0'};
     snprintf(words, sizeof words, "%s--%s", row->letter ? letter : "", row->name);
     print_item(words, row->value ? row->value : "", row->doc);
   }
-  const int code = hooke_arguments_collect(&all, NULL, &arguments);
+  const int code = cli_arguments_collect(&all, NULL, &arguments);
   if (code == HOOKE_EXIT_DONE) {
     printf(".PP\nAll verbs take:\n");
     print_own(&arguments, 1);
@@ -176,7 +176,7 @@ static int print_options(const struct hooke_program *program) {
                     "neither says anything. make writes them there.");
     print_table(&arguments, arguments.run);
     snprintf(words, sizeof words, "Numbers in [s] and [m] may have a unit: %s; %s.",
-             hooke_unit_list("s", times), hooke_unit_list("m", lengths));
+             cli_unit_list("s", times), cli_unit_list("m", lengths));
     printf(".PP\n");
     print_paragraph(words);
     printf(".SS What a scene may do\n");
@@ -185,7 +185,7 @@ static int print_options(const struct hooke_program *program) {
         "folder, unless told otherwise.");
     print_table(&arguments, arguments.limits);
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
   return code;
 }
 
@@ -202,7 +202,7 @@ static const char *const files[][2] = {
 };
 enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
-static void print_top(const struct hooke_program *program) {
+static void print_top(const struct cli_program *program) {
   const char *epoch = getenv("SOURCE_DATE_EPOCH");
   const time_t now = epoch ? (time_t)strtoll(epoch, NULL, 10) : time(NULL);
   char date[DATE_SIZE] = "";
@@ -215,15 +215,15 @@ static void print_top(const struct hooke_program *program) {
   print_paragraph(words);
 }
 
-static void print_synopsis(const struct hooke_program *program) {
+static void print_synopsis(const struct cli_program *program) {
   print_title("synopsis");
   for (int32_t i = 0; program->verbs[i]; i++) {
     char words[HOOKE_DOC_SIZE];
     snprintf(words, sizeof words, "hooke %s", program->verbs[i]->name);
-    print_typed(words, hooke_describe_operand(program->verbs[i]));
+    print_typed(words, cli_describe_operand(program->verbs[i]));
     printf("[options]\n.br\n");
   }
-  for (const struct hooke_program_row *row = program->rows; row->name; row++) {
+  for (const struct cli_program_row *row = program->rows; row->name; row++) {
     char words[HOOKE_DOC_SIZE];
     snprintf(words, sizeof words, "hooke --%s%s%s", row->name, row->value ? " " : "",
              row->value ? row->value : "");
@@ -232,7 +232,7 @@ static void print_synopsis(const struct hooke_program *program) {
   }
 }
 
-static void print_description(const struct hooke_program *program) {
+static void print_description(const struct cli_program *program) {
   print_title("description");
   print_paragraph(program->text);
   for (int32_t i = 0; program->verbs[i]; i++)
@@ -242,12 +242,12 @@ static void print_description(const struct hooke_program *program) {
     print_item(hooke_method_name(i), "", hooke_method_summary(hooke_method_name(i)));
 }
 
-static void print_end(const struct hooke_program *program) {
+static void print_end(const struct cli_program *program) {
   const char *words;
   char code[HOOKE_DOC_SIZE];
   int32_t number;
   print_title("exit status");
-  for (int32_t i = 0; (words = hooke_describe_exit(i, &number)); i++) {
+  for (int32_t i = 0; (words = cli_describe_exit(i, &number)); i++) {
     snprintf(code, sizeof code, "%d", (int)number);
     print_item(code, "", words);
   }
@@ -265,7 +265,7 @@ static void print_end(const struct hooke_program *program) {
   print_paragraph("h5dump(1), python3(1)");
 }
 
-int hooke_man_print(const struct hooke_program *program) {
+int cli_man_print(const struct cli_program *program) {
   int code = HOOKE_EXIT_DONE;
   print_top(program);
   print_synopsis(program);

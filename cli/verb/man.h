@@ -6,6 +6,6 @@
 
 /* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if that is set, else today. The exit code, of what is
  * reported already. */
-int hooke_man_print(const struct hooke_program *program);
+int cli_man_print(const struct cli_program *program);
 
 #endif

@@ -12,24 +12,22 @@ static const char *find_method(const char *word, size_t length) {
   return NULL;
 }
 
-static int add_method(const struct hooke_arguments *arguments, struct hooke_methods *methods,
-                      const char *name) {
+static int add_method(const struct cli_arguments *arguments, struct cli_methods *methods, const char *name) {
   if (!hooke_method_is_built(name)) {
-    return hooke_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                        "%s is not in this build of hooke; 'hooke --version' says what it was built with",
-                        name);
+    return hk_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                     "%s is not in this build of hooke; 'hooke --version' says what it was built with", name);
   }
   for (int32_t i = 0; i < methods->count; i++) {
     if (methods->name[i] == name) {
-      return hooke_report(arguments, HOOKE_EXIT_USAGE, "--methods: %s is named twice", name);
+      return hk_report(arguments, HOOKE_EXIT_USAGE, "--methods: %s is named twice", name);
     }
   }
   if (methods->count < HOOKE_MOST_METHODS) methods->name[methods->count++] = name;
   return HOOKE_EXIT_DONE;
 }
 
-int hooke_methods_choose(const struct hooke_arguments *arguments, struct hooke_methods *methods) {
-  const char *word = hooke_arguments_text(arguments, "methods");
+int cli_methods_choose(const struct cli_arguments *arguments, struct cli_methods *methods) {
+  const char *word = cli_arguments_text(arguments, "methods");
   methods->count = 0;
   if (!word) {
     for (int64_t i = 0; i < hooke_method_count() && methods->count < HOOKE_MOST_METHODS; i++) {
@@ -42,7 +40,7 @@ int hooke_methods_choose(const struct hooke_arguments *arguments, struct hooke_m
     size_t length = strcspn(word, ",");
     const char *name = find_method(word, length);
     int code = name ? add_method(arguments, methods, name)
-                    : hooke_report_unknown_method(arguments, "methods", word, length);
+                    : cli_report_unknown_method(arguments, "methods", word, length);
     if (code != HOOKE_EXIT_DONE || !word[length]) return code;
     word += length + 1;
   }

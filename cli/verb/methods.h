@@ -6,13 +6,13 @@
 
 enum { HOOKE_MOST_METHODS = 32 };
 
-struct hooke_methods {
+struct cli_methods {
   const char *name[HOOKE_MOST_METHODS]; /* the library's own copies, no two alike */
   int32_t count;
 };
 
 /* Those that were asked for, else every method that this build has. One that does not exist, is not in this build or is
  * named twice is reported and comes back as exit code. */
-int hooke_methods_choose(const struct hooke_arguments *arguments, struct hooke_methods *methods);
+int cli_methods_choose(const struct cli_arguments *arguments, struct cli_methods *methods);
 
 #endif

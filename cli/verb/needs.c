@@ -9,35 +9,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int check_files(const struct hooke_arguments *arguments) {
-  const char *output = hooke_arguments_text(arguments, "output");
-  const char *report = hooke_arguments_text(arguments, "report");
+static int check_files(const struct cli_arguments *arguments) {
+  const char *output = cli_arguments_text(arguments, "output");
+  const char *report = cli_arguments_text(arguments, "report");
   int code = HOOKE_EXIT_DONE;
-  if (!hooke_arguments_text(arguments, "want")) {
-    return hooke_report(arguments, HOOKE_EXIT_USAGE,
-                        "no want: give the error that you can live with, such as --want 1mm");
+  if (!cli_arguments_text(arguments, "want")) {
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "no want: give the error that you can live with, such as --want 1mm");
   }
-  if (output && hooke_arguments_text(arguments, "refine")) {
-    return hooke_report(
-        arguments, HOOKE_EXIT_USAGE,
-        "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
+  if (output && cli_arguments_text(arguments, "refine")) {
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
-  if (output) code = hooke_output_file_check(arguments, "-o", output);
-  return code == HOOKE_EXIT_DONE ? hooke_output_file_check_report(arguments, report) : code;
+  if (output) code = cli_output_file_check(arguments, "-o", output);
+  return code == HOOKE_EXIT_DONE ? cli_output_file_check_report(arguments, report) : code;
 }
 
-static int find(struct hooke_needs_results *results, int32_t *stopped) {
-  const struct hooke_arguments *arguments = results->arguments;
-  struct hooke_watch watch;
+static int find(struct cli_needs_results *results, int32_t *stopped) {
+  const struct cli_arguments *arguments = results->arguments;
+  struct hk_watch watch;
   int32_t status =
       hooke_needs_create(results->setup.system, results->setup.options, arguments->more, &results->needs);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  hooke_watch_start(&watch, arguments);
-  hooke_needs_on_progress(results->needs, hooke_watch_progress, &watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  cli_watch_start(&watch, arguments);
+  hooke_needs_on_progress(results->needs, cli_watch_progress, &watch);
   status = results->refine ? hooke_needs_refine(results->needs) : hooke_needs_find(results->needs);
-  hooke_watch_end(&watch);
+  cli_watch_end(&watch);
   *stopped = status == HOOKE_STOPPED;
-  return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : hooke_report_status(arguments, status);
+  return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
 /* ---- the lean scene ---- */
@@ -48,68 +47,68 @@ static int32_t make_command(const char *file, char **command) {
   FILE *stream = open_memstream(command, &size);
   if (stream) {
     fputs("hooke run ", stream);
-    hooke_print_quoted(stream, file);
+    cli_print_quoted(stream, file);
   }
-  return hooke_print_end(stream, command);
+  return cli_print_end(stream, command);
 }
 
-static int write_lean(struct hooke_needs_results *results) {
-  const char *output = hooke_arguments_text(results->arguments, "output");
+static int write_lean(struct cli_needs_results *results) {
+  const char *output = cli_arguments_text(results->arguments, "output");
   const hooke_system *lean = hooke_needs_lean(results->needs);
   if (!output || !lean) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_scene_write(output, lean, hooke_scene_title(results->setup.scene),
                                            hooke_needs_lean_run(results->needs));
   if (status != HOOKE_OK) {
-    hooke_report_words(results->arguments, "%s", hooke_last_error());
-    return hooke_exit_code(status);
+    cli_report_words(results->arguments, "%s", hooke_last_error());
+    return cli_exit_code(status);
   }
   results->written = output;
   if (make_command(output, &results->command) == HOOKE_OK) return HOOKE_EXIT_DONE;
-  return hooke_report_missing_words(results->arguments);
+  return cli_report_missing_words(results->arguments);
 }
 
-static int write_report(const struct hooke_needs_results *results, int code) {
-  const char *report = hooke_arguments_text(results->arguments, "report");
+static int write_report(const struct cli_needs_results *results, int code) {
+  const char *report = cli_arguments_text(results->arguments, "report");
   const char *title = hooke_scene_title(results->setup.scene);
   if (!report) return code;
   const int32_t status = hooke_needs_write_report(
       results->needs, report, title && title[0] ? title : results->arguments->scene, results->command);
   if (status == HOOKE_OK) return code;
-  hooke_report_words(results->arguments, "%s", hooke_last_error());
-  return hooke_exit_code(status);
+  cli_report_words(results->arguments, "%s", hooke_last_error());
+  return cli_exit_code(status);
 }
 
 /* What was found is printed also when a file fails. */
-static int tell(struct hooke_needs_results *results, int32_t stopped) {
+static int tell(struct cli_needs_results *results, int32_t stopped) {
   int code = write_lean(results);
   if (results->arguments->json)
-    hooke_needs_results_print_json(results);
+    cli_needs_results_print_json(results);
   else
-    hooke_needs_results_print(results);
-  hooke_print_flush();
+    cli_needs_results_print(results);
+  cli_print_flush();
   code = write_report(results, code);
   if (!stopped) return code;
-  hooke_report_words(results->arguments, "interrupted; kept: what is known so far");
+  cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;
 }
 
-static int do_needs(const struct hooke_arguments *arguments) {
-  struct hooke_needs_results results = {.arguments = arguments,
-                                        .refine = hooke_arguments_text(arguments, "refine") != NULL};
+static int do_needs(const struct cli_arguments *arguments) {
+  struct cli_needs_results results = {.arguments = arguments,
+                                      .refine = cli_arguments_text(arguments, "refine") != NULL};
   int32_t stopped = 0;
   int code = check_files(arguments);
   if (code != HOOKE_EXIT_DONE) return code;
-  code = hooke_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = hooke_setup_require_duration(arguments, &results.setup);
+  code = cli_setup_load(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = find(&results, &stopped);
   if (code == HOOKE_EXIT_DONE) code = tell(&results, stopped);
   free(results.command);
   hooke_needs_destroy(results.needs);
-  hooke_setup_destroy(&results.setup);
+  cli_setup_destroy(&results.setup);
   return code;
 }
 
-static const struct hooke_verb_row own_rows[] = {
+static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
     {"refine", 0, NULL,
      "the reverse question: each part at once, twice and four times its resolution, and what the want asks "
@@ -117,7 +116,7 @@ static const struct hooke_verb_row own_rows[] = {
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
 };
 
-const struct hooke_verb hooke_verb_needs = {
+const struct cli_verb cli_verb_needs = {
     .name = "needs",
     .summary = "what a scene needs for a wanted accuracy, and a lean scene without the rest",
     .text =

@@ -13,30 +13,30 @@
 
 enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
 
-static double state_energy(const struct hooke_run *run) {
+static double state_energy(const struct hk_run *run) {
   return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
                              hooke_state_velocity(run->setup.state));
 }
 
 /* ---- running ---- */
 
-static void keep_message(struct hooke_run *run) {
+static void keep_message(struct hk_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
 }
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
-  struct hooke_run *run = ctx;
+  struct hk_run *run = ctx;
   return run->estimate ? hooke_estimate_see(step, state, run->estimate) : 0;
 }
 
 static int32_t see_progress(double done, const char *method, void *ctx) {
-  struct hooke_run *run = ctx;
+  struct hk_run *run = ctx;
   (void)method;
-  return hooke_watch_tell(&run->watch, done, NULL);
+  return cli_watch_tell(&run->watch, done, NULL);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
-  struct hooke_run *run = ctx;
+  struct hk_run *run = ctx;
   if (run->trajectory) run->write_status = hooke_trajectory_write(run->trajectory, step, state);
   if (run->write_status != HOOKE_OK) {
     keep_message(run);
@@ -47,7 +47,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
-  struct hooke_run *run = ctx;
+  struct hk_run *run = ctx;
   (void)step;
   if (run->trajectory)
     run->write_status = hooke_trajectory_checkpoint(run->trajectory, run->integrator, state);
@@ -58,8 +58,8 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
 
 /* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs nothing, and a
  * hundredth of the run at most. */
-static int64_t stride(const struct hooke_run *run) {
-  if (hooke_method_is_adaptive(hooke_run_method(run)) != 0) return 1;
+static int64_t stride(const struct hk_run *run) {
+  if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
@@ -72,13 +72,13 @@ static int64_t stride(const struct hooke_run *run) {
 /* The library tells of each kind once a run. */
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
-  const struct hooke_run *run = ctx;
+  const struct hk_run *run = ctx;
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  hooke_report_words(run->arguments, "warning: %s", sentence);
+  cli_report_words(run->arguments, "warning: %s", sentence);
   return 0;
 }
 
-static int32_t prepare(struct hooke_run *run) {
+static int32_t prepare(struct hk_run *run) {
   int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
   if (status != HOOKE_OK) return status;
   run->duration = hooke_options_number(hooke_integrator_options(run->integrator), "duration");
@@ -89,7 +89,7 @@ static int32_t prepare(struct hooke_run *run) {
     status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has looked at the limits themselves */
-  const int warns = !run->arguments->quiet && !hooke_arguments_text(run->arguments, "want");
+  const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
   if (status == HOOKE_OK && warns) status = hooke_integrator_on_warning(run->integrator, see_warning, run);
   if (status != HOOKE_OK || !run->output) return status;
   status = run->resumed ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator,
@@ -98,13 +98,13 @@ static int32_t prepare(struct hooke_run *run) {
                                                   hooke_scene_text(run->setup.scene), &run->trajectory);
   if (status != HOOKE_OK || !run->trajectory) return status;
   if (run->resumed && !run->arguments->quiet)
-    hooke_report_words(run->arguments, "goes on from %s", hooke_trajectory_origin(run->trajectory));
+    cli_report_words(run->arguments, "goes on from %s", hooke_trajectory_origin(run->trajectory));
   return hooke_trajectory_write_behind(run->trajectory);
 }
 
 /* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and nobody from
  * numbers that are not finite. */
-static void keep_place(struct hooke_run *run) {
+static void keep_place(struct hk_run *run) {
   if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
   if (run->kept_place != HOOKE_IO_FAILED && run->kept_place != HOOKE_NO_MEMORY) return;
@@ -113,86 +113,84 @@ static void keep_place(struct hooke_run *run) {
 }
 
 /* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
-static int32_t write_companion(struct hooke_run *run) {
+static int32_t write_companion(struct hk_run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
   if (status == HOOKE_OK) run->frames = hooke_record_frame_count(record);
   if (status == HOOKE_OK) status = hooke_record_write_xdmf(record, NULL);
   hooke_record_close(record);
   if (status != HOOKE_BAD_VALUE) return status;
-  if (!run->arguments->quiet)
-    hooke_report_words(run->arguments, "no .xdmf is written: %s", hooke_last_error());
+  if (!run->arguments->quiet) cli_report_words(run->arguments, "no .xdmf is written: %s", hooke_last_error());
   return HOOKE_OK;
 }
 
 /* The outcome stays what it is without an explanation. */
-static void find_why(struct hooke_run *run) {
-  if (hooke_arguments_text(run->arguments, "no-why")) return;
-  hooke_watch_start(&run->watch, run->arguments);
-  const int32_t status =
-      hooke_watch_interrupted()
-          ? HOOKE_STOPPED
-          : hooke_why_create(run->integrator, NAN, hooke_watch_progress, &run->watch, &run->why);
-  hooke_watch_end(&run->watch);
+static void find_why(struct hk_run *run) {
+  if (cli_arguments_text(run->arguments, "no-why")) return;
+  cli_watch_start(&run->watch, run->arguments);
+  const int32_t status = cli_watch_interrupted() ? HOOKE_STOPPED
+                                                 : hooke_why_create(run->integrator, NAN, cli_watch_progress,
+                                                                    &run->watch, &run->why);
+  cli_watch_end(&run->watch);
   if (status == HOOKE_OK)
     snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
   if (status == HOOKE_NO_MEMORY)
-    hooke_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
+    cli_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
   if (status == HOOKE_STOPPED)
-    hooke_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
+    cli_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
 }
 
 /* The end of a run that had finished. */
-static int take_finished(struct hooke_run *run) {
+static int take_finished(struct hk_run *run) {
   const int32_t status =
-      hooke_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
-  if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+      cli_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
+  if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->energy_after = state_energy(run);
   if (!run->arguments->quiet)
-    hooke_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with",
-                       run->output);
+    cli_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with",
+                     run->output);
   return HOOKE_EXIT_DONE;
 }
 
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
-static int integrate(struct hooke_run *run) {
-  hooke_watch_start(&run->watch, run->arguments);
+static int integrate(struct hk_run *run) {
+  cli_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
   run->coincident_before =
       hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
   int32_t status = prepare(run);
-  if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->was_finished = run->resumed && !run->trajectory;
   if (run->was_finished) return take_finished(run);
   if (run->estimate) {
     status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
-    if (status != HOOKE_OK) return hooke_report_status(run->arguments, status);
+    if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   }
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
-  hooke_watch_end(&run->watch);
+  cli_watch_end(&run->watch);
   run->energy_after = state_energy(run);
   keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
   if (run->write_status != HOOKE_OK)
-    return hooke_report(run->arguments, hooke_exit_code(run->write_status), "%s", run->message);
-  int code = hooke_exit_code(run->outcome);
+    return hk_report(run->arguments, cli_exit_code(run->write_status), "%s", run->message);
+  int code = cli_exit_code(run->outcome);
   if (status != HOOKE_OK && (run->outcome >= 0 || code == HOOKE_EXIT_DIVERGED)) {
-    if (run->outcome != HOOKE_OK) hooke_report_words(run->arguments, "%s", run->message);
-    return hooke_report_status(run->arguments, status);
+    if (run->outcome != HOOKE_OK) cli_report_words(run->arguments, "%s", run->message);
+    return cli_report_status(run->arguments, status);
   }
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
-    return hooke_report(run->arguments, code, "%s", run->message);
+    return hk_report(run->arguments, code, "%s", run->message);
   }
   if (run->output) status = write_companion(run);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 /* On standard error: that a run ended early, and what is kept. */
-static void tell_end(const struct hooke_run *run) {
-  const struct hooke_arguments *arguments = run->arguments;
+static void tell_end(const struct hk_run *run) {
+  const struct cli_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
   if (run->output) {
@@ -200,66 +198,65 @@ static void tell_end(const struct hooke_run *run) {
              run->output);
   }
   if (run->outcome == HOOKE_STOPPED) {
-    hooke_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                       hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
-    if (run->output) hooke_resume_tell_how(arguments, run->output, run->kept_place);
+    cli_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
+                     cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
+    if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
     return;
   }
-  hooke_report_words(arguments, "%s", run->message);
-  hooke_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
-                     hooke_format_rounded(hooke_state_time(run->setup.state), text), kept);
+  cli_report_words(arguments, "%s", run->message);
+  cli_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
+                   cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
 }
 
 /* On standard error: why, and what to do. */
-static void explain(const struct hooke_run *run) {
-  const struct hooke_arguments *arguments = run->arguments;
+static void explain(const struct hk_run *run) {
+  const struct cli_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
   const char *left_out = hooke_why_text(run->why, "left_out");
-  hooke_report_words(arguments, "%s", run->message);
-  if (left_out[0]) hooke_report_words(arguments, "%s", left_out);
-  if (hooke_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK)
-    (void)hooke_report_missing_words(arguments);
+  cli_report_words(arguments, "%s", run->message);
+  if (left_out[0]) cli_report_words(arguments, "%s", left_out);
+  if (cli_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK) (void)cli_report_missing_words(arguments);
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
-static void tell_coincident(const struct hooke_run *run) {
+static void tell_coincident(const struct hk_run *run) {
   const int64_t before = run->coincident_before,
                 after = hooke_integrator_count(run->integrator, "coincident_springs");
   if (before > 0) {
-    hooke_report_words(
-        run->arguments,
-        "%" PRId64 " springs began with both ends at one place; such a spring has no direction and exerts "
-        "no force, until something else parts them",
-        before);
+    cli_report_words(run->arguments,
+                     "%" PRId64
+                     " springs began with both ends at one place; such a spring has no direction and exerts "
+                     "no force, until something else parts them",
+                     before);
   }
   if (after > 0) {
-    hooke_report_words(run->arguments,
-                       "%" PRId64
-                       " springs ended with both ends at one place; such a spring has no direction and "
-                       "exerts no force",
-                       after);
+    cli_report_words(run->arguments,
+                     "%" PRId64
+                     " springs ended with both ends at one place; such a spring has no direction and "
+                     "exerts no force",
+                     after);
   }
 }
 
 /* As at the beginning, for another run. */
-static int begin_again(struct hooke_run *run) {
+static int begin_again(struct hk_run *run) {
   hooke_integrator_destroy(run->integrator);
   hooke_state_destroy(run->setup.state);
   run->integrator = NULL;
   run->setup.state = NULL;
   run->frames = 0;
   const int32_t status = hooke_state_create(run->setup.system, &run->setup.state);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 /* Runs, with a wanted error until it is met or nothing finer is known to help. */
-static int integrate_to_want(struct hooke_run *run) {
+static int integrate_to_want(struct hk_run *run) {
   int code = integrate(run);
-  if (!hooke_arguments_text(run->arguments, "want")) return code;
+  if (!cli_arguments_text(run->arguments, "want")) return code;
   while (code == HOOKE_EXIT_DONE) {
-    const int32_t status = hooke_want_measure(run);
-    if (status != HOOKE_OK && status != HOOKE_STOPPED) return hooke_report_status(run->arguments, status);
-    if (!hooke_want_goes_on(run)) break;
+    const int32_t status = cli_want_measure(run);
+    if (status != HOOKE_OK && status != HOOKE_STOPPED) return cli_report_status(run->arguments, status);
+    if (!cli_want_goes_on(run)) break;
     code = begin_again(run);
     if (code == HOOKE_EXIT_DONE) code = integrate(run);
   }
@@ -267,63 +264,63 @@ static int integrate_to_want(struct hooke_run *run) {
 }
 
 /* The error of a run that is over, after all else was told. */
-static void estimate(struct hooke_run *run) {
-  const int wanted = hooke_arguments_text(run->arguments, "want") != NULL;
-  const int32_t status = wanted ? HOOKE_OK : hooke_want_measure(run);
+static void estimate(struct hk_run *run) {
+  const int wanted = cli_arguments_text(run->arguments, "want") != NULL;
+  const int32_t status = wanted ? HOOKE_OK : cli_want_measure(run);
   if (status == HOOKE_STOPPED)
-    hooke_report_words(run->arguments, "interrupted: how wrong the run is is not looked into");
+    cli_report_words(run->arguments, "interrupted: how wrong the run is is not looked into");
   if (status == HOOKE_NO_MEMORY)
-    hooke_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
+    cli_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
 }
 
 /* Into the output, which is whole already. */
-static int write_estimate(const struct hooke_run *run) {
+static int write_estimate(const struct hk_run *run) {
   if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_status(run->arguments, status);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
-static int run_and_tell(struct hooke_run *run) {
+static int run_and_tell(struct hk_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
   /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
-  if (!run->arguments->json) hooke_run_print(run);
+  if (!run->arguments->json) cli_run_print(run);
   if (!run->arguments->quiet) tell_coincident(run);
   if (run->outcome != HOOKE_OK) tell_end(run);
   estimate(run);
-  if (!run->arguments->json) hooke_want_print(run);
+  if (!run->arguments->json) cli_want_print(run);
   code = write_estimate(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  hooke_run_print_final(run);
-  if (hooke_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
-  if (run->arguments->json) hooke_run_print(run);
+  cli_run_print_final(run);
+  if (cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
+  if (run->arguments->json) cli_run_print(run);
   explain(run);
-  return run->outcome == HOOKE_OK ? hooke_want_exit_code(run) : hooke_exit_code(run->outcome);
+  return run->outcome == HOOKE_OK ? cli_want_exit_code(run) : cli_exit_code(run->outcome);
 }
 
-static int do_run(const struct hooke_arguments *arguments) {
-  struct hooke_run run = {.arguments = arguments,
-                          .output = hooke_arguments_text(arguments, "output"),
-                          .resumed = hooke_arguments_text(arguments, "resume")};
-  int code = hooke_resume_check(arguments);
-  if (code == HOOKE_EXIT_DONE) code = hooke_setup_check_output(arguments, run.output);
+static int do_run(const struct cli_arguments *arguments) {
+  struct hk_run run = {.arguments = arguments,
+                       .output = cli_arguments_text(arguments, "output"),
+                       .resumed = cli_arguments_text(arguments, "resume")};
+  int code = cli_resume_check(arguments);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;
-  code = hooke_setup_load(arguments, &run.setup);
-  if (code == HOOKE_EXIT_DONE) code = hooke_want_pick(&run);
-  if (code == HOOKE_EXIT_DONE && !run.resumed) code = hooke_fit_run(arguments, &run.setup);
+  code = cli_setup_load(arguments, &run.setup);
+  if (code == HOOKE_EXIT_DONE) code = cli_want_pick(&run);
+  if (code == HOOKE_EXIT_DONE && !run.resumed) code = cli_fit_run(arguments, &run.setup);
   if (code == HOOKE_EXIT_DONE) {
-    code = hooke_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
+    code = cli_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
   hooke_why_destroy(run.why);
   hooke_estimate_destroy(run.estimate);
   hooke_integrator_destroy(run.integrator);
-  hooke_setup_destroy(&run.setup);
+  cli_setup_destroy(&run.setup);
   return code;
 }
 
-static const struct hooke_verb_row rows[] = {
+static const struct cli_verb_row rows[] = {
     {"output", 'o', "FILE",
      "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
      "reads it, replacing them"},
@@ -343,7 +340,7 @@ static const struct hooke_verb_row rows[] = {
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
 
-const struct hooke_verb hooke_verb_run = {
+const struct cli_verb cli_verb_run = {
     .name = "run",
     .summary = "integrates a scene",
     .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "

@@ -19,89 +19,87 @@ static int ends_in(const char *name, const char *ending) {
   return length > end && strcmp(name + length - end, ending) == 0;
 }
 
-static int check_output(const struct hooke_arguments *arguments, const char *output) {
+static int check_output(const struct cli_arguments *arguments, const char *output) {
   if (!output) return HOOKE_EXIT_DONE;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
-    return hooke_report(
-        arguments, HOOKE_EXIT_USAGE,
-        "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
-        "whole study",
-        output);
+    return hk_report(arguments, HOOKE_EXIT_USAGE,
+                     "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
+                     "whole study",
+                     output);
   }
-  const int code = ends_in(output, ".h5") ? hooke_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
-  return code == HOOKE_EXIT_DONE ? hooke_output_file_check(arguments, "-o", output) : code;
+  const int code = ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
+  return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
 }
 
 /* ---- the file of --report ---- */
 
 /* The exit code of the study, or that of a report that could not be written. */
-static int write_report(const struct hooke_study_results *results, const char *report, int code) {
+static int write_report(const struct cli_study_results *results, const char *report, int code) {
   if (!report || hooke_study_row_count(results->study) == 0) return code;
   const char *title = hooke_scene_title(results->setup.scene);
   int32_t status =
       hooke_study_write_report(results->study, report, title && title[0] ? title : results->arguments->scene,
-                               hooke_study_results_recommend(results) ? results->command : NULL);
+                               cli_study_results_recommend(results) ? results->command : NULL);
   if (status == HOOKE_OK) return code;
-  hooke_report_words(results->arguments, "%s", hooke_last_error());
-  return hooke_exit_code(status);
+  cli_report_words(results->arguments, "%s", hooke_last_error());
+  return cli_exit_code(status);
 }
 
 /* ---- running ---- */
 
-static int run_study(struct hooke_study_results *results) {
-  const struct hooke_arguments *arguments = results->arguments;
-  struct hooke_watch watch;
-  hooke_watch_start(&watch, arguments);
+static int run_study(struct cli_study_results *results) {
+  const struct cli_arguments *arguments = results->arguments;
+  struct hk_watch watch;
+  cli_watch_start(&watch, arguments);
   int32_t status =
       hooke_study_create(results->setup.system, results->setup.options, arguments->more, &results->study);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  hooke_study_on_progress(results->study, hooke_watch_progress, &watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  hooke_study_on_progress(results->study, cli_watch_progress, &watch);
   status = hooke_study_run(results->study);
-  hooke_watch_end(&watch);
+  cli_watch_end(&watch);
   results->interrupted = status == HOOKE_STOPPED;
-  return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE
-                                                    : hooke_report_status(arguments, status);
+  return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
 /* ---- the command that is recommended ---- */
 
-static double recommended(const struct hooke_study_results *results, const char *what) {
+static double recommended(const struct cli_study_results *results, const char *what) {
   return hooke_study_recommendation_number(results->study, what);
 }
 
-int32_t hooke_study_results_recommend(const struct hooke_study_results *results) {
+int32_t cli_study_results_recommend(const struct cli_study_results *results) {
   if (!hooke_study_recommendation_text(results->study, "note")) return 0;
   return recommended(results, "met") == 1.0 || !results->interrupted;
 }
 
-int32_t hooke_study_results_trust_all(const hooke_study *study) {
+int32_t cli_study_results_trust_all(const hooke_study *study) {
   return hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "duration") * (1.0 - 1e-9);
 }
 
 /* NULL where the number does not apply. */
-static const char *setting(const struct hooke_study_results *results, const char *what,
+static const char *setting(const struct cli_study_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
   double value = recommended(results, what);
-  return isnan(value) ? NULL : hooke_format_number(value, text);
+  return isnan(value) ? NULL : cli_format_number(value, text);
 }
 
 /* HOOKE_NO_MEMORY */
-static int32_t find_command(struct hooke_study_results *results) {
+static int32_t find_command(struct cli_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
   size_t size;
   const char *method = hooke_study_recommendation_text(results->study, "method");
-  if (!method || !hooke_study_results_recommend(results)) return HOOKE_OK;
-  struct hooke_setting settings[] = {{"method", method},
-                                     {"step", setting(results, "step", step)},
-                                     {"rtol", setting(results, "rtol", rtol)},
-                                     {"atol", setting(results, "atol", atol)},
-                                     {"atol_velocity", NULL},
-                                     {NULL, NULL}};
+  if (!method || !cli_study_results_recommend(results)) return HOOKE_OK;
+  struct cli_setting settings[] = {{"method", method},
+                                   {"step", setting(results, "step", step)},
+                                   {"rtol", setting(results, "rtol", rtol)},
+                                   {"atol", setting(results, "atol", atol)},
+                                   {"atol_velocity", NULL},
+                                   {NULL, NULL}};
   /* the study sets it to the number of atol, whatever the scene says */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
   FILE *stream = open_memstream(&results->command, &size);
-  if (stream) hooke_report_command(stream, results->arguments, "run", settings);
-  return hooke_print_end(stream, &results->command);
+  if (stream) cli_report_command(stream, results->arguments, "run", settings);
+  return cli_print_end(stream, &results->command);
 }
 
 /* ---- results ---- */
@@ -121,65 +119,65 @@ static char mark_of(const void *study, int64_t row, const char *what) {
   return hooke_study_number(study, row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 
-struct hooke_rows hooke_study_results_rows(const struct hooke_study_results *results) {
-  return (struct hooke_rows){.source = results->study,
-                             .count = hooke_study_row_count(results->study),
-                             .text = text_of,
-                             .number = number_of,
-                             .grouped = 1,
-                             .mark = mark_of,
-                             .print_more = hooke_study_watched_print_row};
+struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
+  return (struct cli_rows){.source = results->study,
+                           .count = hooke_study_row_count(results->study),
+                           .text = text_of,
+                           .number = number_of,
+                           .grouped = 1,
+                           .mark = mark_of,
+                           .print_more = cli_study_watched_print_row};
 }
 
-static int32_t write_output(const struct hooke_study_results *results, const char *output) {
+static int32_t write_output(const struct cli_study_results *results, const char *output) {
   if (ends_in(output, ".csv")) return hooke_study_write_csv(results->study, output);
   return hooke_study_write_h5(results->study, output, hooke_scene_text(results->setup.scene),
                               results->interrupted ? HOOKE_STOPPED : HOOKE_OK);
 }
 
 /* What was measured is printed also when the file fails. */
-static int tell(struct hooke_study_results *results, const char *output) {
-  const struct hooke_arguments *arguments = results->arguments;
+static int tell(struct cli_study_results *results, const char *output) {
+  const struct cli_arguments *arguments = results->arguments;
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row takes no older file's place */
   if (hooke_study_row_count(results->study) == 0) output = NULL;
   const int32_t found = find_command(results);
   if (arguments->json) {
-    hooke_study_results_print_json(results);
+    cli_study_results_print_json(results);
   } else {
-    hooke_study_results_print(results);
+    cli_study_results_print(results);
   }
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) {
     printf("\noutput: ");
-    hooke_print_text(stdout, output);
+    cli_print_text(stdout, output);
     printf("\n");
   }
-  hooke_print_flush();
-  if (written != HOOKE_OK) hooke_report_words(arguments, "%s", hooke_last_error());
+  cli_print_flush();
+  if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {
-    hooke_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
-                       hooke_study_row_count(results->study), output && written == HOOKE_OK ? ", in " : "",
-                       output && written == HOOKE_OK ? output : "");
+    cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
+                     hooke_study_row_count(results->study), output && written == HOOKE_OK ? ", in " : "",
+                     output && written == HOOKE_OK ? output : "");
   }
-  if (written != HOOKE_OK) return hooke_exit_code(written);
-  if (found != HOOKE_OK) return hooke_report_missing_words(arguments);
+  if (written != HOOKE_OK) return cli_exit_code(written);
+  if (found != HOOKE_OK) return cli_report_missing_words(arguments);
   if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
   const int32_t made = hooke_study_recommendation_text(results->study, "note") != NULL;
-  const int32_t met = recommended(results, "met") == 1.0 && hooke_study_results_trust_all(results->study);
+  const int32_t met = recommended(results, "met") == 1.0 && cli_study_results_trust_all(results->study);
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
-static int do_study(const struct hooke_arguments *arguments) {
-  struct hooke_study_results results = {.arguments = arguments};
-  const char *output = hooke_arguments_text(arguments, "output");
-  const char *report = hooke_arguments_text(arguments, "report");
-  int code = hooke_methods_choose(arguments, &results.methods);
+static int do_study(const struct cli_arguments *arguments) {
+  struct cli_study_results results = {.arguments = arguments};
+  const char *output = cli_arguments_text(arguments, "output");
+  const char *report = cli_arguments_text(arguments, "report");
+  int code = cli_methods_choose(arguments, &results.methods);
   if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
-  if (code == HOOKE_EXIT_DONE) code = hooke_output_file_check_report(arguments, report);
+  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
-  code = hooke_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = hooke_setup_require_duration(arguments, &results.setup);
+  code = cli_setup_load(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = run_study(&results);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
@@ -187,17 +185,17 @@ static int do_study(const struct hooke_arguments *arguments) {
   }
   free(results.command);
   hooke_study_destroy(results.study);
-  hooke_setup_destroy(&results.setup);
+  cli_setup_destroy(&results.setup);
   return code;
 }
 
-static const struct hooke_verb_row own_rows[] = {
+static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE", "writes the rows to FILE.csv, or the whole study to FILE.h5, replacing it"},
     {"report", 0, "FILE.html",
      "writes diagrams, table and recommendation as one page to read offline, replacing it"},
 };
 
-const struct hooke_verb hooke_verb_study = {
+const struct cli_verb cli_verb_study = {
     .name = "study",
     .summary = "how accurate each method is for what it costs, and which one to take",
     .text = "Makes a reference by two integrators that check each other, runs every method over a ladder of "

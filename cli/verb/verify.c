@@ -31,7 +31,7 @@ static void print_makers(const hooke_verify *verify, const char *head, const cha
     snprintf(what, sizeof what, "%s%s", facts[k][0], suffix);
     if (text(verify, what)[0] == '\0') continue;
     printf("%s%s%s", joint, facts[k][1], facts[k][1][0] ? " " : "");
-    hooke_print_text(stdout, text(verify, what));
+    cli_print_text(stdout, text(verify, what));
     joint = ", ";
   }
   printf("\n");
@@ -62,11 +62,11 @@ static void print_balance(const hooke_verify *verify) {
   printf("%-13s about %.2g m in a coordinate, over the slice\n", "error", number(verify, "error_estimate"));
 }
 
-static void print_words(const struct hooke_arguments *arguments, const hooke_verify *verify) {
+static void print_words(const struct cli_arguments *arguments, const hooke_verify *verify) {
   printf("%-13s ", "file");
-  hooke_print_text(stdout, arguments->scene);
+  cli_print_text(stdout, arguments->scene);
   printf("\n%-13s ", "run");
-  hooke_print_text(stdout, text(verify, "run"));
+  cli_print_text(stdout, text(verify, "run"));
   printf("\n");
   print_makers(verify, "made by", "");
   print_makers(verify, "verified by", "_here");
@@ -82,7 +82,7 @@ static void print_words(const struct hooke_arguments *arguments, const hooke_ver
          strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
 }
 
-static void print_json(const struct hooke_arguments *arguments, const hooke_verify *verify) {
+static void print_json(const struct cli_arguments *arguments, const hooke_verify *verify) {
   static const char *const texts[] = {"verdict",      "difference",        "run",          "method",
                                       "balance",      "version",           "sundials",     "cholmod",
                                       "instructions", "machine",           "version_here", "sundials_here",
@@ -94,42 +94,42 @@ static void print_json(const struct hooke_arguments *arguments, const hooke_veri
       "rtol",          "atol",  "step_limit", "step_share",       "work",
       "energy_change", "heat",  "residual",   "residual_refined", "residual_bound",
       "error_estimate"};
-  struct hooke_json json;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "file", arguments->scene);
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "file", arguments->scene);
   for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++)
-    hooke_json_text(&json, texts[k], hooke_verify_text(verify, texts[k]));
+    cli_json_text(&json, texts[k], hooke_verify_text(verify, texts[k]));
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
-    hooke_json_count(&json, counts[k], (int64_t)number(verify, counts[k]));
+    cli_json_count(&json, counts[k], (int64_t)number(verify, counts[k]));
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    hooke_json_number(&json, numbers[k], number(verify, numbers[k]));
-  hooke_json_end(&json);
+    cli_json_number(&json, numbers[k], number(verify, numbers[k]));
+  cli_json_end(&json);
 }
 
 /* ---- the verb ---- */
 
-static int do_verify(const struct hooke_arguments *arguments) {
+static int do_verify(const struct cli_arguments *arguments) {
   hooke_verify *verify = NULL;
-  struct hooke_watch watch;
+  struct hk_watch watch;
   int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
-  hooke_watch_start(&watch, arguments);
-  hooke_verify_on_progress(verify, hooke_watch_progress, &watch);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  cli_watch_start(&watch, arguments);
+  hooke_verify_on_progress(verify, cli_watch_progress, &watch);
   status = hooke_verify_run(verify);
-  hooke_watch_end(&watch);
+  cli_watch_end(&watch);
   const char *verdict = hooke_verify_text(verify, "verdict");
-  int code = hooke_exit_code(status);
+  int code = cli_exit_code(status);
   if (verdict && arguments->json) { /* which holds the message, too */
     print_json(arguments, verify);
   } else {
-    if (status != HOOKE_OK) code = hooke_report_status(arguments, status);
+    if (status != HOOKE_OK) code = cli_report_status(arguments, status);
     if (verdict && status != HOOKE_STOPPED) print_words(arguments, verify);
   }
   hooke_verify_destroy(verify);
   return code;
 }
 
-const struct hooke_verb hooke_verb_verify = {
+const struct cli_verb cli_verb_verify = {
     .name = "verify",
     .input = "OUT.h5",
     .summary = "runs a slice of a result again and compares bits",

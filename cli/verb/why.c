@@ -15,8 +15,8 @@
 enum { MOST_SPRINGS_SHOWN = 8 };
 
 struct why {
-  const struct hooke_arguments *arguments;
-  struct hooke_setup setup;
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
   hooke_record *record; /* NULL: the scene is not an output */
   hooke_why *why;       /* NULL: the run did not blow up */
   const char *status;   /* of the run, then */
@@ -32,23 +32,23 @@ static const double USUAL_BUDGET = 30.0;   /* [s] */
 
 static int32_t see_run(double done, const char *method, void *watch) {
   (void)method;
-  return hooke_watch_tell(watch, done, "running it");
+  return cli_watch_tell(watch, done, "running it");
 }
 
 /* Runs the scene and asks why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
-  struct hooke_watch watch;
+  struct hk_watch watch;
   int32_t status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
   if (status != HOOKE_OK) return status;
-  hooke_watch_start(&watch, why->arguments);
+  cli_watch_start(&watch, why->arguments);
   hooke_integrator_on_progress(integrator, HOOKE_BETWEEN_LOOKS, see_run, &watch);
   status = hooke_integrator_run(integrator, why->setup.state);
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
-  if (hooke_exit_code(status) == HOOKE_EXIT_DIVERGED)
-    status = hooke_why_create(integrator, why->budget, hooke_watch_progress, &watch, &why->why);
-  hooke_watch_end(&watch);
+  if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED)
+    status = hooke_why_create(integrator, why->budget, cli_watch_progress, &watch, &why->why);
+  cli_watch_end(&watch);
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -59,11 +59,11 @@ static int32_t blew_up(const char *status) {
 }
 
 static int32_t explain_kept(struct why *why, const hooke_state *first, const hooke_state *last) {
-  struct hooke_watch watch;
-  hooke_watch_start(&watch, why->arguments);
+  struct hk_watch watch;
+  cli_watch_start(&watch, why->arguments);
   const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last,
-                                               why->budget, hooke_watch_progress, &watch, &why->why);
-  hooke_watch_end(&watch);
+                                               why->budget, cli_watch_progress, &watch, &why->why);
+  cli_watch_end(&watch);
   return status;
 }
 
@@ -81,11 +81,11 @@ static int32_t read_output(struct why *why) {
   hooke_state_destroy(first);
   hooke_state_destroy(last);
   if (status != HOOKE_BAD_CALL) return status;
-  why->code = hooke_report(
-      why->arguments, HOOKE_EXIT_BAD_INPUT,
-      "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
-      "such as a callback",
-      why->arguments->scene);
+  why->code =
+      hk_report(why->arguments, HOOKE_EXIT_BAD_INPUT,
+                "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
+                "such as a callback",
+                why->arguments->scene);
   return status;
 }
 
@@ -94,35 +94,35 @@ static int32_t read_output(struct why *why) {
 /* HOOKE_NO_MEMORY if a command is missing. */
 static int32_t print_json(const struct why *why) {
   const hooke_why *found = why->why;
-  struct hooke_json json;
+  struct cli_json json;
   int32_t status = HOOKE_OK;
-  hooke_json_begin(&json, stdout);
-  hooke_json_text(&json, "cause", found ? hooke_why_text(found, "cause") : NULL);
-  hooke_json_number(&json, "time", found ? hooke_why_number(found, "time") : why->time);
-  hooke_json_text(&json, "method", hooke_options_text(why->setup.options, "method"));
-  hooke_json_number(&json, "step", found ? hooke_why_number(found, "step") : (double)NAN);
-  hooke_json_number(&json, "limit", found ? hooke_why_number(found, "limit") : (double)NAN);
-  hooke_json_open(&json, "blame", '[');
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "cause", found ? hooke_why_text(found, "cause") : NULL);
+  cli_json_number(&json, "time", found ? hooke_why_number(found, "time") : why->time);
+  cli_json_text(&json, "method", hooke_options_text(why->setup.options, "method"));
+  cli_json_number(&json, "step", found ? hooke_why_number(found, "step") : (double)NAN);
+  cli_json_number(&json, "limit", found ? hooke_why_number(found, "limit") : (double)NAN);
+  cli_json_open(&json, "blame", '[');
   for (int64_t k = 0; found && k < hooke_why_blame_count(found); k++) {
-    hooke_blame_json(&json, hooke_why_blame_text(found, k, "force"),
-                     hooke_why_blame_number(found, k, "first"), hooke_why_blame_number(found, k, "second"),
-                     hooke_why_blame_text(found, k, "group"), hooke_why_blame_number(found, k, "share"));
+    cli_blame_json(&json, hooke_why_blame_text(found, k, "force"), hooke_why_blame_number(found, k, "first"),
+                   hooke_why_blame_number(found, k, "second"), hooke_why_blame_text(found, k, "group"),
+                   hooke_why_blame_number(found, k, "share"));
   }
-  hooke_json_close(&json);
-  hooke_json_open(&json, "advice", '[');
+  cli_json_close(&json);
+  cli_json_open(&json, "advice", '[');
   for (int64_t k = 0; found && k < hooke_why_advice_count(found); k++) {
     char *command;
-    if (hooke_advice_command(why->arguments, found, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    hooke_json_open(&json, NULL, '{');
-    hooke_json_text(&json, "change", hooke_why_advice_text(found, k, "change"));
-    hooke_json_text(&json, "command", command);
-    hooke_json_close(&json);
+    if (cli_advice_command(why->arguments, found, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
+    cli_json_open(&json, NULL, '{');
+    cli_json_text(&json, "change", hooke_why_advice_text(found, k, "change"));
+    cli_json_text(&json, "command", command);
+    cli_json_close(&json);
     free(command);
   }
-  hooke_json_close(&json);
+  cli_json_close(&json);
   const char *left_out = found ? hooke_why_text(found, "left_out") : "";
-  hooke_json_text(&json, "left_out", left_out[0] ? left_out : NULL);
-  hooke_json_end(&json);
+  cli_json_text(&json, "left_out", left_out[0] ? left_out : NULL);
+  cli_json_end(&json);
   return status;
 }
 
@@ -132,7 +132,7 @@ static void print_number(const char *label, double value, const char *unit) {
   if (isinf(value))
     printf("%-12snone\n", label);
   else
-    printf("%-12s%s %s\n", label, hooke_format_rounded(value, text), unit);
+    printf("%-12s%s %s\n", label, cli_format_rounded(value, text), unit);
 }
 
 static void print_springs(const hooke_why *found) {
@@ -152,7 +152,7 @@ static void print_springs(const hooke_why *found) {
            hooke_why_blame_number(found, k, "second"));
     if (group[0]) {
       printf(", group ");
-      hooke_print_text(stdout, group);
+      cli_print_text(stdout, group);
     }
     if (!isnan(share)) printf(", share %.3g", share);
     printf("\n");
@@ -166,13 +166,13 @@ static int32_t print_words(const struct why *why) {
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
     printf("the run did not blow up: it is '");
-    hooke_print_text(stdout, why->status);
-    printf("' at t = %s s\n", hooke_format_rounded(why->time, text));
+    cli_print_text(stdout, why->status);
+    printf("' at t = %s s\n", cli_format_rounded(why->time, text));
     return HOOKE_OK;
   }
   printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));
   printf("%-12s", "what");
-  hooke_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "sentence"));
+  cli_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "sentence"));
   printf("\n%-12s%s\n", "method", hooke_why_text(found, "method"));
   print_number("step", hooke_why_number(found, "step"), "s");
   print_number("limit", hooke_why_number(found, "limit"), "s");
@@ -183,15 +183,15 @@ static int32_t print_words(const struct why *why) {
   print_springs(found);
   if (hooke_why_text(found, "left_out")[0]) {
     printf("%-12s", "left out");
-    hooke_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "left_out"));
+    cli_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "left_out"));
     printf("\n");
   }
   printf("\n");
-  return hooke_advice_print(stdout, why->arguments, found, INT64_MAX);
+  return cli_advice_print(stdout, why->arguments, found, INT64_MAX);
 }
 
 /* 1 if an option of a run was given: then it is another run than that of the output. */
-static int32_t is_another_run(const struct hooke_arguments *arguments) {
+static int32_t is_another_run(const struct cli_arguments *arguments) {
   for (int32_t k = 0; k < arguments->count; k++) {
     if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
   }
@@ -199,41 +199,41 @@ static int32_t is_another_run(const struct hooke_arguments *arguments) {
 }
 
 static int find_out(struct why *why) {
-  const struct hooke_arguments *arguments = why->arguments;
+  const struct cli_arguments *arguments = why->arguments;
   int32_t status = hooke_record_open(arguments->scene, &why->record);
-  if (status == HOOKE_NO_MEMORY) return hooke_report_status(arguments, status);
+  if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
   if (why->record && !is_another_run(arguments)) {
     status = read_output(why);
   } else {
-    int code = hooke_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
+    int code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;
     status = run_again(why);
   }
   if (why->code != HOOKE_EXIT_DONE) return why->code;
-  if (status == HOOKE_STOPPED) return hooke_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
-  if (status != HOOKE_OK) return hooke_report_status(arguments, status);
+  if (status == HOOKE_STOPPED) return hk_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = arguments->json ? print_json(why) : print_words(why);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : hooke_report_missing_words(arguments);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
 }
 
-static int do_why(const struct hooke_arguments *arguments) {
+static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
-  int code = hooke_value_of_study(arguments, "budget", "s", &why.budget);
-  if (code == HOOKE_EXIT_DONE) code = hooke_setup_load(arguments, &why.setup);
+  int code = cli_value_of_study(arguments, "budget", "s", &why.budget);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_why_destroy(why.why);
   hooke_record_close(why.record);
-  hooke_setup_destroy(&why.setup);
+  cli_setup_destroy(&why.setup);
   return code;
 }
 
-static const struct hooke_verb_row rows[] = {
+static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
      "time that the explanation may take after the run, such as 5s or 2min; 30 s if not given"},
 };
 
-const struct hooke_verb hooke_verb_why = {
+const struct cli_verb cli_verb_why = {
     .name = "why",
     .summary = "explains a run that blew up",
     .text = "Runs the scene, or reads an output of 'hooke run -o', and says why the run blew up: the cause, "

@@ -3,6 +3,6 @@
 #define HOOKE_CORE_CLOCK_H
 
 /* Seconds since some fixed moment. */
-double hooke_clock_seconds(void);
+double hk_clock_seconds(void);
 
 #endif

@@ -38,7 +38,7 @@ static uint32_t first_4(const unsigned char *b) {
   return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
 }
 
-uint32_t hooke_crc32(uint32_t start, const void *bytes, int64_t count) {
+uint32_t hk_crc32(uint32_t start, const void *bytes, int64_t count) {
   const unsigned char *at = bytes;
   uint32_t rest = ~start;
   for (; count >= 8; count -= 8, at += 8) {

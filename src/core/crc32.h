@@ -6,6 +6,6 @@
 #include <stdint.h>
 
 /* Of bytes that follow those whose value is `start` (0: of the first ones). */
-uint32_t hooke_crc32(uint32_t start, const void *bytes, int64_t count);
+uint32_t hk_crc32(uint32_t start, const void *bytes, int64_t count);
 
 #endif

@@ -20,15 +20,15 @@
 enum { SPINS = 1000, YIELDS = 4 };
 
 struct seat {
-  struct hooke_crew *crew;
+  struct hk_crew *crew;
   int32_t member;
   pthread_t thread;
 };
 
-struct hooke_crew {
+struct hk_crew {
   pid_t process; /* whose threads they are */
   int32_t members, spins;
-  hooke_crew_work *work; /* NULL: threads end */
+  hk_crew_work *work; /* NULL: threads end */
   void *ctx;
   struct seat *seat; /* of members 1 .. members - 1 */
   pthread_mutex_t mutex;
@@ -47,7 +47,7 @@ static inline void relax(void) {
 #endif
 }
 
-int32_t hooke_crew_processors(void) {
+int32_t hk_crew_processors(void) {
 #if defined(__linux__)
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
@@ -58,11 +58,11 @@ int32_t hooke_crew_processors(void) {
 
 /* ---- the barrier ---- */
 
-static int has_passed(struct hooke_crew *crew, unsigned round) {
+static int has_passed(struct hk_crew *crew, unsigned round) {
   return atomic_load_explicit(&crew->round, memory_order_acquire) != round;
 }
 
-static void sleep_until_passed(struct hooke_crew *crew, unsigned round) {
+static void sleep_until_passed(struct hk_crew *crew, unsigned round) {
   pthread_mutex_lock(&crew->mutex);
   /* either this is seen by who ends the round, or the end of the round is seen here: both are sequentially consistent */
   atomic_fetch_add(&crew->sleepers, 1);
@@ -72,7 +72,7 @@ static void sleep_until_passed(struct hooke_crew *crew, unsigned round) {
   pthread_mutex_unlock(&crew->mutex);
 }
 
-static void wait_until_passed(struct hooke_crew *crew, unsigned round) {
+static void wait_until_passed(struct hk_crew *crew, unsigned round) {
   for (int32_t k = 0; k < crew->spins; k++) {
     if (has_passed(crew, round)) return;
     relax();
@@ -84,7 +84,7 @@ static void wait_until_passed(struct hooke_crew *crew, unsigned round) {
   sleep_until_passed(crew, round);
 }
 
-void hooke_crew_meet(struct hooke_crew *crew) {
+void hk_crew_meet(struct hk_crew *crew) {
   if (crew == NULL || crew->members == 1) return;
   const unsigned round = atomic_load_explicit(&crew->round, memory_order_relaxed);
   if (atomic_fetch_add_explicit(&crew->arrived, 1, memory_order_acq_rel) + 1 < crew->members) {
@@ -103,20 +103,20 @@ void hooke_crew_meet(struct hooke_crew *crew) {
 
 static void *serve(void *arg) {
   const struct seat *seat = arg;
-  struct hooke_crew *crew = seat->crew;
+  struct hk_crew *crew = seat->crew;
   pthread_mutex_lock(&crew->mutex); /* until it is known how many there are */
   pthread_mutex_unlock(&crew->mutex);
   for (;;) {
-    hooke_crew_meet(crew);
+    hk_crew_meet(crew);
     if (crew->work == NULL) return NULL;
     crew->work(seat->member, crew->members, crew->ctx);
-    hooke_crew_meet(crew);
+    hk_crew_meet(crew);
   }
 }
 
 /* Starts threads with all signals blocked, so that handlers run in the threads of the caller; fewer than asked for if
  * there are no more. */
-static void start(struct hooke_crew *crew, int32_t members) {
+static void start(struct hk_crew *crew, int32_t members) {
   sigset_t all, kept;
   sigfillset(&all);
   pthread_mutex_lock(&crew->mutex);
@@ -127,13 +127,13 @@ static void start(struct hooke_crew *crew, int32_t members) {
     if (pthread_create(&seat->thread, NULL, serve, seat) != 0) break;
   }
   pthread_sigmask(SIG_SETMASK, &kept, NULL);
-  crew->spins = crew->members <= hooke_crew_processors() ? SPINS : 0;
+  crew->spins = crew->members <= hk_crew_processors() ? SPINS : 0;
   pthread_mutex_unlock(&crew->mutex);
 }
 
-static void end(struct hooke_crew *crew) {
+static void end(struct hk_crew *crew) {
   crew->work = NULL;
-  hooke_crew_meet(crew);
+  hk_crew_meet(crew);
   for (int32_t k = 1; k < crew->members; k++)
     pthread_join(crew->seat[k - 1].thread, NULL);
   pthread_cond_destroy(&crew->woken);
@@ -142,7 +142,7 @@ static void end(struct hooke_crew *crew) {
 }
 
 /* All threads, or none. */
-static int32_t begin(struct hooke_crew *crew, int32_t members) {
+static int32_t begin(struct hk_crew *crew, int32_t members) {
   pthread_mutex_init(&crew->mutex, NULL);
   pthread_cond_init(&crew->woken, NULL);
   atomic_store(&crew->arrived, 0);
@@ -153,47 +153,47 @@ static int32_t begin(struct hooke_crew *crew, int32_t members) {
   if (crew->members == members) return HOOKE_OK;
   end(crew);
   crew->members = members;
-  return hooke_fail(HOOKE_NO_MEMORY, "threads", "this machine has no room for %d threads", (int)members);
+  return hk_fail(HOOKE_NO_MEMORY, "threads", "this machine has no room for %d threads", (int)members);
 }
 
-int32_t hooke_crew_renew(struct hooke_crew *crew) {
+int32_t hk_crew_renew(struct hk_crew *crew) {
   if (crew == NULL || crew->process == getpid()) return HOOKE_OK;
   return begin(crew, crew->members);
 }
 
-struct hooke_crew *hooke_crew_create(int32_t members) {
-  struct hooke_crew *crew = hooke_new(1, sizeof *crew);
-  struct seat *seat = hooke_new(members - 1, sizeof *seat);
+struct hk_crew *hk_crew_create(int32_t members) {
+  struct hk_crew *crew = hk_new(1, sizeof *crew);
+  struct seat *seat = hk_new(members - 1, sizeof *seat);
   if (crew == NULL || seat == NULL) {
-    hooke_free(crew);
-    hooke_free(seat);
+    hk_free(crew);
+    hk_free(seat);
     return NULL;
   }
   crew->seat = seat;
   if (begin(crew, members) == HOOKE_OK) return crew;
-  hooke_crew_destroy(crew);
+  hk_crew_destroy(crew);
   return NULL;
 }
 
-void hooke_crew_destroy(struct hooke_crew *crew) {
+void hk_crew_destroy(struct hk_crew *crew) {
   if (crew == NULL) return;
   if (crew->process == getpid()) end(crew);
-  hooke_free(crew->seat);
-  hooke_free(crew);
+  hk_free(crew->seat);
+  hk_free(crew);
 }
 
-int32_t hooke_crew_members(const struct hooke_crew *crew) {
+int32_t hk_crew_members(const struct hk_crew *crew) {
   return crew ? crew->members : 1;
 }
 
-void hooke_crew_run(struct hooke_crew *crew, hooke_crew_work *work, void *ctx) {
+void hk_crew_run(struct hk_crew *crew, hk_crew_work *work, void *ctx) {
   if (crew == NULL || crew->members == 1) {
     work(0, 1, ctx);
     return;
   }
   crew->work = work;
   crew->ctx = ctx;
-  hooke_crew_meet(crew);
+  hk_crew_meet(crew);
   work(0, crew->members, ctx);
-  hooke_crew_meet(crew);
+  hk_crew_meet(crew);
 }

@@ -5,37 +5,37 @@
 
 #include <stdint.h>
 
-struct hooke_crew;
+struct hk_crew;
 
 /* What member 0 (the caller's thread), 1, .. members - 1 each do. No message of a failure crosses: a member that fails
- * says so in ctx, and the caller of hooke_crew_run() reports it. */
-typedef void hooke_crew_work(int32_t member, int32_t members, void *ctx);
+ * says so in ctx, and the caller of hk_crew_run() reports it. */
+typedef void hk_crew_work(int32_t member, int32_t members, void *ctx);
 
 /* `members` >= 1; NULL without memory or threads. A crew of 1 has no thread of its own. */
-struct hooke_crew *hooke_crew_create(int32_t members);
+struct hk_crew *hk_crew_create(int32_t members);
 /* NULL is allowed. */
-void hooke_crew_destroy(struct hooke_crew *crew);
+void hk_crew_destroy(struct hk_crew *crew);
 
 /* After fork() the threads are those of the parent: a child gets its own here, before anything else is asked of the crew.
  * HOOKE_NO_MEMORY without threads. NULL is allowed. */
-int32_t hooke_crew_renew(struct hooke_crew *crew);
+int32_t hk_crew_renew(struct hk_crew *crew);
 
 /* How many processors this process may use. */
-int32_t hooke_crew_processors(void);
+int32_t hk_crew_processors(void);
 
 /* 1 if crew is NULL. */
-int32_t hooke_crew_members(const struct hooke_crew *crew);
+int32_t hk_crew_members(const struct hk_crew *crew);
 
 /* Every member does the work; returns when all have. By one thread at a time, and not from within. With crew NULL the caller
  * does it alone. */
-void hooke_crew_run(struct hooke_crew *crew, hooke_crew_work *work, void *ctx);
+void hk_crew_run(struct hk_crew *crew, hk_crew_work *work, void *ctx);
 
 /* From within the work: waits until every member is here. What any wrote before, all see after. */
-void hooke_crew_meet(struct hooke_crew *crew);
+void hk_crew_meet(struct hk_crew *crew);
 
-/* Member m of `members` has elements hooke_crew_share(count, unit, m, members) up to that of m + 1: near equal shares of
+/* Member m of `members` has elements hk_crew_share(count, unit, m, members) up to that of m + 1: near equal shares of
  * whole units, which depend on nothing else. */
-static inline int64_t hooke_crew_share(int64_t count, int64_t unit, int32_t member, int32_t members) {
+static inline int64_t hk_crew_share(int64_t count, int64_t unit, int32_t member, int32_t members) {
   const int64_t units = (count + unit - 1) / unit, at = units * member / members * unit;
   return at < count ? at : count;
 }

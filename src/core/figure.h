@@ -6,13 +6,13 @@
 #include <stddef.h>
 #include <string.h>
 
-struct hooke_figure {
+struct hk_figure {
   const char *name;
   double value;
 };
 
 /* The value of that name among `count`, NaN where there is none. */
-static inline double hooke_figure_find(const struct hooke_figure *figure, size_t count, const char *name) {
+static inline double hk_figure_find(const struct hk_figure *figure, size_t count, const char *name) {
   for (size_t k = 0; k < count; k++) {
     if (strcmp(figure[k].name, name) == 0) return figure[k].value;
   }
@@ -20,7 +20,6 @@ static inline double hooke_figure_find(const struct hooke_figure *figure, size_t
 }
 
 /* The same in an array. */
-#define HOOKE_FIGURE(figures, name)                                                                          \
-  hooke_figure_find((figures), sizeof(figures) / sizeof((figures)[0]), (name))
+#define HOOKE_FIGURE(figures, name) hk_figure_find((figures), sizeof(figures) / sizeof((figures)[0]), (name))
 
 #endif

@@ -31,8 +31,8 @@ static struct entry **find(const struct entry *entry) {
   return link;
 }
 
-void *hooke_handle_new(const char *type, size_t size) {
-  struct entry *entry = hooke_new(1, sizeof *entry + size);
+void *hk_handle_new(const char *type, size_t size) {
+  struct entry *entry = hk_new(1, sizeof *entry + size);
   if (entry == NULL) return NULL;
   entry->type = type;
   pthread_mutex_lock(&mutex);
@@ -43,17 +43,17 @@ void *hooke_handle_new(const char *type, size_t size) {
   return entry + 1;
 }
 
-void hooke_handle_free(void *object) {
+void hk_handle_free(void *object) {
   if (object == NULL) return;
   struct entry *entry = (struct entry *)object - 1;
   pthread_mutex_lock(&mutex);
   struct entry **link = find(entry);
   if (*link) *link = entry->next;
   pthread_mutex_unlock(&mutex);
-  hooke_free(entry);
+  hk_free(entry);
 }
 
-int32_t hooke_handle_is(const void *object, const char *type, const char *function, const char *argument) {
+int32_t hk_handle_is(const void *object, const char *type, const char *function, const char *argument) {
   const char *found = NULL;
   if (object) {
     const uintptr_t before = (uintptr_t)object - sizeof(struct entry);
@@ -64,17 +64,17 @@ int32_t hooke_handle_is(const void *object, const char *type, const char *functi
   }
   if (found && strcmp(found, type) == 0) return 1;
   if (object == NULL)
-    hooke_fail(HOOKE_BAD_CALL, argument, "is NULL; %s() needs a %s", function, type);
+    hk_fail(HOOKE_BAD_CALL, argument, "is NULL; %s() needs a %s", function, type);
   else if (found)
-    hooke_fail(HOOKE_BAD_CALL, argument, "is a %s; %s() needs a %s", found, function, type);
+    hk_fail(HOOKE_BAD_CALL, argument, "is a %s; %s() needs a %s", found, function, type);
   else
-    hooke_fail(HOOKE_BAD_CALL, argument, "is no %s: it was destroyed, or never made; in a call of %s()", type,
-               function);
+    hk_fail(HOOKE_BAD_CALL, argument, "is no %s: it was destroyed, or never made; in a call of %s()", type,
+            function);
   return 0;
 }
 
 #else
 
-typedef int hooke_handle_nothing; /* a file of C has to have something */
+typedef int hk_handle_nothing; /* a file of C has to have something */
 
 #endif

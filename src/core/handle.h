@@ -7,18 +7,18 @@
 
 #if HOOKE_CHECK_HANDLES
 
-/* hooke_new(1, size), alive as a `type` ("hooke_state") until hooke_handle_free(), which takes NULL. */
-void *hooke_handle_new(const char *type, size_t size);
-void hooke_handle_free(void *object);
+/* hk_new(1, size), alive as a `type` ("hooke_state") until hk_handle_free(), which takes NULL. */
+void *hk_handle_new(const char *type, size_t size);
+void hk_handle_free(void *object);
 
 /* 1 if `object`, which may be any address, is alive and of that type; else 0, with the message that `function` cannot take
  * it as `argument`. */
-int32_t hooke_handle_is(const void *object, const char *type, const char *function, const char *argument);
+int32_t hk_handle_is(const void *object, const char *type, const char *function, const char *argument);
 
 #else
 
-#define hooke_handle_new(type, size) hooke_new(1, (size))
-#define hooke_handle_free(object)    hooke_free(object)
+#define hk_handle_new(type, size) hk_new(1, (size))
+#define hk_handle_free(object)    hk_free(object)
 
 #endif
 #endif

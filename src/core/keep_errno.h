@@ -4,12 +4,11 @@
 
 #include <errno.h>
 
-static inline void hooke_put_errno_back(const int *kept) {
+static inline void hk_put_errno_back(const int *kept) {
   errno = *kept;
 }
 
 /* Where this stands among the declarations of a function, errno is at its end what it is here. */
-#define HOOKE_KEEP_ERRNO                                                                                     \
-  __attribute__((cleanup(hooke_put_errno_back), unused)) const int hooke_kept_errno = errno
+#define HOOKE_KEEP_ERRNO __attribute__((cleanup(hk_put_errno_back), unused)) const int hk_kept_errno = errno
 
 #endif

@@ -8,14 +8,14 @@
 enum { ALIGNMENT = 64 };
 
 static void no_memory(int64_t count, size_t size) {
-  hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %lld elements of %zu bytes", (long long)count, size);
+  hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %lld elements of %zu bytes", (long long)count, size);
 }
 
 static size_t whole_lines(int64_t count, size_t size) {
   return ((size_t)count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
 }
 
-void *hooke_reserve(int64_t count, size_t size) {
+void *hk_reserve(int64_t count, size_t size) {
   HOOKE_KEEP_ERRNO;
   if (count < 0 || (uint64_t)count > (PTRDIFF_MAX - ALIGNMENT) / size) {
     no_memory(count, size);
@@ -26,22 +26,22 @@ void *hooke_reserve(int64_t count, size_t size) {
   return block;
 }
 
-void *hooke_new(int64_t count, size_t size) {
-  void *block = hooke_reserve(count, size);
+void *hk_new(int64_t count, size_t size) {
+  void *block = hk_reserve(count, size);
   if (block) memset(block, 0, whole_lines(count, size));
   return block;
 }
 
-int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size) {
-  void *larger = hooke_new(capacity, size);
+int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size) {
+  void *larger = hk_new(capacity, size);
   if (larger == NULL) return HOOKE_NO_MEMORY;
   if (used > 0) memcpy(larger, *block, (size_t)used * size);
-  hooke_free(*block);
+  hk_free(*block);
   *block = larger;
   return HOOKE_OK;
 }
 
-char *hooke_copy_text(const char *text) {
+char *hk_copy_text(const char *text) {
   HOOKE_KEEP_ERRNO;
   if (text == NULL) text = "";
   const size_t size = strlen(text) + 1;
@@ -50,6 +50,6 @@ char *hooke_copy_text(const char *text) {
   return copy ? memcpy(copy, text, size) : NULL;
 }
 
-void hooke_free(void *block) {
+void hk_free(void *block) {
   free(block);
 }

@@ -14,18 +14,18 @@
 /* `count` zeroed elements of `size` bytes, aligned to 64 bytes and padded to a multiple of them; NULL, with
  * the message recorded, if there is no memory or the product does not fit. A count of 0 gives a valid block.
  */
-void *hooke_new(int64_t count, size_t size);
+void *hk_new(int64_t count, size_t size);
 
 /* The same, not zeroed: pages come to be near the processor of the thread that first writes to them. */
-void *hooke_reserve(int64_t count, size_t size);
+void *hk_reserve(int64_t count, size_t size);
 
 /* Like realloc: grows `*block` to `capacity` elements of `size`, keeping the first `used`; HOOKE_NO_MEMORY
  * leaves it. */
-int32_t hooke_grow(void **block, int64_t used, int64_t capacity, size_t size);
+int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size);
 
 /* A copy of a string, "" of NULL, aligned as malloc() does; NULL, with the message recorded, if there is no memory. */
-char *hooke_copy_text(const char *text);
+char *hk_copy_text(const char *text);
 
-void hooke_free(void *block);
+void hk_free(void *block);
 
 #endif

@@ -58,7 +58,7 @@ static int is_number(const char *text, int64_t length, int64_t *point, int *nonz
   return at == length;
 }
 
-enum hooke_number_result hooke_number_parse(const char *text, int64_t length, double *value) {
+enum hk_number_result hk_number_parse(const char *text, int64_t length, double *value) {
   HOOKE_KEEP_ERRNO;
   int64_t point = -1;
   int nonzero = 0;
@@ -66,7 +66,7 @@ enum hooke_number_result hooke_number_parse(const char *text, int64_t length, do
   char local_point[POINT_SIZE], buffer[SHORT_NUMBER + POINT_SIZE];
   size_t point_bytes = point < 0 ? 0 : decimal_point(local_point);
   char *copy = buffer;
-  if (length >= SHORT_NUMBER) copy = hooke_new(length + POINT_SIZE, 1);
+  if (length >= SHORT_NUMBER) copy = hk_new(length + POINT_SIZE, 1);
   if (copy == NULL) return HOOKE_NUMBER_NO_MEMORY;
   size_t before = point < 0 ? (size_t)length : (size_t)point;
   memcpy(copy, text, before);
@@ -78,14 +78,14 @@ enum hooke_number_result hooke_number_parse(const char *text, int64_t length, do
     copy[before + point_bytes + after] = '\0';
   }
   double number = strtod(copy, NULL);
-  if (copy != buffer) hooke_free(copy);
+  if (copy != buffer) hk_free(copy);
   if (!isfinite(number)) return HOOKE_NUMBER_TOO_LARGE;
   if (nonzero && number == 0) return HOOKE_NUMBER_TOO_SMALL;
   *value = number;
   return HOOKE_NUMBER_FINE;
 }
 
-void hooke_number_print(double value, char *text) {
+void hk_number_print(double value, char *text) {
   HOOKE_KEEP_ERRNO;
   int precision = 15;
   do {

@@ -4,7 +4,7 @@
 
 #include "hooke/base.h"
 
-enum hooke_number_result {
+enum hk_number_result {
   HOOKE_NUMBER_FINE,
   HOOKE_NUMBER_JUNK, /* not a decimal number from first to last character (nan, inf and hexadecimal neither)
                       */
@@ -15,10 +15,10 @@ enum hooke_number_result {
 
 /* Reads `length` characters: sign, digits with at most one point, exponent; no blanks. `value` is set if
  * fine. */
-enum hooke_number_result hooke_number_parse(const char *text, int64_t length, double *value);
+enum hk_number_result hk_number_parse(const char *text, int64_t length, double *value);
 
 /* The shortest text that reads back to the same bits; `text` has room for HOOKE_NUMBER_SIZE characters. */
 enum { HOOKE_NUMBER_SIZE = 40 };
-void hooke_number_print(double value, char *text);
+void hk_number_print(double value, char *text);
 
 #endif

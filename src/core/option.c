@@ -13,22 +13,22 @@ enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
 
 /* One row of the table or of a family in it, flattened: a family is followed by its members. */
 struct slot {
-  const struct hooke_option_row *row;
+  const struct hk_option_row *row;
   int64_t family;   /* slot of the family that it belongs to; -1: none */
   const char *name; /* with dots: the row's own, or one of `names` */
   char *allowed;    /* NULL until it is asked for */
   int32_t is_set;
-  struct hooke_option_value value, fallback;
+  struct hk_option_value value, fallback;
 };
 
 struct hooke_options {
-  const struct hooke_option_table *table;
+  const struct hk_option_table *table;
   int64_t slot_count;
   struct slot *slot;
   char *names; /* of members of families, one after the other */
 };
 
-static int64_t count_rows(const struct hooke_option_table *table) {
+static int64_t count_rows(const struct hk_option_table *table) {
   int64_t count = table->row_count;
   for (int32_t k = 0; k < table->row_count; k++)
     if (table->rows[k].family) count += count_rows(table->rows[k].family);
@@ -36,7 +36,7 @@ static int64_t count_rows(const struct hooke_option_table *table) {
 }
 
 /* Bytes that the dotted names of the members of families take, behind a prefix of so many. */
-static int64_t name_bytes(const struct hooke_option_table *table, int64_t prefix) {
+static int64_t name_bytes(const struct hk_option_table *table, int64_t prefix) {
   int64_t bytes = 0;
   for (int32_t k = 0; k < table->row_count; k++) {
     const int64_t length = prefix + (int64_t)strlen(table->rows[k].name);
@@ -47,10 +47,10 @@ static int64_t name_bytes(const struct hooke_option_table *table, int64_t prefix
 }
 
 /* `names` is where the next name goes; it is moved on. */
-static int32_t fill_slots(hooke_options *options, const struct hooke_option_table *table, int64_t family,
+static int32_t fill_slots(hooke_options *options, const struct hk_option_table *table, int64_t family,
                           char **names) {
   for (int32_t k = 0; k < table->row_count; k++) {
-    const struct hooke_option_row *row = &table->rows[k];
+    const struct hk_option_row *row = &table->rows[k];
     const int64_t at = options->slot_count++;
     struct slot *slot = &options->slot[at];
     slot->row = row;
@@ -61,20 +61,20 @@ static int32_t fill_slots(hooke_options *options, const struct hooke_option_tabl
       *names += sprintf(*names, "%s.%s", options->slot[family].name, row->name) + 1;
     }
     int32_t status = HOOKE_OK;
-    if (row->fallback) status = hooke_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
+    if (row->fallback) status = hk_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
     if (status == HOOKE_OK && row->family) status = fill_slots(options, row->family, at, names);
     if (status) return status;
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_options_create(const struct hooke_option_table *table, hooke_options **options) {
+int32_t hk_options_create(const struct hk_option_table *table, hooke_options **options) {
   *options = NULL;
-  hooke_options *made = hooke_handle_new("hooke_options", sizeof *made);
+  hooke_options *made = hk_handle_new("hooke_options", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->table = table;
-  made->slot = hooke_new(count_rows(table), sizeof *made->slot);
-  char *names = made->names = hooke_reserve(name_bytes(table, 0), 1);
+  made->slot = hk_new(count_rows(table), sizeof *made->slot);
+  char *names = made->names = hk_reserve(name_bytes(table, 0), 1);
   int32_t status = made->slot && names ? fill_slots(made, table, -1, &names) : HOOKE_NO_MEMORY;
   if (status)
     hooke_options_destroy(made);
@@ -87,20 +87,20 @@ void hooke_options_destroy(hooke_options *options) {
   if (options == NULL) return;
   for (int64_t k = 0; options->slot && k < options->slot_count; k++) {
     struct slot *slot = &options->slot[k];
-    hooke_option_value_clear(&slot->value);
-    hooke_option_value_clear(&slot->fallback);
-    hooke_free(slot->allowed);
+    hk_option_value_clear(&slot->value);
+    hk_option_value_clear(&slot->fallback);
+    hk_free(slot->allowed);
   }
-  hooke_free(options->slot);
-  hooke_free(options->names);
-  hooke_handle_free(options);
+  hk_free(options->slot);
+  hk_free(options->names);
+  hk_handle_free(options);
 }
 
 int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
-  int32_t status = hooke_options_create(options->table, copy);
+  int32_t status = hk_options_create(options->table, copy);
   for (int64_t k = 0; status == HOOKE_OK && k < options->slot_count; k++) {
     (*copy)->slot[k].is_set = options->slot[k].is_set;
-    status = hooke_option_value_copy(&options->slot[k].value, &(*copy)->slot[k].value);
+    status = hk_option_value_copy(&options->slot[k].value, &(*copy)->slot[k].value);
   }
   if (status) {
     hooke_options_destroy(*copy);
@@ -109,21 +109,20 @@ int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
   return status;
 }
 
-const struct hooke_option_table *hooke_options_table(const hooke_options *options) {
+const struct hk_option_table *hk_options_table(const hooke_options *options) {
   return options->table;
 }
 
-int32_t hooke_options_require(const hooke_options *options, const struct hooke_option_table *table,
-                              const char *place, const char *maker) {
+int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
+                           const char *place, const char *maker) {
   if (options && options->table == table) return HOOKE_OK;
-  if (options == NULL) return hooke_fail(HOOKE_BAD_VALUE, place, "are missing; make them with %s", maker);
-  return hooke_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name,
-                    maker);
+  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, place, "are missing; make them with %s", maker);
+  return hk_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name, maker);
 }
 
 /* The row that `name` begins with, up to the end or a dot. */
-static const struct hooke_option_row *find_first(const struct hooke_option_table *table, const char *name,
-                                                 const char **rest) {
+static const struct hk_option_row *find_first(const struct hk_option_table *table, const char *name,
+                                              const char **rest) {
   size_t length = strcspn(name, ".");
   *rest = name[length] ? name + length + 1 : NULL;
   for (int32_t k = 0; k < table->row_count; k++)
@@ -132,9 +131,9 @@ static const struct hooke_option_row *find_first(const struct hooke_option_table
   return NULL;
 }
 
-const struct hooke_option_row *hooke_options_find(const struct hooke_option_table *table, const char *name) {
+const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name) {
   while (table && name) {
-    const struct hooke_option_row *row = find_first(table, name, &name);
+    const struct hk_option_row *row = find_first(table, name, &name);
     if (row == NULL || name == NULL) return row;
     table = row->family;
   }
@@ -143,18 +142,18 @@ const struct hooke_option_row *hooke_options_find(const struct hooke_option_tabl
 
 /* Says which part of a dotted name is unknown, and what there is at that place. */
 static int32_t fail_unknown(const hooke_options *options, const char *name) {
-  const struct hooke_option_table *table = options->table;
+  const struct hk_option_table *table = options->table;
   const char *part = name;
   for (const char *rest = NULL;; part = rest) {
-    const struct hooke_option_row *row = find_first(table, part, &rest);
+    const struct hk_option_row *row = find_first(table, part, &rest);
     if (row == NULL) break;
     if (row->family == NULL || rest == NULL)
-      return hooke_fail(HOOKE_BAD_VALUE, name, "%s has no members", row->name);
+      return hk_fail(HOOKE_BAD_VALUE, name, "%s has no members", row->name);
     table = row->family;
   }
   char wanted[NAME_SIZE];
   snprintf(wanted, sizeof wanted, "%.*s", (int)strcspn(part, "."), part);
-  return hooke_option_unknown(table, NULL, table->name, "option", wanted);
+  return hk_option_unknown(table, NULL, table->name, "option", wanted);
 }
 
 static struct slot *find_slot(const hooke_options *options, const char *name) {
@@ -168,14 +167,13 @@ static struct slot *find_slot(const hooke_options *options, const char *name) {
 static int32_t require_slot(const hooke_options *options, const char *name, struct slot **slot) {
   *slot = find_slot(options, name);
   if (*slot) return HOOKE_OK;
-  if (options == NULL || name == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no options or no name given");
+  if (options == NULL || name == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no options or no name given");
   return fail_unknown(options, name);
 }
 
 /* Takes over `value`, and makes the families around it present. */
-static void put(hooke_options *options, struct slot *slot, const struct hooke_option_value *value) {
-  hooke_option_value_clear(&slot->value);
+static void put(hooke_options *options, struct slot *slot, const struct hk_option_value *value) {
+  hk_option_value_clear(&slot->value);
   slot->value = *value;
   slot->is_set = 1;
   for (int64_t family = slot->family; family >= 0; family = options->slot[family].family)
@@ -187,9 +185,9 @@ int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int6
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   if (count < 0 || (count > 0 && values == NULL))
-    return hooke_fail(HOOKE_BAD_VALUE, name, "no numbers given (count %lld)", (long long)count);
-  struct hooke_option_value value;
-  int32_t status = hooke_option_value_from_numbers(slot->row, slot->name, count, values, &value);
+    return hk_fail(HOOKE_BAD_VALUE, name, "no numbers given (count %lld)", (long long)count);
+  struct hk_option_value value;
+  int32_t status = hk_option_value_from_numbers(slot->row, slot->name, count, values, &value);
   if (status == HOOKE_OK) put(options, slot, &value);
   return status;
 }
@@ -201,33 +199,33 @@ int32_t hooke_options_set_number(hooke_options *options, const char *name, doubl
 int32_t hooke_options_set_text(hooke_options *options, const char *name, const char *text) {
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
-  if (text == NULL) return hooke_fail(HOOKE_BAD_VALUE, name, "no text given");
-  struct hooke_option_value value;
-  int32_t status = hooke_option_value_from_text(slot->row, slot->name, text, &value);
+  if (text == NULL) return hk_fail(HOOKE_BAD_VALUE, name, "no text given");
+  struct hk_option_value value;
+  int32_t status = hk_option_value_from_text(slot->row, slot->name, text, &value);
   if (status == HOOKE_OK) put(options, slot, &value);
   return status;
 }
 
-int32_t hooke_options_add_word(hooke_options *options, const char *name, const char *word) {
+int32_t hk_options_add_word(hooke_options *options, const char *name, const char *word) {
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   size_t length = strlen(word);
-  if (!slot->row->word_lists || !hooke_option_has_word(slot->row->words, word, (int64_t)length)) {
+  if (!slot->row->word_lists || !hk_option_has_word(slot->row->words, word, (int64_t)length)) {
     char shown[HOOKE_OPTION_SHOWN], allowed[TEXT_SIZE];
-    hooke_option_show(word, (int64_t)length, shown);
-    hooke_option_describe(slot->row, allowed, sizeof allowed);
-    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown, allowed);
+    hk_option_show(word, (int64_t)length, shown);
+    hk_option_describe(slot->row, allowed, sizeof allowed);
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown, allowed);
   }
   size_t used = slot->value.words ? strlen(slot->value.words) : 0;
-  char *words = hooke_new((int64_t)(used + length + 2), 1);
+  char *words = hk_new((int64_t)(used + length + 2), 1);
   if (words == NULL) return HOOKE_NO_MEMORY;
   if (used) {
     memcpy(words, slot->value.words, used);
     words[used++] = ' ';
   }
   memcpy(words + used, word, length);
-  struct hooke_option_value value = slot->value;
-  hooke_free(value.words);
+  struct hk_option_value value = slot->value;
+  hk_free(value.words);
   value.words = words;
   memset(&slot->value, 0, sizeof slot->value);
   put(options, slot, &value);
@@ -237,11 +235,11 @@ int32_t hooke_options_add_word(hooke_options *options, const char *name, const c
 int32_t hooke_options_unset(hooke_options *options, const char *name) {
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
-  hooke_option_value_clear(&slot->value);
+  hk_option_value_clear(&slot->value);
   slot->is_set = 0;
   int64_t family = slot - options->slot;
   for (int64_t k = family + 1; k < options->slot_count && options->slot[k].family >= family; k++) {
-    hooke_option_value_clear(&options->slot[k].value);
+    hk_option_value_clear(&options->slot[k].value);
     options->slot[k].is_set = 0;
   }
   return HOOKE_OK;
@@ -252,13 +250,13 @@ int32_t hooke_options_is_set(const hooke_options *options, const char *name) {
   return slot ? slot->is_set : 0;
 }
 
-int32_t hooke_options_has_family(const hooke_options *options, const char *name) {
+int32_t hk_options_has_family(const hooke_options *options, const char *name) {
   const struct slot *slot = find_slot(options, name);
   return slot && slot->row->type == HOOKE_OPTION_FAMILY && slot->is_set;
 }
 
-static const struct hooke_option_value *value_of(const hooke_options *options, const char *name) {
-  static const struct hooke_option_value nothing;
+static const struct hk_option_value *value_of(const hooke_options *options, const char *name) {
+  static const struct hk_option_value nothing;
   const struct slot *slot = find_slot(options, name);
   if (slot == NULL) return &nothing;
   return slot->is_set ? &slot->value : &slot->fallback;
@@ -269,11 +267,11 @@ int64_t hooke_options_number_count(const hooke_options *options, const char *nam
 }
 
 const double *hooke_options_numbers(const hooke_options *options, const char *name) {
-  return hooke_option_value_numbers(value_of(options, name));
+  return hk_option_value_numbers(value_of(options, name));
 }
 
 double hooke_options_number(const hooke_options *options, const char *name) {
-  const struct hooke_option_value *value = value_of(options, name);
+  const struct hk_option_value *value = value_of(options, name);
   return value->count ? value->one : NAN;
 }
 
@@ -282,16 +280,16 @@ const char *hooke_options_text(const hooke_options *options, const char *name) {
   return words ? words : "";
 }
 
-int32_t hooke_options_check_required(const hooke_options *options) {
+int32_t hk_options_check_required(const hooke_options *options) {
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct slot *slot = &options->slot[k];
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
     const char *unit = slot->row->unit ? slot->row->unit : "";
     char allowed[TEXT_SIZE];
-    hooke_option_describe(slot->row, allowed, sizeof allowed);
-    return hooke_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s", allowed,
-                      unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+    hk_option_describe(slot->row, allowed, sizeof allowed);
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s", allowed,
+                   unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
   }
   return HOOKE_OK;
 }
@@ -300,7 +298,7 @@ int64_t hooke_options_row_count(const hooke_options *options) {
   return options->slot_count;
 }
 
-static const char *type_name(enum hooke_option_type type) {
+static const char *type_name(enum hk_option_type type) {
   switch (type) {
   case HOOKE_OPTION_NUMBER:
     return "number";
@@ -322,8 +320,8 @@ static const char *type_name(enum hooke_option_type type) {
 static const char *allowed_of(struct slot *slot) {
   char allowed[TEXT_SIZE];
   if (slot->allowed) return slot->allowed;
-  hooke_option_describe(slot->row, allowed, sizeof allowed);
-  return slot->allowed = hooke_copy_text(allowed);
+  hk_option_describe(slot->row, allowed, sizeof allowed);
+  return slot->allowed = hk_copy_text(allowed);
 }
 
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
@@ -352,7 +350,7 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
 
 double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property) {
   if (row < 0 || row >= options->slot_count || property == NULL) return NAN;
-  const struct hooke_option_row *of = options->slot[row].row;
+  const struct hk_option_row *of = options->slot[row].row;
   const int bounded = of->low < of->high, counted = of->type == HOOKE_OPTION_NUMBERS;
   const struct {
     const char *name;

@@ -5,7 +5,7 @@
 
 #include "hooke/options.h"
 
-enum hooke_option_type {
+enum hk_option_type {
   HOOKE_OPTION_NUMBER,  /* one number */
   HOOKE_OPTION_NUMBERS, /* min_count to max_count numbers */
   HOOKE_OPTION_FLAG,    /* true or false, held as 1 or 0 */
@@ -14,11 +14,11 @@ enum hooke_option_type {
   HOOKE_OPTION_FAMILY   /* a nested table */
 };
 
-struct hooke_option_table;
+struct hk_option_table;
 
-struct hooke_option_row {
+struct hk_option_row {
   const char *name;
-  enum hooke_option_type type;
+  enum hk_option_type type;
   const char *unit;
   const char *fallback; /* as text; NULL: none */
   double low, high;     /* bounds of every number, both included; equal: no bounds */
@@ -30,55 +30,55 @@ struct hooke_option_row {
   const char *words; /* separated by blanks: the words that may stand instead of numbers, or the choices */
   int32_t
       word_lists; /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
-  const struct hooke_option_table *family;
+  const struct hk_option_table *family;
   const char *doc;
   const char *example; /* as text: a value for a first try */
 };
 
-struct hooke_option_table {
+struct hk_option_table {
   const char *name; /* what is configured: "rope", "run" */
-  const struct hooke_option_row *rows;
+  const struct hk_option_row *rows;
   int32_t row_count;
 };
 
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
 
-int32_t hooke_options_create(const struct hooke_option_table *table, hooke_options **options);
+int32_t hk_options_create(const struct hk_option_table *table, hooke_options **options);
 
-const struct hooke_option_table *hooke_options_table(const hooke_options *options);
+const struct hk_option_table *hk_options_table(const hooke_options *options);
 
 /* HOOKE_BAD_VALUE, as the argument `place`, unless these are options of that table, as `maker` ("hooke_run_options_create()")
  * makes them. NULL is refused. */
-int32_t hooke_options_require(const hooke_options *options, const struct hooke_option_table *table,
-                              const char *place, const char *maker);
+int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
+                           const char *place, const char *maker);
 
 /* The row of a dotted name, NULL if there is none. */
-const struct hooke_option_row *hooke_options_find(const struct hooke_option_table *table, const char *name);
+const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name);
 
 /* 1 if the family `name` was made present. */
-int32_t hooke_options_has_family(const hooke_options *options, const char *name);
+int32_t hk_options_has_family(const hooke_options *options, const char *name);
 
 /* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
-int32_t hooke_options_add_word(hooke_options *options, const char *name, const char *word);
+int32_t hk_options_add_word(hooke_options *options, const char *name, const char *word);
 
 /* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
-int32_t hooke_options_check_required(const hooke_options *options);
+int32_t hk_options_check_required(const hooke_options *options);
 
 /* 1 if `word` is one of `words`, which are separated by blanks (NULL: none). */
-int32_t hooke_option_has_word(const char *words, const char *word, int64_t length);
+int32_t hk_option_has_word(const char *words, const char *word, int64_t length);
 
 /* What a row allows, for messages: "a number > 0", "3 numbers". */
-void hooke_option_describe(const struct hooke_option_row *row, char *text, int64_t size);
+void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size);
 
 /* A caller's text made fit for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
  * most. */
 enum { HOOKE_OPTION_SHOWN = 64 };
-void hooke_option_show(const char *text, int64_t length, char *shown);
+void hk_option_show(const char *text, int64_t length, char *shown);
 
 /* Fails with HOOKE_BAD_VALUE: `name` is neither one of `others` (words, may be NULL) nor a row of `table`
  * (may be NULL). The message lists what there is and which one was probably meant. `what` is "option" or
  * "key". */
-int32_t hooke_option_unknown(const struct hooke_option_table *table, const char *others, const char *place,
-                             const char *what, const char *name);
+int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *place,
+                          const char *what, const char *name);
 
 #endif

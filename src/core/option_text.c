@@ -18,7 +18,7 @@ static void add(char *text, int64_t size, const char *format, ...) {
   size_t used = strlen(text);
   va_list args;
   va_start(args, format);
-  if ((int64_t)used < size) hooke_print_list(text + used, (size_t)size - used, format, args);
+  if ((int64_t)used < size) hk_print_list(text + used, (size_t)size - used, format, args);
   va_end(args);
 }
 
@@ -35,7 +35,7 @@ static const char *next_word(const char **rest, int64_t *length) {
   return *length ? word : NULL;
 }
 
-int32_t hooke_option_has_word(const char *words, const char *word, int64_t length) {
+int32_t hk_option_has_word(const char *words, const char *word, int64_t length) {
   int64_t candidate_length = 0;
   for (const char *candidate; (candidate = next_word(&words, &candidate_length));)
     if (candidate_length == length && memcmp(candidate, word, (size_t)length) == 0) return 1;
@@ -55,16 +55,16 @@ static void add_words(const char *words, const char *quote, char *text, int64_t 
   }
 }
 
-void hooke_option_show(const char *text, int64_t length, char *shown) {
+void hk_option_show(const char *text, int64_t length, char *shown) {
   int64_t used = 0, most = HOOKE_OPTION_SHOWN - 4;
   for (int64_t at = 0; at < length;) {
-    const int64_t bytes = hooke_utf8_character(text + at, length - at), count = bytes > 0 ? bytes : 1;
+    const int64_t bytes = hk_utf8_character(text + at, length - at), count = bytes > 0 ? bytes : 1;
     if (used + count > most) {
       memcpy(shown + used, "...", 3);
       used += 3;
       break;
     }
-    const int plain = bytes > 0 && !hooke_utf8_control(text + at, bytes);
+    const int plain = bytes > 0 && !hk_utf8_control(text + at, bytes);
     memcpy(shown + used, plain ? text + at : "?", (size_t)(plain ? bytes : 1));
     used += plain ? bytes : 1;
     at += count;
@@ -72,18 +72,18 @@ void hooke_option_show(const char *text, int64_t length, char *shown) {
   shown[used] = '\0';
 }
 
-static void add_bounds(const struct hooke_option_row *row, char *text, int64_t size) {
+static void add_bounds(const struct hk_option_row *row, char *text, int64_t size) {
   if (!(row->low < row->high)) return;
   char low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
-  hooke_number_print(row->low, low);
-  hooke_number_print(row->high, high);
+  hk_number_print(row->low, low);
+  hk_number_print(row->high, high);
   /* bounds that only keep arithmetic finite are nobody's concern */
   int has_low = row->low > -1e300, has_high = row->high < 1e300;
   if (has_low) add(text, size, " %s %s", row->above_low ? ">" : ">=", low);
   if (has_high) add(text, size, "%s<= %s", has_low ? " and " : " ", high);
 }
 
-static void add_count(const struct hooke_option_row *row, char *text, int64_t size) {
+static void add_count(const struct hk_option_row *row, char *text, int64_t size) {
   long long columns = row->columns > 1 ? row->columns : 1;
   long long least = row->min_count / columns, most = row->max_count / columns;
   const char *what = columns > 1 ? "row" : row->whole ? "whole number" : "number";
@@ -104,7 +104,7 @@ static void add_count(const struct hooke_option_row *row, char *text, int64_t si
         plural ? " each" : "");
 }
 
-void hooke_option_describe(const struct hooke_option_row *row, char *text, int64_t size) {
+void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size) {
   text[0] = '\0';
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
@@ -169,8 +169,8 @@ static void consider(struct nearest *nearest, const char *wanted, const char *na
   }
 }
 
-int32_t hooke_option_unknown(const struct hooke_option_table *table, const char *others, const char *place,
-                             const char *what, const char *name) {
+int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *place,
+                          const char *what, const char *name) {
   char list[LIST_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
   struct nearest nearest = {.distance = strlen(name) > 5 ? 4 : 3};
   int64_t length = 0;
@@ -183,9 +183,9 @@ int32_t hooke_option_unknown(const struct hooke_option_table *table, const char 
     add(list, sizeof list, "%s%s", joint, table->rows[k].name);
     consider(&nearest, name, table->rows[k].name, (int64_t)strlen(table->rows[k].name));
   }
-  hooke_option_show(name, (int64_t)strlen(name), shown);
+  hk_option_show(name, (int64_t)strlen(name), shown);
   if (nearest.name[0])
-    return hooke_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; did you mean \"%s\"? allowed: %s", what,
-                      shown, nearest.name, list);
-  return hooke_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; allowed: %s", what, shown, list);
+    return hk_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; did you mean \"%s\"? allowed: %s", what, shown,
+                   nearest.name, list);
+  return hk_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; allowed: %s", what, shown, list);
 }

@@ -12,19 +12,19 @@ enum { ALLOWED_SIZE = 512 };
 
 static const double largest_whole = 9007199254740992.0; /* 2^53: every smaller whole number is exact */
 
-void hooke_option_value_clear(struct hooke_option_value *value) {
-  hooke_free(value->many);
-  hooke_free(value->words);
+void hk_option_value_clear(struct hk_option_value *value) {
+  hk_free(value->many);
+  hk_free(value->words);
   memset(value, 0, sizeof *value);
 }
 
-int32_t hooke_option_value_copy(const struct hooke_option_value *from, struct hooke_option_value *to) {
-  struct hooke_option_value copy = {.count = from->count, .one = from->one};
-  if (from->words && (copy.words = hooke_copy_text(from->words)) == NULL) return HOOKE_NO_MEMORY;
+int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to) {
+  struct hk_option_value copy = {.count = from->count, .one = from->one};
+  if (from->words && (copy.words = hk_copy_text(from->words)) == NULL) return HOOKE_NO_MEMORY;
   if (from->many) {
-    copy.many = hooke_new(from->count, sizeof(double));
+    copy.many = hk_new(from->count, sizeof(double));
     if (copy.many == NULL) {
-      hooke_option_value_clear(&copy);
+      hk_option_value_clear(&copy);
       return HOOKE_NO_MEMORY;
     }
     memcpy(copy.many, from->many, (size_t)from->count * sizeof(double));
@@ -33,27 +33,27 @@ int32_t hooke_option_value_copy(const struct hooke_option_value *from, struct ho
   return HOOKE_OK;
 }
 
-const double *hooke_option_value_numbers(const struct hooke_option_value *value) {
+const double *hk_option_value_numbers(const struct hk_option_value *value) {
   if (value->count == 0) return NULL;
   return value->many ? value->many : &value->one;
 }
 
 /* "one number >= 0 [N]" */
-static const char *allowed(const struct hooke_option_row *row, char *text) {
-  hooke_option_describe(row, text, ALLOWED_SIZE);
+static const char *allowed(const struct hk_option_row *row, char *text) {
+  hk_option_describe(row, text, ALLOWED_SIZE);
   size_t used = strlen(text);
   if (row->unit && row->unit[0]) snprintf(text + used, ALLOWED_SIZE - used, " [%s]", row->unit);
   return text;
 }
 
-static int32_t refuse_text(const struct hooke_option_row *row, const char *place, const char *text) {
+static int32_t refuse_text(const struct hk_option_row *row, const char *place, const char *text) {
   char may[ALLOWED_SIZE], shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(text, (int64_t)strlen(text), shown);
-  return hooke_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
+  hk_option_show(text, (int64_t)strlen(text), shown);
+  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
 }
 
-static int32_t check_number(const struct hooke_option_row *row, const char *place, int64_t count,
-                            int64_t index, double number) {
+static int32_t check_number(const struct hk_option_row *row, const char *place, int64_t count, int64_t index,
+                            double number) {
   int bounded = row->low < row->high;
   int fits = isfinite(number);
   if (bounded && (number < row->low || number > row->high)) fits = 0;
@@ -62,7 +62,7 @@ static int32_t check_number(const struct hooke_option_row *row, const char *plac
   if (row->type == HOOKE_OPTION_FLAG && number != 0 && number != 1) fits = 0;
   if (fits) return HOOKE_OK;
   char may[ALLOWED_SIZE], shown[HOOKE_NUMBER_SIZE], where[ALLOWED_SIZE];
-  hooke_number_print(number, shown);
+  hk_number_print(number, shown);
   long long at = (long long)index, columns = row->columns;
   if (columns > 1)
     snprintf(where, sizeof where, "%s[%lld][%lld]", place, at / columns, at % columns);
@@ -70,10 +70,10 @@ static int32_t check_number(const struct hooke_option_row *row, const char *plac
     snprintf(where, sizeof where, "%s[%lld]", place, at);
   else
     snprintf(where, sizeof where, "%s", place);
-  return hooke_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown, allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown, allowed(row, may));
 }
 
-static int32_t check_count(const struct hooke_option_row *row, const char *place, int64_t count) {
+static int32_t check_count(const struct hk_option_row *row, const char *place, int64_t count) {
   int64_t least = row->type == HOOKE_OPTION_NUMBERS ? row->min_count : 1;
   int64_t most = row->type == HOOKE_OPTION_NUMBERS ? row->max_count : 1;
   int fits = count >= least && (most == 0 || count <= most);
@@ -82,30 +82,30 @@ static int32_t check_count(const struct hooke_option_row *row, const char *place
   char may[ALLOWED_SIZE];
   int rows = row->columns > 1 && count % row->columns == 0;
   long long given = rows ? count / row->columns : count;
-  return hooke_fail(HOOKE_BAD_VALUE, place, "%lld %s%s given; allowed: %s", given, rows ? "row" : "number",
-                    given == 1 ? "" : "s", allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, place, "%lld %s%s given; allowed: %s", given, rows ? "row" : "number",
+                 given == 1 ? "" : "s", allowed(row, may));
 }
 
 /* A whole number has one 0. */
-static void drop_signs_of_zero(struct hooke_option_value *value) {
+static void drop_signs_of_zero(struct hk_option_value *value) {
   value->one += 0.0;
   for (int64_t k = 0; value->many && k < value->count; k++)
     value->many[k] += 0.0;
 }
 
-int32_t hooke_option_value_from_numbers(const struct hooke_option_row *row, const char *place, int64_t count,
-                                        const double *numbers, struct hooke_option_value *value) {
+int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *place, int64_t count,
+                                     const double *numbers, struct hk_option_value *value) {
   memset(value, 0, sizeof *value);
   if (row->type == HOOKE_OPTION_CHOICE || row->type == HOOKE_OPTION_TEXT ||
       row->type == HOOKE_OPTION_FAMILY) {
     char may[ALLOWED_SIZE];
-    return hooke_fail(HOOKE_BAD_VALUE, place, "a number is not allowed; allowed: %s", allowed(row, may));
+    return hk_fail(HOOKE_BAD_VALUE, place, "a number is not allowed; allowed: %s", allowed(row, may));
   }
   if (check_count(row, place, count)) return HOOKE_BAD_VALUE;
   for (int64_t k = 0; k < count; k++)
     if (check_number(row, place, count, k, numbers[k])) return HOOKE_BAD_VALUE;
   if (count > 1) {
-    value->many = hooke_new(count, sizeof(double));
+    value->many = hk_new(count, sizeof(double));
     if (value->many == NULL) return HOOKE_NO_MEMORY;
     memcpy(value->many, numbers, (size_t)count * sizeof(double));
   }
@@ -115,26 +115,26 @@ int32_t hooke_option_value_from_numbers(const struct hooke_option_row *row, cons
   return HOOKE_OK;
 }
 
-static int32_t parse_number(const struct hooke_option_row *row, const char *place, const char *text,
+static int32_t parse_number(const struct hk_option_row *row, const char *place, const char *text,
                             int64_t length, double *number) {
   char shown[HOOKE_OPTION_SHOWN], may[ALLOWED_SIZE];
-  enum hooke_number_result result = hooke_number_parse(text, length, number);
-  hooke_option_show(text, length, shown);
+  enum hk_number_result result = hk_number_parse(text, length, number);
+  hk_option_show(text, length, shown);
   switch (result) {
   case HOOKE_NUMBER_FINE:
     return HOOKE_OK;
   case HOOKE_NUMBER_NO_MEMORY:
     return HOOKE_NO_MEMORY;
   case HOOKE_NUMBER_TOO_LARGE:
-    return hooke_fail(HOOKE_BAD_VALUE, place, "%s is beyond the largest number, 1.8e308; allowed: %s", shown,
-                      allowed(row, may));
+    return hk_fail(HOOKE_BAD_VALUE, place, "%s is beyond the largest number, 1.8e308; allowed: %s", shown,
+                   allowed(row, may));
   case HOOKE_NUMBER_TOO_SMALL:
-    return hooke_fail(HOOKE_BAD_VALUE, place, "%s is so small that it would become 0; allowed: %s", shown,
-                      allowed(row, may));
+    return hk_fail(HOOKE_BAD_VALUE, place, "%s is so small that it would become 0; allowed: %s", shown,
+                   allowed(row, may));
   case HOOKE_NUMBER_JUNK:
     break;
   }
-  return hooke_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
 }
 
 static int is_blank(char c) {
@@ -166,13 +166,13 @@ static int ends_with_comma(const char *text) {
 }
 
 /* Fills `numbers` and `words`, which have room for everything the text can hold. */
-static int32_t split_list(const struct hooke_option_row *row, const char *place, const char *text,
+static int32_t split_list(const struct hk_option_row *row, const char *place, const char *text,
                           double *numbers, int64_t *count, char *words, int64_t *word_count) {
   const char *piece = NULL;
   int64_t length = 0;
   size_t used = 0;
   for (const char *rest = text; next_piece(&rest, &piece, &length);) {
-    if (hooke_option_has_word(row->words, piece, length)) {
+    if (hk_option_has_word(row->words, piece, length)) {
       if (used) words[used++] = ' ';
       memcpy(words + used, piece, (size_t)length);
       used += (size_t)length;
@@ -192,41 +192,41 @@ static int32_t split_list(const struct hooke_option_row *row, const char *place,
   return HOOKE_OK;
 }
 
-static int32_t list_from_text(const struct hooke_option_row *row, const char *place, const char *text,
-                              struct hooke_option_value *value) {
+static int32_t list_from_text(const struct hk_option_row *row, const char *place, const char *text,
+                              struct hk_option_value *value) {
   int64_t room = (int64_t)strlen(text) + 1;
-  double *numbers = hooke_new(room / 2 + 1, sizeof(double));
-  char *words = hooke_new(room, 1);
+  double *numbers = hk_new(room / 2 + 1, sizeof(double));
+  char *words = hk_new(room, 1);
   int64_t count = 0, word_count = 0;
   int32_t status = numbers && words ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = split_list(row, place, text, numbers, &count, words, &word_count);
   if (status == HOOKE_OK && (word_count == 0 || count > 0))
-    status = hooke_option_value_from_numbers(row, place, count, numbers, value);
+    status = hk_option_value_from_numbers(row, place, count, numbers, value);
   if (status == HOOKE_OK && word_count > 0) {
     value->words = words;
     words = NULL;
   }
-  hooke_free(numbers);
-  hooke_free(words);
+  hk_free(numbers);
+  hk_free(words);
   return status;
 }
 
-static int32_t word_from_text(const struct hooke_option_row *row, const char *place, const char *text,
-                              struct hooke_option_value *value) {
-  if (row->type == HOOKE_OPTION_CHOICE && !hooke_option_has_word(row->words, text, (int64_t)strlen(text)))
+static int32_t word_from_text(const struct hk_option_row *row, const char *place, const char *text,
+                              struct hk_option_value *value) {
+  if (row->type == HOOKE_OPTION_CHOICE && !hk_option_has_word(row->words, text, (int64_t)strlen(text)))
     return refuse_text(row, place, text);
-  value->words = hooke_copy_text(text);
+  value->words = hk_copy_text(text);
   return value->words ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hooke_option_value_from_text(const struct hooke_option_row *row, const char *place, const char *text,
-                                     struct hooke_option_value *value) {
+int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *place, const char *text,
+                                  struct hk_option_value *value) {
   memset(value, 0, sizeof *value);
   switch (row->type) {
   case HOOKE_OPTION_NUMBER: {
     double number = 0;
     int32_t status = parse_number(row, place, text, (int64_t)strlen(text), &number);
-    return status ? status : hooke_option_value_from_numbers(row, place, 1, &number, value);
+    return status ? status : hk_option_value_from_numbers(row, place, 1, &number, value);
   }
   case HOOKE_OPTION_NUMBERS:
     return list_from_text(row, place, text, value);

@@ -5,22 +5,22 @@
 #include "core/option.h"
 
 /* Numbers and words; a single number needs no block of its own. All zeros: nothing. */
-struct hooke_option_value {
+struct hk_option_value {
   int64_t count;
   double one;
   double *many; /* NULL unless count > 1 */
   char *words;  /* text, or words separated by blanks; NULL: none */
 };
 
-void hooke_option_value_clear(struct hooke_option_value *value);
-int32_t hooke_option_value_copy(const struct hooke_option_value *from, struct hooke_option_value *to);
-const double *hooke_option_value_numbers(const struct hooke_option_value *value);
+void hk_option_value_clear(struct hk_option_value *value);
+int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to);
+const double *hk_option_value_numbers(const struct hk_option_value *value);
 
 /* What `count` numbers, or a text, mean for a row. `place` is the option's name for messages.
  * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; `value` is then left empty. */
-int32_t hooke_option_value_from_numbers(const struct hooke_option_row *row, const char *place, int64_t count,
-                                        const double *numbers, struct hooke_option_value *value);
-int32_t hooke_option_value_from_text(const struct hooke_option_row *row, const char *place, const char *text,
-                                     struct hooke_option_value *value);
+int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *place, int64_t count,
+                                     const double *numbers, struct hk_option_value *value);
+int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *place, const char *text,
+                                  struct hk_option_value *value);
 
 #endif

@@ -24,7 +24,7 @@ static void end_plain(struct plain plain) {
   freelocale(plain.locale);
 }
 
-int hooke_print_list(char *text, size_t size, const char *format, va_list args) {
+int hk_print_list(char *text, size_t size, const char *format, va_list args) {
   HOOKE_KEEP_ERRNO;
   /* glibc loses a few bytes in newlocale() where LOCPATH is set: it is called where there is something to mend */
   const struct plain plain = begin_plain(strcmp(nl_langinfo(RADIXCHAR), ".") != 0);
@@ -33,15 +33,15 @@ int hooke_print_list(char *text, size_t size, const char *format, va_list args) 
   return length;
 }
 
-int hooke_print(char *text, size_t size, const char *format, ...) {
+int hk_print(char *text, size_t size, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  const int length = hooke_print_list(text, size, format, args);
+  const int length = hk_print_list(text, size, format, args);
   va_end(args);
   return length;
 }
 
-const char *hooke_print_error(int error, char *text) {
+const char *hk_print_error(int error, char *text) {
   HOOKE_KEEP_ERRNO;
   const struct plain plain = begin_plain(1);
   if (strerror_r(error, text, HOOKE_ERROR_SIZE) != 0) snprintf(text, HOOKE_ERROR_SIZE, "error %d", error);

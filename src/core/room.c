@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-double hooke_room(const char **which) {
+double hk_room(const char **which) {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   const double physical = pages > 0 && page > 0 ? (double)pages * (double)page : (double)INFINITY;
   struct rlimit space;
@@ -18,24 +18,24 @@ double hooke_room(const char **which) {
   return fmin(physical, allowed);
 }
 
-const char *hooke_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]) {
+const char *hk_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]) {
   static const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
   size_t unit = 0;
   while (bytes >= 999.5 && unit + 1 < sizeof units / sizeof units[0]) {
     bytes /= 1000.0;
     unit++;
   }
-  hooke_print(shown, HOOKE_BYTES_SHOWN, bytes < 1e6 ? "%.3g %s" : "%.2g %s", bytes, units[unit]);
+  hk_print(shown, HOOKE_BYTES_SHOWN, bytes < 1e6 ? "%.3g %s" : "%.2g %s", bytes, units[unit]);
   return shown;
 }
 
-int32_t hooke_room_require(double limit, double bytes, const char *what) {
+int32_t hk_room_require(double limit, double bytes, const char *what) {
   const char *which = "the limit that was set";
-  const double room = limit > 0.0 ? limit : hooke_room(&which);
+  const double room = limit > 0.0 ? limit : hk_room(&which);
   if (bytes <= room) return HOOKE_OK;
   char needed[HOOKE_BYTES_SHOWN], there[HOOKE_BYTES_SHOWN];
-  return hooke_fail(HOOKE_NO_MEMORY, NULL,
-                    "%s needs %s of memory; there are %s (%s); allowed: less than that, or a higher limit "
-                    "set by the caller",
-                    what, hooke_show_bytes(bytes, needed), hooke_show_bytes(room, there), which);
+  return hk_fail(HOOKE_NO_MEMORY, NULL,
+                 "%s needs %s of memory; there are %s (%s); allowed: less than that, or a higher limit "
+                 "set by the caller",
+                 what, hk_show_bytes(bytes, needed), hk_show_bytes(room, there), which);
 }

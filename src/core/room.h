@@ -6,14 +6,14 @@
 
 /* What there is [bytes]: the physical memory, or what is left of the address space if a limit on that leaves less; `which`
  * (may be NULL) says which of the two. INFINITY where the system does not tell. */
-double hooke_room(const char **which);
+double hk_room(const char **which);
 
-/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` are more than `limit` (0: hooke_room()). */
-int32_t hooke_room_require(double limit, double bytes, const char *what);
+/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` are more than `limit` (0: hk_room()). */
+int32_t hk_room_require(double limit, double bytes, const char *what);
 
 enum { HOOKE_BYTES_SHOWN = 32 };
 
 /* "412 GB" */
-const char *hooke_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]);
+const char *hk_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]);
 
 #endif

@@ -22,7 +22,7 @@ static double short_cosine(double x) {
   return 1.0 + sum;
 }
 
-void hooke_sine_of_turns(double turns, double *sine, double *cosine) {
+void hk_sine_of_turns(double turns, double *sine, double *cosine) {
   const double quarter = 1.57079632679489661923;
   double part = turns - floor(turns); /* exact, so is the split into quarters */
   double nearest = floor(4.0 * part + 0.5);

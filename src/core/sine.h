@@ -3,6 +3,6 @@
 #define HOOKE_CORE_SINE_H
 
 /* sin and cos of 2 pi `turns`; accurate to 1e-15 for any number of turns that a double still resolves. */
-void hooke_sine_of_turns(double turns, double *sine, double *cosine);
+void hk_sine_of_turns(double turns, double *sine, double *cosine);
 
 #endif

@@ -3,9 +3,9 @@
 #include "core/print.h"
 #include "core/utf8.h"
 
-#undef hooke_fail
-#undef hooke_fail_within
-#undef hooke_fail_before
+#undef hk_fail
+#undef hk_fail_within
+#undef hk_fail_before
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -27,17 +27,17 @@ static void compose(void) {
            last.message);
 }
 
-int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
+int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
   /* the arguments may point into the record itself */
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
-  hooke_print_list(message, sizeof message, format, args);
+  hk_print_list(message, sizeof message, format, args);
   va_end(args);
   snprintf(last.place, sizeof last.place, "%s", place ? place : "");
   memcpy(last.message, message, sizeof message);
-  hooke_utf8_make_plain(last.place); /* libraries repeat what they were given, and long text is cut */
-  hooke_utf8_make_plain(last.message);
+  hk_utf8_make_plain(last.place); /* libraries repeat what they were given, and long text is cut */
+  hk_utf8_make_plain(last.message);
   last.before[0] = '\0';
   last.count++;
   last.status = status;
@@ -45,44 +45,44 @@ int32_t hooke_fail(int32_t status, const char *place, const char *format, ...) {
   return status;
 }
 
-int32_t hooke_fail_within(int32_t status, const char *format, ...) {
+int32_t hk_fail_within(int32_t status, const char *format, ...) {
   char outer[PLACE_SIZE];
   char place[2 * PLACE_SIZE];
   va_list args;
   va_start(args, format);
-  hooke_print_list(outer, sizeof outer, format, args);
+  hk_print_list(outer, sizeof outer, format, args);
   va_end(args);
   const char *joint = last.place[0] && last.place[0] != '[' ? "." : "";
   snprintf(place, sizeof place, "%s%s%s", outer, joint, last.place);
   snprintf(last.place, sizeof last.place, "%.*s", PLACE_SIZE - 1, place);
-  hooke_utf8_make_plain(last.place);
+  hk_utf8_make_plain(last.place);
   compose();
   return status;
 }
 
-int32_t hooke_fail_before(int32_t status, const char *format, ...) {
+int32_t hk_fail_before(int32_t status, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  hooke_print_list(last.before, sizeof last.before, format, args);
+  hk_print_list(last.before, sizeof last.before, format, args);
   va_end(args);
-  hooke_utf8_make_plain(last.before);
+  hk_utf8_make_plain(last.before);
   compose();
   return status;
 }
 
-int64_t hooke_fail_count(void) {
+int64_t hk_fail_count(void) {
   return last.count;
 }
 
-int32_t hooke_fail_status(void) {
+int32_t hk_fail_status(void) {
   return last.status;
 }
 
-const char *hooke_fail_place(void) {
+const char *hk_fail_place(void) {
   return last.place;
 }
 
-const char *hooke_fail_message(void) {
+const char *hk_fail_message(void) {
   return last.message;
 }
 

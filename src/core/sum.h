@@ -5,18 +5,18 @@
 
 #include <math.h>
 
-struct hooke_sum {
+struct hk_sum {
   double sum, lost;
 };
 
-static inline void hooke_sum_add(struct hooke_sum *total, double x) {
+static inline void hk_sum_add(struct hk_sum *total, double x) {
   const double sum = total->sum + x;
   total->lost += fabs(total->sum) >= fabs(x) ? (total->sum - sum) + x : (x - sum) + total->sum;
   total->sum = sum;
 }
 
 /* Beyond the largest number nothing is lost that could be named. */
-static inline double hooke_sum_value(const struct hooke_sum *total) {
+static inline double hk_sum_value(const struct hk_sum *total) {
   return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
 

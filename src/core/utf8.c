@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-int64_t hooke_utf8_character(const char *text, int64_t length) {
+int64_t hk_utf8_character(const char *text, int64_t length) {
   const unsigned char *c = (const unsigned char *)text;
   if (c[0] < 0x80) return 1;
   const int64_t bytes = c[0] >= 0xC2 && c[0] <= 0xDF   ? 2
@@ -18,7 +18,7 @@ int64_t hooke_utf8_character(const char *text, int64_t length) {
   return bytes;
 }
 
-uint32_t hooke_utf8_control(const char *text, int64_t bytes) {
+uint32_t hk_utf8_control(const char *text, int64_t bytes) {
   static const struct {
     uint32_t first, last;
   } control[] = {{0, 0x1F},        {0x7F, 0x9F},     {0x61C, 0x61C},
@@ -32,11 +32,11 @@ uint32_t hooke_utf8_control(const char *text, int64_t bytes) {
   return 0;
 }
 
-void hooke_utf8_make_plain(char *text) {
+void hk_utf8_make_plain(char *text) {
   char *end = text;
   for (int64_t left = (int64_t)strlen(text), bytes; left > 0; left -= bytes, text += bytes) {
-    bytes = hooke_utf8_character(text, left);
-    const int64_t kept = bytes == 0 || hooke_utf8_control(text, bytes) ? 0 : bytes;
+    bytes = hk_utf8_character(text, left);
+    const int64_t kept = bytes == 0 || hk_utf8_control(text, bytes) ? 0 : bytes;
     memmove(end, kept ? text : "?", (size_t)(kept ? kept : 1));
     end += kept ? kept : 1;
     if (bytes == 0) bytes = 1;

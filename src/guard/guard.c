@@ -18,7 +18,7 @@
 
 #define TEXT(text)                                                                                           \
   if ((text) == NULL)                                                                                        \
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
 /* What a function that is refused a text would have made. */
 #define MADE(object)                                                                                         \
   if (object) *(object) = NULL;
@@ -27,9 +27,9 @@
 
 #if HOOKE_CHECK_HANDLES
 #define IS(object, type, refused)                                                                            \
-  if (!hooke_handle_is((object), #type, __func__, #object)) return refused;
+  if (!hk_handle_is((object), #type, __func__, #object)) return refused;
 #define MAY_BE(object, type, refused)                                                                        \
-  if ((object) && !hooke_handle_is((object), #type, __func__, #object)) return refused;
+  if ((object) && !hk_handle_is((object), #type, __func__, #object)) return refused;
 #else
 #define IS(object, type, refused)
 #define MAY_BE(object, type, refused)

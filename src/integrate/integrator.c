@@ -17,26 +17,26 @@ static int32_t unknown_method(const char *name) {
     const size_t used = strlen(names);
     snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", hooke_method_name(k));
   }
-  return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
+  return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
 }
 
 /* An integrator with method, options and schedule, but no problem yet. */
 static int32_t create(const hooke_options *options, hooke_integrator **out) {
-  int32_t status = hooke_run_options_require(options, "options");
+  int32_t status = hk_run_options_require(options, "options");
   if (status != HOOKE_OK) return status;
   const char *name = hooke_options_text(options, "method");
-  const struct hooke_method *method = hooke_method_find(name);
+  const struct hk_method *method = hk_method_find(name);
   if (method == NULL) return unknown_method(name);
   if (!method->built) {
-    return hooke_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
-                      method->needs);
+    return hk_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
+                   method->needs);
   }
-  hooke_integrator *it = hooke_handle_new("hooke_integrator", sizeof *it);
+  hooke_integrator *it = hk_handle_new("hooke_integrator", sizeof *it);
   if (it == NULL) return HOOKE_NO_MEMORY;
   it->method = method;
   it->diverged_at = NAN;
   status = hooke_options_copy(options, &it->options);
-  if (status == HOOKE_OK) status = hooke_schedule_read(method, it->options, &it->schedule);
+  if (status == HOOKE_OK) status = hk_schedule_read(method, it->options, &it->schedule);
   if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
     status =
         hooke_options_set_number(it->options, "atol_velocity", hooke_options_number(it->options, "atol"));
@@ -59,26 +59,26 @@ static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **o
 
 static int32_t gather_crew(hooke_integrator *it) {
   const int32_t members =
-      hooke_motion_members(it->system, (int32_t)hooke_options_number(it->options, "threads"));
-  if (members > 1) it->crew = hooke_crew_create(members);
+      hk_motion_members(it->system, (int32_t)hooke_options_number(it->options, "threads"));
+  if (members > 1) it->crew = hk_crew_create(members);
   return members > 1 && it->crew == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
 int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                 hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  int32_t status = hooke_system_require_committed(system);
+  int32_t status = hk_system_require_committed(system);
   if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
-  const int32_t by_tiles = it->method->by_tiles && hooke_goes_by_tiles(system);
+  const int32_t by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
   if (!it->method->second_order) {
-    status = hooke_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
   if (status == HOOKE_OK) status = gather_crew(it);
-  if (status == HOOKE_OK) status = hooke_motion_create(system, by_tiles, it->crew, &it->motion);
-  if (status == HOOKE_OK) status = hooke_recent_create(it->size, 1, !by_tiles, &it->recent);
+  if (status == HOOKE_OK) status = hk_motion_create(system, by_tiles, it->crew, &it->motion);
+  if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !by_tiles, &it->recent);
   return finish(it, status, out);
 }
 
@@ -92,13 +92,13 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->size = size;
   if (!it->method->first_order) {
     const char *why = it->method->no_first_order;
-    status = hooke_fail(
+    status = hk_fail(
         HOOKE_UNSUITED, "method", "%s %s; take one of the methods that do not, such as rk4", it->method->name,
         why ? why : "steps positions and velocities apart, and x' = phi(t, x) has no such parts");
   }
-  if (status == HOOKE_OK) status = hooke_recent_create(size, 0, 1, &it->recent);
+  if (status == HOOKE_OK) status = hk_recent_create(size, 0, 1, &it->recent);
   if (status == HOOKE_OK) {
-    it->x = hooke_new(2 * size, sizeof(double));
+    it->x = hk_new(2 * size, sizeof(double));
     it->slope = it->x ? it->x + size : NULL;
     if (it->x == NULL) status = HOOKE_NO_MEMORY;
   }
@@ -108,14 +108,14 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
   if (it->own && it->method->destroy) it->method->destroy(it);
-  hooke_motion_destroy(it->motion);
-  hooke_crew_destroy(it->crew);
-  hooke_recent_release(&it->recent);
+  hk_motion_destroy(it->motion);
+  hk_crew_destroy(it->crew);
+  hk_recent_release(&it->recent);
   hooke_state_destroy(it->restart.state);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
-  hooke_free(it->x);
-  hooke_handle_free(it);
+  hk_free(it->x);
+  hk_handle_free(it);
 }
 
 const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {
@@ -123,23 +123,23 @@ const hooke_options *hooke_integrator_options(const hooke_integrator *integrator
 }
 
 int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
-  integrator->on_frame = (struct hooke_watch){observer, ctx, 1};
+  integrator->on_frame = (struct hk_watch){observer, ctx, 1};
   return HOOKE_OK;
 }
 
 int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
-  integrator->on_checkpoint = (struct hooke_watch){observer, ctx, 1};
+  integrator->on_checkpoint = (struct hk_watch){observer, ctx, 1};
   return HOOKE_OK;
 }
 
 static void store_good(const hooke_integrator *it, hooke_state *state) {
-  hooke_motion_store(it->motion, state->q, state->v);
+  hk_motion_store(it->motion, state->q, state->v);
   *state->t = it->good_time;
 }
 
 /* A copy of the last good state, which so far the motion alone has. */
 static int32_t keep_copy(hooke_integrator *it) {
-  const int32_t status = hooke_recent_make_room(it->size, 1, &it->recent);
+  const int32_t status = hk_recent_make_room(it->size, 1, &it->recent);
   if (status == HOOKE_OK && it->recent.count > 0) store_good(it, it->recent.state[0]);
   return status;
 }
@@ -147,26 +147,26 @@ static int32_t keep_copy(hooke_integrator *it) {
 int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
                                  void *ctx) {
   if (stride < 1) {
-    return hooke_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
+    return hk_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
   }
   if (integrator->recent.room == 0) {
     const int32_t status = keep_copy(integrator); /* states are stored between checks */
     if (status != HOOKE_OK) return status;
   }
-  integrator->on_step = (struct hooke_watch){observer, ctx, stride};
+  integrator->on_step = (struct hk_watch){observer, ctx, stride};
   return HOOKE_OK;
 }
 
 int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds, hooke_progress *progress,
                                      void *ctx) {
   if (!(seconds >= 0.0))
-    return hooke_fail(HOOKE_BAD_VALUE, "seconds", "%g is not allowed; 0 or more are", seconds);
-  const double now = hooke_clock_seconds();
-  integrator->teller = (struct hooke_teller){progress, ctx, seconds, now, now, 1, 1};
+    return hk_fail(HOOKE_BAD_VALUE, "seconds", "%g is not allowed; 0 or more are", seconds);
+  const double now = hk_clock_seconds();
+  integrator->teller = (struct hk_teller){progress, ctx, seconds, now, now, 1, 1};
   return HOOKE_OK;
 }
 
-void hooke_integrator_set_checker(hooke_integrator *it, struct hooke_checker checker) {
+void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) {
   if (it->checker.release) it->checker.release(it->checker.own);
   it->checker = checker;
 }
@@ -176,14 +176,14 @@ int64_t hooke_integrator_recent_count(const hooke_integrator *it) {
 }
 
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
-  const hooke_state *kept = hooke_recent_state(&it->recent, place, NULL);
+  const hooke_state *kept = hk_recent_state(&it->recent, place, NULL);
   if (kept) return hooke_state_copy(kept, state);
   if (place == 0 && it->recent.count > 0 && state->size == it->size && state->has_v) {
     store_good(it, state);
     return HOOKE_OK;
   }
-  return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld",
-                    (long long)place, (long long)it->recent.count);
+  return hk_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld", (long long)place,
+                 (long long)it->recent.count);
 }
 
 int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
@@ -194,11 +194,11 @@ static int64_t memory_of(const hooke_integrator *it) {
   const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
   const int64_t restart = it->restart.state ? 1 + (it->system ? 2 : 1) * it->size : 0;
   return (int64_t)sizeof *it + it->own_memory + it->checker.memory + (it->motion ? it->motion->memory : 0) +
-         (own + restart) * (int64_t)sizeof(double) + hooke_recent_memory(&it->recent);
+         (own + restart) * (int64_t)sizeof(double) + hk_recent_memory(&it->recent);
 }
 
 int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
-  const struct hooke_counts *c = &it->count;
+  const struct hk_counts *c = &it->count;
   const struct {
     const char *name;
     int64_t value;

@@ -8,7 +8,7 @@
 #include "model/sum/motion.h"
 #include "model/state.h"
 
-struct hooke_counts {
+struct hk_counts {
   int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
       linear_iterations, error_test_failures;
 };
@@ -17,7 +17,7 @@ struct hooke_counts {
 #define HOOKE_MOST_STEPS INT64_C(9000000000000000)
 
 /* The schedule of a run: whole numbers of steps for a fixed-step method, times for an adaptive one. */
-struct hooke_schedule {
+struct hk_schedule {
   double step, duration, every, checkpoint; /* NaN where not given */
   int64_t steps, frame_steps;               /* fixed step: in all, and between frames */
   int64_t checkpoint_steps;                 /* fixed step: between checkpoints; 0: none */
@@ -26,21 +26,21 @@ struct hooke_schedule {
 };
 
 /* Where a run stands beside its state: all that going on from there takes, and what it counted. */
-struct hooke_standing {
+struct hk_standing {
   double t0, t;
   int64_t k, frames;                               /* steps since t0, frames reported */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
-  struct hooke_counts count;
+  struct hk_counts count;
   double wall_seconds;
 };
 
 /* Where an error-controlled run last started anew. */
-struct hooke_restart {
+struct hk_restart {
   hooke_state *state; /* NULL: none is kept */
-  struct hooke_standing standing;
+  struct hk_standing standing;
 };
 
-struct hooke_watch {
+struct hk_watch {
   hooke_observer *observer;
   void *ctx;
   int64_t stride;
@@ -48,7 +48,7 @@ struct hooke_watch {
 
 /* Who is told of progress between two steps, after every so many seconds. `left` steps to the next look at the clock, of
  * `stride`, which follows the time that steps take. */
-struct hooke_teller {
+struct hk_teller {
   hooke_progress *progress;
   void *ctx;
   double every, told, looked;
@@ -56,7 +56,7 @@ struct hooke_teller {
 };
 
 /* Whoever looks at every state that passed the check; anything but 0 stops the run. */
-struct hooke_checker {
+struct hk_checker {
   int32_t (*look)(const hooke_integrator *integrator, const hooke_state *state, void *own);
   void (*release)(void *own);
   void *own;
@@ -64,14 +64,14 @@ struct hooke_checker {
 };
 
 struct hooke_integrator {
-  const struct hooke_method *method;
+  const struct hk_method *method;
   hooke_options *options;
-  struct hooke_schedule schedule;
+  struct hk_schedule schedule;
 
   /* second-order problem */
   const hooke_system *system;
-  struct hooke_crew *crew; /* NULL: one thread */
-  struct hooke_motion *motion;
+  struct hk_crew *crew; /* NULL: one thread */
+  struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
@@ -86,19 +86,19 @@ struct hooke_integrator {
   int64_t k;      /* steps since t0 */
   int64_t frames; /* reported since t0 */
   int64_t point;  /* number of the next checkpoint, with error control */
-  struct hooke_restart restart;                    /* with error control and the option `checkpoint` */
+  struct hk_restart restart;                       /* with error control and the option `checkpoint` */
   int32_t begun;                                   /* 1: the numbers above are those of a run */
   int32_t placed;                                  /* 1: at the place of a checkpoint that was read */
-  struct hooke_recent recent;                      /* the newest is the last state that passed the check */
+  struct hk_recent recent;                         /* the newest is the last state that passed the check */
   double good_time;                                /* of it, where recent has no room: see divergence.c */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
 
-  struct hooke_watch on_frame, on_step, on_checkpoint;
-  struct hooke_teller teller;
-  struct hooke_checker checker;
+  struct hk_watch on_frame, on_step, on_checkpoint;
+  struct hk_teller teller;
+  struct hk_checker checker;
   int32_t thorough; /* 1: every check looks at the energy, too */
-  struct hooke_counts count;
+  struct hk_counts count;
   double wall_seconds;
   int32_t stop_value;
   int32_t outcome;   /* of the last run or steps, with its message */
@@ -106,71 +106,71 @@ struct hooke_integrator {
 };
 
 /* HOOKE_BAD_VALUE, as the argument `place`, for options that are not those of a run. */
-int32_t hooke_run_options_require(const hooke_options *options, const char *place);
+int32_t hk_run_options_require(const hooke_options *options, const char *place);
 
 /* Tells of progress within a step that takes long, if it is time to: HOOKE_STOPPED. */
-int32_t hooke_integrator_tell(hooke_integrator *integrator);
+int32_t hk_integrator_tell(hooke_integrator *integrator);
 
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
-int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,
-                            struct hooke_schedule *schedule);
+int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
+                         struct hk_schedule *schedule);
 
 /* Forces at the motion's place and time t, counted; HOOKE_STOPPED with the stop value kept. */
-int32_t hooke_integrator_forces(hooke_integrator *integrator, double t);
+int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
-int32_t hooke_integrator_forces_without(hooke_integrator *integrator, double t,
-                                        const struct hooke_force_row *left_out);
+int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
+                                     const struct hk_force_row *left_out);
 /* Forces at the present time, and every particle moved under them in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or
  * HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
-int32_t hooke_integrator_move(hooke_integrator *integrator, int32_t kind);
+int32_t hk_integrator_move(hooke_integrator *integrator, int32_t kind);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
-typedef void hooke_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
+typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* For all particles that are stepped. */
-void hooke_integrator_each(hooke_integrator *integrator, hooke_particle_work *work, void *ctx);
+void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, void *ctx);
 /* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
-int32_t hooke_integrator_drive(hooke_integrator *integrator, double t);
-int32_t hooke_integrator_hold(hooke_integrator *integrator, double t);
+int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
+int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
 /* Time at the end of the step that a fixed-step method is about to take. */
-double hooke_integrator_next_time(const hooke_integrator *integrator);
+double hk_integrator_next_time(const hooke_integrator *integrator);
 /* slope = phi(t, x), counted. */
-int32_t hooke_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
+int32_t hk_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
 
 /* `begin` and `store` of every fixed-step method. */
-int32_t hooke_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
-int32_t hooke_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
+int32_t hk_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
+int32_t hk_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
 
 /* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself; what it knows of its first
  * state stays. The failures of a run's beginning. */
-struct hooke_standing hooke_integrator_standing(const hooke_integrator *integrator);
-int32_t hooke_integrator_stand(hooke_integrator *integrator, const struct hooke_standing *standing,
-                               hooke_state *state);
+struct hk_standing hk_integrator_standing(const hooke_integrator *integrator);
+int32_t hk_integrator_stand(hooke_integrator *integrator, const struct hk_standing *standing,
+                            hooke_state *state);
 
-/* The same at a frame of a run that began at `first`: for hooke_run_begin() and hooke_divergence_follow() to come
+/* The same at a frame of a run that began at `first`: for hk_run_begin() and hk_divergence_follow() to come
  * before, at the first frame and at each one since. What it counted but steps is not known. An error-controlled method
  * stands at frame 0 alone. HOOKE_BAD_VALUE for a time that is not the frame's. */
-int32_t hooke_integrator_stand_at_frame(hooke_integrator *integrator, int64_t frame, const hooke_state *first,
-                                        hooke_state *state);
+int32_t hk_integrator_stand_at_frame(hooke_integrator *integrator, int64_t frame, const hooke_state *first,
+                                     hooke_state *state);
 
 /* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that run did from
  * there, to the bit. An error-controlled method starts anew. */
-int32_t hooke_integrator_run_on(hooke_integrator *integrator, const hooke_state *first, hooke_state *state);
+int32_t hk_integrator_run_on(hooke_integrator *integrator, const hooke_state *first, hooke_state *state);
 /* Makes `to` stand at `state`, the one after `step` steps of the run of `from`; both of one method and step. */
-int32_t hooke_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
-                               hooke_state *state);
+int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
+                            hooke_state *state);
 /* Hands the integrator a checker, which it releases; an older one is released first. */
-void hooke_integrator_set_checker(hooke_integrator *integrator, struct hooke_checker checker);
+void hk_integrator_set_checker(hooke_integrator *integrator, struct hk_checker checker);
 
 /* 1 if every number is finite. */
-int32_t hooke_all_finite(int64_t count, const double *value);
+int32_t hk_all_finite(int64_t count, const double *value);
 
 /* Writes the motion, which is at time t, into `state`, in a way that the check below can take back. */
-int32_t hooke_divergence_store(hooke_integrator *integrator, double t, hooke_state *state);
+int32_t hk_divergence_store(hooke_integrator *integrator, double t, hooke_state *state);
 /* Divergence: remembers the energy at the start; then HOOKE_DIVERGED, with the last good state put back into
  * `state`, if the state has left every physical bound. Without `energy` only numbers that are not finite are
  * looked for. */
-int32_t hooke_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
-int32_t hooke_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
+int32_t hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
+int32_t hk_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
 /* A check that another run passed at this state. */
-void hooke_divergence_follow(hooke_integrator *integrator, const hooke_state *state);
+void hk_divergence_follow(hooke_integrator *integrator, const hooke_state *state);
 
 #endif

@@ -3,9 +3,9 @@
 #include <stddef.h>
 #include <string.h>
 
-static const struct hooke_method *const table[] = {
-    &hooke_forward_euler, &hooke_symplectic_euler, &hooke_verlet, &hooke_rk4,           &hooke_backward_euler,
-    &hooke_cvode_bdf,     &hooke_cvode_adams,      &hooke_rk8pd,  &hooke_arkode_esdirk,
+static const struct hk_method *const table[] = {
+    &hk_forward_euler, &hk_symplectic_euler, &hk_verlet, &hk_rk4,           &hk_backward_euler,
+    &hk_cvode_bdf,     &hk_cvode_adams,      &hk_rk8pd,  &hk_arkode_esdirk,
 };
 
 enum { ROWS = sizeof table / sizeof table[0] };
@@ -25,7 +25,7 @@ const char *hooke_method_name(int64_t method) {
   return NULL;
 }
 
-const struct hooke_method *hooke_method_find(const char *name) {
+const struct hk_method *hk_method_find(const char *name) {
   for (int64_t k = 0; k < ROWS; k++) {
     if (strcmp(table[k]->name, name) == 0) return table[k];
   }
@@ -33,16 +33,16 @@ const struct hooke_method *hooke_method_find(const char *name) {
 }
 
 const char *hooke_method_summary(const char *name) {
-  const struct hooke_method *method = hooke_method_find(name);
+  const struct hk_method *method = hk_method_find(name);
   return method ? method->summary : NULL;
 }
 
 int32_t hooke_method_is_adaptive(const char *name) {
-  const struct hooke_method *method = hooke_method_find(name);
+  const struct hk_method *method = hk_method_find(name);
   return method ? method->adaptive : -1;
 }
 
 int32_t hooke_method_is_built(const char *name) {
-  const struct hooke_method *method = hooke_method_find(name);
+  const struct hk_method *method = hk_method_find(name);
   return method ? method->built : 0;
 }

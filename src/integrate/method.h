@@ -5,7 +5,7 @@
 #include "hooke/integrator.h"
 
 /* What a row says of itself, and how it is run. `create` and `destroy` may be NULL. All return a status. */
-struct hooke_method {
+struct hk_method {
   const char *name, *summary;
   const char *needs;                 /* library that it needs, NULL: none */
   int32_t built;                     /* 0: this build is without that */
@@ -13,7 +13,7 @@ struct hooke_method {
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
-  int32_t by_tiles;                  /* 1: steps by hooke_integrator_move() alone */
+  int32_t by_tiles;                  /* 1: steps by hk_integrator_move() alone */
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
@@ -25,10 +25,10 @@ struct hooke_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-extern const struct hooke_method hooke_forward_euler, hooke_symplectic_euler, hooke_verlet, hooke_rk4,
-    hooke_backward_euler, hooke_cvode_bdf, hooke_cvode_adams, hooke_rk8pd, hooke_arkode_esdirk;
+extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_rk4, hk_backward_euler,
+    hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
 
 /* Row of this name, or NULL. */
-const struct hooke_method *hooke_method_find(const char *name);
+const struct hk_method *hk_method_find(const char *name);
 
 #endif

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stddef.h>
 
-const int8_t hooke_altitude_role[HOOKE_ALTITUDES][4] = {
-    {1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
+const int8_t hk_altitude_role[HOOKE_ALTITUDES][4] = {{1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3},
+                                                     {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
 
 static inline double dot(const double a[3], const double b[3]) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
@@ -22,7 +22,7 @@ static inline void subtract(const double a[3], const double b[3], double d[3]) {
 }
 
 static inline void span(const double x[4][3], int32_t choice, double e[3], double f[3]) {
-  const int8_t *role = hooke_altitude_role[choice];
+  const int8_t *role = hk_altitude_role[choice];
   subtract(x[role[1]], x[role[0]], e);
   if (choice < 4)
     subtract(x[role[2]], x[role[0]], f);
@@ -44,12 +44,12 @@ static int32_t choose(const double x[4][3]) {
   return choice;
 }
 
-int32_t hooke_altitude_find(const struct hooke_tetrahedron *tetrahedron, const double x[4][3],
-                            struct hooke_altitude *altitude) {
+int32_t hk_altitude_find(const struct hk_tetrahedron *tetrahedron, const double x[4][3],
+                         struct hk_altitude *altitude) {
   const int32_t fixed = tetrahedron->choice != HOOKE_ALTITUDE_SHORTEST;
   const int32_t choice = altitude->choice = fixed ? tetrahedron->choice : choose(x);
   if (choice == HOOKE_ALTITUDE_SHORTEST) return 0;
-  const int8_t *role = hooke_altitude_role[choice];
+  const int8_t *role = hk_altitude_role[choice];
   double e[3], f[3], r[3], n[3], rf[3], re[3];
   span(x, choice, e, f);
   subtract(x[role[choice < 4 ? 3 : 2]], x[role[0]], r);
@@ -70,15 +70,15 @@ int32_t hooke_altitude_find(const struct hooke_tetrahedron *tetrahedron, const d
   return 1;
 }
 
-void hooke_altitude_weigh(const struct hooke_altitude *altitude, const double v[4][3], double w[3]) {
+void hk_altitude_weigh(const struct hk_altitude *altitude, const double v[4][3], double w[3]) {
   const double *g = altitude->weight;
   for (int k = 0; k < 3; k++)
     /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the four roles are all of 0 to 3 */
     w[k] = ((g[0] * v[0][k] + g[1] * v[1][k]) + g[2] * v[2][k]) + g[3] * v[3][k];
 }
 
-double hooke_altitude_tension(const struct hooke_tetrahedron *tetrahedron,
-                              const struct hooke_altitude *altitude, double rate, int32_t *slack) {
+double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struct hk_altitude *altitude,
+                           double rate, int32_t *slack) {
   const double rest = tetrahedron->rest[altitude->choice];
   const double tension =
       (tetrahedron->stiffness * (altitude->length - rest) + tetrahedron->damping * rate) / rest;
@@ -94,16 +94,16 @@ static inline void load(const int32_t particle[4], const double *const from[3], 
   }
 }
 
-void hooke_altitude_add(int64_t count, const struct hooke_tetrahedron *tetrahedron, const double *const q[3],
-                        const double *const v[3], double *const f[3]) {
-  for (const struct hooke_tetrahedron *t = tetrahedron; t < tetrahedron + count; t++) {
-    struct hooke_altitude altitude;
+void hk_altitude_add(int64_t count, const struct hk_tetrahedron *tetrahedron, const double *const q[3],
+                     const double *const v[3], double *const f[3]) {
+  for (const struct hk_tetrahedron *t = tetrahedron; t < tetrahedron + count; t++) {
+    struct hk_altitude altitude;
     double x[4][3], w[3];
     load(t->particle, q, x);
-    if (!hooke_altitude_find(t, (const double(*)[3])x, &altitude)) continue;
+    if (!hk_altitude_find(t, (const double(*)[3])x, &altitude)) continue;
     load(t->particle, v, x);
-    hooke_altitude_weigh(&altitude, (const double(*)[3])x, w);
-    const double tension = hooke_altitude_tension(t, &altitude, dot(altitude.u, w), NULL);
+    hk_altitude_weigh(&altitude, (const double(*)[3])x, w);
+    const double tension = hk_altitude_tension(t, &altitude, dot(altitude.u, w), NULL);
     for (int j = 0; j < 4; j++) {
       const double s = tension * altitude.weight[j];
       for (int k = 0; k < 3; k++)

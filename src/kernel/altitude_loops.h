@@ -4,7 +4,7 @@
  * it alone acts, as a spring between a particle and a point of the face, or between points of the edges. Lengths have a sign,
  * which turns where the tetrahedron does inside out: the force pushes it back.
  *
- * To the parenthesis, with the particles i0 .. i3 of altitude k from hooke_altitude_role[k]:
+ * To the parenthesis, with the particles i0 .. i3 of altitude k from hk_altitude_role[k]:
  *   e = x_i1 - x_i0     r = x_i3 - x_i0 (k < 4) or x_i2 - x_i0     f = x_i2 - x_i0 (k < 4) or x_i3 - x_i2
  *   n = e x f, each component a*b - c*d        A = n.n, and a.b is always (a0*b0 + a1*b1) + a2*b2
  * k is the first with the largest A; without one above 0 there is no force. Then, `side` being 1 or -1,
@@ -22,9 +22,9 @@
 enum { HOOKE_ALTITUDES = 7, HOOKE_ALTITUDE_SHORTEST = -1 };
 
 /* Particles so ordered that n.r is six times the volume with its sign, for every altitude. */
-extern const int8_t hooke_altitude_role[HOOKE_ALTITUDES][4];
+extern const int8_t hk_altitude_role[HOOKE_ALTITUDES][4];
 
-struct hooke_tetrahedron {
+struct hk_tetrahedron {
   int32_t particle[4];
   int32_t choice; /* the altitude that acts; HOOKE_ALTITUDE_SHORTEST: the shortest at the time */
   int32_t pull_only;
@@ -34,24 +34,24 @@ struct hooke_tetrahedron {
 };
 
 /* One altitude at given positions. */
-struct hooke_altitude {
+struct hk_altitude {
   int32_t choice;
   double length, u[3], weight[4]; /* weights of particles 0 to 3 */
 };
 
 /* The altitude that acts at positions x of the four particles; 0 if there is none. */
-int32_t hooke_altitude_find(const struct hooke_tetrahedron *tetrahedron, const double x[4][3],
-                            struct hooke_altitude *altitude);
+int32_t hk_altitude_find(const struct hk_tetrahedron *tetrahedron, const double x[4][3],
+                         struct hk_altitude *altitude);
 
 /* w above. */
-void hooke_altitude_weigh(const struct hooke_altitude *altitude, const double v[4][3], double w[3]);
+void hk_altitude_weigh(const struct hk_altitude *altitude, const double v[4][3], double w[3]);
 
 /* T above for u.w = rate; `slack` (may be NULL) says whether it only pulls and has nothing to pull. */
-double hooke_altitude_tension(const struct hooke_tetrahedron *tetrahedron,
-                              const struct hooke_altitude *altitude, double rate, int32_t *slack);
+double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struct hk_altitude *altitude,
+                           double rate, int32_t *slack);
 
 /* f += the forces at q and v; x, y and z apart. */
-void hooke_altitude_add(int64_t count, const struct hooke_tetrahedron *tetrahedron, const double *const q[3],
-                        const double *const v[3], double *const f[3]);
+void hk_altitude_add(int64_t count, const struct hk_tetrahedron *tetrahedron, const double *const q[3],
+                     const double *const v[3], double *const f[3]);
 
 #endif

@@ -29,8 +29,8 @@ HOOKE_INLINE void add_twice(double *restrict f, const double *restrict b, ptrdif
 }
 
 /* A particle is the third of an earlier triple, the middle of a later one, and the first of the last. */
-HOOKE_INLINE void offset_loop(const struct hooke_bending_run *run, const double factor,
-                              const double *const x[3], double *const f[3], const int mixed) {
+HOOKE_INLINE void offset_loop(const struct hk_bending_run *run, const double factor, const double *const x[3],
+                              double *const f[3], const int mixed) {
   double b[BLOCK];
   const ptrdiff_t offset = run->offset;
   for (int64_t done = 0; done < run->count; done += BLOCK) {
@@ -46,7 +46,7 @@ HOOKE_INLINE void offset_loop(const struct hooke_bending_run *run, const double 
   }
 }
 
-HOOKE_INLINE void indexed_loop(const struct hooke_bending_run *run, const double factor,
+HOOKE_INLINE void indexed_loop(const struct hk_bending_run *run, const double factor,
                                const double *const x[3], double *const f[3], const int mixed) {
   for (int64_t k = 0; k < run->count; k++) {
     const ptrdiff_t first = run->particle[0][k], middle = run->particle[1][k], last = run->particle[2][k];
@@ -61,7 +61,7 @@ HOOKE_INLINE void indexed_loop(const struct hooke_bending_run *run, const double
 }
 
 #define LOOP(what, mixed)                                                                                    \
-  static void what##_##mixed(const struct hooke_bending_run *run, double factor, const double *const x[3],   \
+  static void what##_##mixed(const struct hk_bending_run *run, double factor, const double *const x[3],      \
                              double *const f[3]) {                                                           \
     what##_loop(run, factor, x, f, mixed);                                                                   \
   }
@@ -70,7 +70,7 @@ LOOP(offset, 1)
 LOOP(indexed, 0)
 LOOP(indexed, 1)
 
-hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES] = {
+hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES] = {
     [0] = offset_0,
     [HOOKE_BENDING_MIXED] = offset_1,
     [HOOKE_BENDING_INDEXED] = indexed_0,

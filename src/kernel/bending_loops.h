@@ -14,20 +14,20 @@ enum {
   HOOKE_BENDING_SHAPES = 4
 };
 
-struct hooke_bending_run;
+struct hk_bending_run;
 
 /* Adds `factor` times the forces at x to f; x, y and z apart. Forces are linear in x, so this is their derivative too. */
-typedef void hooke_bending_loop(const struct hooke_bending_run *run, double factor, const double *const x[3],
-                                double *const f[3]);
+typedef void hk_bending_loop(const struct hk_bending_run *run, double factor, const double *const x[3],
+                             double *const f[3]);
 
-struct hooke_bending_run {
+struct hk_bending_run {
   int64_t first, count; /* triples first .. first + count - 1, in their order */
   int32_t shape;
   int32_t start, offset;      /* constant offset > 0 */
   const int32_t *particle[3]; /* indexed: a, b and c, `count` long */
   double coefficient;         /* shared [N/m] */
   const double *coefficients; /* mixed: `count` long */
-  hooke_bending_loop *loop;
+  hk_bending_loop *loop;
 };
 
 #endif

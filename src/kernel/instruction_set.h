@@ -19,20 +19,20 @@
 #define HOOKE_VECTORISE _Pragma("GCC ivdep")
 #endif
 
-#define HOOKE_SPRING_SET    HOOKE_OF_ISA(hooke_spring_set_)
-#define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hooke_lane_loop_)
-#define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hooke_net_loops_)
-#define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hooke_bending_loops_)
-#define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hooke_tangent_set_)
-#define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hooke_triangle_set_)
-#define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hooke_vector_set_)
+#define HOOKE_SPRING_SET    HOOKE_OF_ISA(hk_spring_set_)
+#define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hk_lane_loop_)
+#define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hk_net_loops_)
+#define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
+#define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
+#define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
+#define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
 
-extern const struct hooke_spring_set HOOKE_SPRING_SET;
-hooke_lane_loop HOOKE_LANE_LOOP;
-extern const struct hooke_net_loops HOOKE_NET_LOOPS;
-extern hooke_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
-extern const struct hooke_tangent_set HOOKE_TANGENT_SET;
-extern const struct hooke_triangle_set HOOKE_TRIANGLE_SET;
-extern const struct hooke_vector_set HOOKE_VECTOR_SET;
+extern const struct hk_spring_set HOOKE_SPRING_SET;
+hk_lane_loop HOOKE_LANE_LOOP;
+extern const struct hk_net_loops HOOKE_NET_LOOPS;
+extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
+extern const struct hk_tangent_set HOOKE_TANGENT_SET;
+extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
+extern const struct hk_vector_set HOOKE_VECTOR_SET;
 
 #endif

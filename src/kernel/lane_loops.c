@@ -5,7 +5,7 @@
 #include "kernel/instruction_set.h"
 #include "kernel/vector_unit.h"
 
-typedef hooke_vector vec;
+typedef hk_vector vec;
 
 enum { BEHIND = 2 * HOOKE_WIDTH, ANY = HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
@@ -22,18 +22,18 @@ HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
 }
 
 HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const vec b[3]) {
-  const ptrdiff_t at = p & mask, stride = hooke_ring_stride(mask);
+  const ptrdiff_t at = p & mask, stride = hk_ring_stride(mask);
   double *to = ring + at;
   for (int a = 0; a < 3; a++)
-    hooke_store(to + a * stride, b[a]);
+    hk_store(to + a * stride, b[a]);
   if (__builtin_expect(at < HOOKE_LANE_UNIT, 0)) {
     for (int a = 0; a < 3; a++)
-      hooke_store(to + mask + 1 + a * stride, b[a]);
+      hk_store(to + mask + 1 + a * stride, b[a]);
   }
 }
 
 /* Of material that each spring has of its own; springs beyond are not there. */
-HOOKE_INLINE ptrdiff_t own_place(const struct hooke_lane_view *lane, ptrdiff_t p) {
+HOOKE_INLINE ptrdiff_t own_place(const struct hk_lane_view *lane, ptrdiff_t p) {
   const ptrdiff_t own = p - lane->base, most = lane->most + (ptrdiff_t)((size_t)p % HOOKE_LANE_UNIT);
   return own < most ? own : most;
 }
@@ -41,22 +41,22 @@ HOOKE_INLINE ptrdiff_t own_place(const struct hooke_lane_view *lane, ptrdiff_t p
 #define EACH for (int i = 0; i < lanes; i++)
 
 /* What springs that end at the vector at p do, and then those that begin there. */
-HOOKE_INLINE void add(const struct hooke_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
+HOOKE_INLINE void add(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
   EACH {
-    const ptrdiff_t mask = lane[i].mask, stride = hooke_ring_stride(mask);
+    const ptrdiff_t mask = lane[i].mask, stride = hk_ring_stride(mask);
     const double *ring = lane[i].ring, *ending = ring + ((p - lane[i].offset) & mask),
                  *beginning = ring + (p & mask);
     for (int a = 0; a < 3; a++)
-      sum[a] = (sum[a] + hooke_load(ending + a * stride)) - hooke_load(beginning + a * stride);
+      sum[a] = (sum[a] + hk_load(ending + a * stride)) - hk_load(beginning + a * stride);
   }
 }
 
 /* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length. Whatever is
  * stored may be anything to the compiler, so that views are read before. */
-HOOKE_INLINE void fill(const struct hooke_lane_view *lane, const int lanes, const struct place *at,
+HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const struct place *at,
                        const int damped, const int mixed, const int pull, vec *shortest, vec sum[3]) {
   vec d[2][3], r[2], ir[2], along[2], tension[2];
-  struct hooke_lane_view l[2];
+  struct hk_lane_view l[2];
   const double *q[2], *v[2];
   ptrdiff_t own[2];
   EACH {
@@ -65,40 +65,40 @@ HOOKE_INLINE void fill(const struct hooke_lane_view *lane, const int lanes, cons
     q[i] = at->q + l[i].offset;
     v[i] = at->v + l[i].offset;
     for (int a = 0; a < 3; a++)
-      d[i][a] = at->x[a] - hooke_load(q[i] + a * at->stride);
+      d[i][a] = at->x[a] - hk_load(q[i] + a * at->stride);
   }
   EACH r[i] = d[i][0] * d[i][0] + d[i][1] * d[i][1];
-  EACH r[i] = hooke_vector_sqrt(r[i] + d[i][2] * d[i][2]);
+  EACH r[i] = hk_vector_sqrt(r[i] + d[i][2] * d[i][2]);
   if (damped) {
-    EACH along[i] = (at->u[0] - hooke_load(v[i])) * d[i][0];
-    EACH along[i] = along[i] + (at->u[1] - hooke_load(v[i] + at->stride)) * d[i][1];
-    EACH along[i] = along[i] + (at->u[2] - hooke_load(v[i] + 2 * at->stride)) * d[i][2];
+    EACH along[i] = (at->u[0] - hk_load(v[i])) * d[i][0];
+    EACH along[i] = along[i] + (at->u[1] - hk_load(v[i] + at->stride)) * d[i][1];
+    EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
   }
   add(lane, lanes, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
-  EACH *shortest = hooke_lesser(r[i], *shortest);
+  EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = mixed ? hooke_load(l[i].rest_lengths + own[i]) : hooke_all(l[i].rest_length);
-    const vec kappa = mixed ? hooke_load(l[i].kappas + own[i]) : hooke_all(l[i].kappa);
+    const vec rest = mixed ? hk_load(l[i].rest_lengths + own[i]) : hk_all(l[i].rest_length);
+    const vec kappa = mixed ? hk_load(l[i].kappas + own[i]) : hk_all(l[i].kappa);
     tension[i] = kappa * (r[i] - rest);
     if (damped) {
-      const vec gamma = mixed ? hooke_load(l[i].gammas + own[i]) : hooke_all(l[i].gamma);
+      const vec gamma = mixed ? hk_load(l[i].gammas + own[i]) : hk_all(l[i].gamma);
       tension[i] = tension[i] + gamma * (along[i] * ir[i]);
     }
-    if (pull) tension[i] = (vec)((hooke_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
+    if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
     tension[i] = tension[i] * ir[i];
     const uint32_t bits = present_at(l[i].present, at->p);
     for (int a = 0; a < 3; a++)
-      d[i][a] = hooke_keep(bits, tension[i] * d[i][a]);
+      d[i][a] = hk_keep(bits, tension[i] * d[i][a]);
   }
   EACH store_forces(l[i].ring, l[i].mask, at->p, d[i]);
 }
 
 /* Springs of the vector at p once more, one by one: some ends are at one place. Counts those that have a rest length. */
-static __attribute__((noinline)) int64_t fill_with_care(const struct hooke_lane_pass *pass, ptrdiff_t p) {
+static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
-    const struct hooke_lane_view *lane = &pass->lane[k];
+    const struct hk_lane_view *lane = &pass->lane[k];
     const int32_t mixed = lane->shape & HOOKE_RUN_MIXED;
     const ptrdiff_t own = own_place(lane, p);
     vec b[3] = {{0}};
@@ -107,17 +107,17 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hooke_lane_
       const ptrdiff_t y = pass->stride, z = 2 * y;
       if (!(present_at(lane->present, p) >> i & 1)) continue;
       const double dx = q[0] - qj[0], dy = q[y] - qj[y], dz = q[z] - qj[z];
-      const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+      const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
       const double rest = mixed ? lane->rest_lengths[own + i] : lane->rest_length;
       double brake = 0.0;
       if (lane->shape & HOOKE_RUN_DAMPED) {
         brake = (mixed ? lane->gammas[own + i] : lane->gamma) *
                 ((((v[0] - vj[0]) * dx + (v[y] - vj[y]) * dy) + (v[z] - vj[z]) * dz) * ir);
       }
-      const double s = hooke_spring_tension(r, rest, mixed ? lane->kappas[own + i] : lane->kappa, brake,
-                                            (lane->shape & HOOKE_RUN_DAMPED) != 0,
-                                            (lane->shape & HOOKE_RUN_PULL_ONLY) != 0) *
-                       ir;
+      const double s =
+          hk_spring_tension(r, rest, mixed ? lane->kappas[own + i] : lane->kappa, brake,
+                            (lane->shape & HOOKE_RUN_DAMPED) != 0, (lane->shape & HOOKE_RUN_PULL_ONLY) != 0) *
+          ir;
       b[0][i] = s * dx;
       b[1][i] = s * dy;
       b[2][i] = s * dz;
@@ -128,34 +128,34 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hooke_lane_
   return lost;
 }
 
-HOOKE_INLINE void move(const struct hooke_lane_pass *pass, const struct hooke_move how, ptrdiff_t p,
+HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how, ptrdiff_t p,
                        const vec sum[3]) {
   const ptrdiff_t stride = pass->stride;
   double *q = pass->q + p, *v = pass->v + p;
   if (how.kind == HOOKE_MOVE_NOTHING) return;
   if (how.kind == HOOKE_MOVE_KEEP) {
     for (int a = 0; a < 3; a++)
-      hooke_store(pass->f + p + a * stride, sum[a]);
+      hk_store(pass->f + p + a * stride, sum[a]);
     return;
   }
-  const vec w = hooke_load(pass->w + p), h = hooke_all(how.step);
+  const vec w = hk_load(pass->w + p), h = hk_all(how.step);
   for (int a = 0; a < 3; a++) {
-    const vec x = hooke_load(q + a * stride), u = hooke_load(v + a * stride);
+    const vec x = hk_load(q + a * stride), u = hk_load(v + a * stride);
     vec acceleration = sum[a];
     if (how.drag > 0.0) acceleration = acceleration - how.drag * u;
     acceleration = w * acceleration;
     if (how.heavy) acceleration = acceleration + how.gravity[a];
     const vec next = u + h * acceleration;
-    hooke_store(v + a * stride, next);
-    hooke_store(q + a * stride, x + h * (how.kind == HOOKE_KICK_THEN_DRIFT ? next : u));
+    hk_store(v + a * stride, next);
+    hk_store(q + a * stride, x + h * (how.kind == HOOKE_KICK_THEN_DRIFT ? next : u));
   }
 }
 
 /* Forces of all lanes at a vector, and sums behind it: two lanes at a time where all have one shape, that is known here. */
-HOOKE_INLINE void fill_all(const struct hooke_lane_pass *pass, const int shape, const struct place *at,
+HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
   const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
-  const struct hooke_lane_view *lane = pass->lane, *end = lane + pass->count;
+  const struct hk_lane_view *lane = pass->lane, *end = lane + pass->count;
   for (; lane + 1 < end; lane += 2)
     fill(lane, 2, at, damped, 0, pull, shortest, sum);
   if (lane < end) fill(lane, 1, at, damped, 0, pull, shortest, sum);
@@ -167,10 +167,10 @@ HOOKE_INLINE void fill_all(const struct hooke_lane_pass *pass, const int shape, 
          ((shape)&HOOKE_RUN_PULL_ONLY) != 0, shortest, sum);                                                 \
     break;
 
-HOOKE_INLINE void fill_any(const struct hooke_lane_pass *pass, const struct place *at, vec *shortest,
+HOOKE_INLINE void fill_any(const struct hk_lane_pass *pass, const struct place *at, vec *shortest,
                            vec sum[3]) {
-  const struct hooke_lane_view *end = pass->lane + pass->count;
-  for (const struct hooke_lane_view *lane = pass->lane; lane < end; lane++) {
+  const struct hk_lane_view *end = pass->lane + pass->count;
+  for (const struct hk_lane_view *lane = pass->lane; lane < end; lane++) {
     switch (lane->shape) {
       BODY(0)
       BODY(HOOKE_RUN_DAMPED)
@@ -192,24 +192,23 @@ HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
 }
 
 /* `shape` is that of all lanes, or ANY. */
-HOOKE_INLINE int64_t advance(const struct hooke_lane_pass *pass, const int shape, ptrdiff_t from,
-                             ptrdiff_t to) {
-  const struct hooke_move how = pass->move;
+HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, ptrdiff_t from, ptrdiff_t to) {
+  const struct hk_move how = pass->move;
   int64_t lost = 0;
   for (ptrdiff_t p = from; p < to; p += HOOKE_WIDTH) {
     struct place at = {
         .q = pass->q + p, .v = pass->v + p, .stride = pass->stride, .p = p, .behind = p - BEHIND};
-    vec sum[3] = {{0}}, shortest = hooke_all(INFINITY);
+    vec sum[3] = {{0}}, shortest = hk_all(INFINITY);
     for (int a = 0; a < 3; a++) {
-      at.x[a] = hooke_load(at.q + a * at.stride);
-      if (shape & HOOKE_RUN_DAMPED) at.u[a] = hooke_load(at.v + a * at.stride);
+      at.x[a] = hk_load(at.q + a * at.stride);
+      if (shape & HOOKE_RUN_DAMPED) at.u[a] = hk_load(at.v + a * at.stride);
     }
     if (pass->ahead > 0) fetch(&at, pass->ahead);
     if (shape == ANY)
       fill_any(pass, &at, &shortest, sum);
     else
       fill_all(pass, shape, &at, &shortest, sum);
-    if (__builtin_expect(hooke_has_zero(shortest), 0)) lost += fill_with_care(pass, p);
+    if (__builtin_expect(hk_has_zero(shortest), 0)) lost += fill_with_care(pass, p);
     if (at.behind >= from) move(pass, how, at.behind, sum);
   }
   for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += HOOKE_WIDTH) {
@@ -221,7 +220,7 @@ HOOKE_INLINE int64_t advance(const struct hooke_lane_pass *pass, const int shape
   return lost;
 }
 
-int64_t HOOKE_LANE_LOOP(const struct hooke_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
+int64_t HOOKE_LANE_LOOP(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
   int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0;
   for (int32_t k = 1; k < pass->count; k++) {
     if (pass->lane[k].shape != shape) shape = ANY;

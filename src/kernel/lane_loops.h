@@ -17,7 +17,7 @@ enum {
   HOOKE_RING_SLACK = 48
 };
 
-struct hooke_lane_view {
+struct hk_lane_view {
   int32_t shape;          /* HOOKE_RUN_* */
   const uint8_t *present; /* bit l % 8 of byte l / 8: whether spring l is there */
   ptrdiff_t offset, mask; /* mask: room of the ring less 1 */
@@ -29,7 +29,7 @@ struct hooke_lane_view {
 };
 
 /* Between x, y and z of a ring: the first unit once more, and a distance that keeps them apart in the cache. */
-static inline ptrdiff_t hooke_ring_stride(ptrdiff_t mask) {
+static inline ptrdiff_t hk_ring_stride(ptrdiff_t mask) {
   return mask + 1 + 3 * (ptrdiff_t)HOOKE_LANE_UNIT;
 }
 
@@ -37,7 +37,7 @@ static inline ptrdiff_t hooke_ring_stride(ptrdiff_t mask) {
  * v(old) first; f has then c v taken away if there is drag, and a = w f if there is no gravity. */
 enum { HOOKE_MOVE_NOTHING, HOOKE_MOVE_KEEP, HOOKE_KICK_THEN_DRIFT, HOOKE_DRIFT_THEN_KICK };
 
-struct hooke_move {
+struct hk_move {
   int32_t kind;
   int32_t heavy; /* there is gravity */
   double step, drag, gravity[3];
@@ -45,17 +45,17 @@ struct hooke_move {
 
 /* Arrays have room for HOOKE_LANE_UNIT more particles than there are, q and v for the largest offset besides; what is in
  * there is read and not used. */
-struct hooke_lane_pass {
+struct hk_lane_pass {
   int32_t count;
-  struct hooke_lane_view lane[HOOKE_MOST_LANES]; /* in the order of the sum */
-  ptrdiff_t stride;                              /* between x, y and z of q, and of v and f */
-  ptrdiff_t ahead;   /* q and v are fetched so many particles ahead; 0: not at all */
-  double *q, *v, *f; /* f: HOOKE_MOVE_KEEP */
+  struct hk_lane_view lane[HOOKE_MOST_LANES]; /* in the order of the sum */
+  ptrdiff_t stride;                           /* between x, y and z of q, and of v and f */
+  ptrdiff_t ahead;                            /* q and v are fetched so many particles ahead; 0: not at all */
+  double *q, *v, *f;                          /* f: HOOKE_MOVE_KEEP */
   const double *w;
-  struct hooke_move move;
+  struct hk_move move;
 };
 
 /* Particles `from` .. `to` - 1; returns how many springs that begin there have a rest length but no direction. */
-typedef int64_t hooke_lane_loop(const struct hooke_lane_pass *pass, ptrdiff_t from, ptrdiff_t to);
+typedef int64_t hk_lane_loop(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to);
 
 #endif

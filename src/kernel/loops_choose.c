@@ -4,107 +4,106 @@
 #include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 
-double hooke_dot(int64_t size, const double *x, const double *y) {
-  return hooke_spring_set(0)->vector->dot(size, x, y);
+double hk_dot(int64_t size, const double *x, const double *y) {
+  return hk_spring_set(0)->vector->dot(size, x, y);
 }
 
-void hooke_add_multiple(int64_t size, double a, const double *x, double *y) {
-  hooke_spring_set(0)->vector->add_multiple(size, a, x, y);
+void hk_add_multiple(int64_t size, double a, const double *x, double *y) {
+  hk_spring_set(0)->vector->add_multiple(size, a, x, y);
 }
 
-void hooke_scale_and_add(int64_t size, double b, const double *x, double *y) {
-  hooke_spring_set(0)->vector->scale_and_add(size, b, x, y);
+void hk_scale_and_add(int64_t size, double b, const double *x, double *y) {
+  hk_spring_set(0)->vector->scale_and_add(size, b, x, y);
 }
 
-double hooke_dot_weighed(int64_t n, const double *weight, const double *x, const double *y) {
-  return hooke_spring_set(0)->vector->dot_weighed(n, weight, x, y);
+double hk_dot_weighed(int64_t n, const double *weight, const double *x, const double *y) {
+  return hk_spring_set(0)->vector->dot_weighed(n, weight, x, y);
 }
 
-double hooke_lanczos_begin(int64_t n, const double *mass, const double *inverse, double a, double b,
-                           const double *before, const double *x, double *out) {
-  return hooke_spring_set(0)->vector->lanczos_begin(n, mass, inverse, a, b, before, x, out);
+double hk_lanczos_begin(int64_t n, const double *mass, const double *inverse, double a, double b,
+                        const double *before, const double *x, double *out) {
+  return hk_spring_set(0)->vector->lanczos_begin(n, mass, inverse, a, b, before, x, out);
 }
 
-double hooke_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out) {
-  return hooke_spring_set(0)->vector->lanczos_end(n, mass, c, x, out);
+double hk_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out) {
+  return hk_spring_set(0)->vector->lanczos_end(n, mass, c, x, out);
 }
 
-void hooke_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y) {
-  hooke_spring_set(0)->vector->apply_factor_transposed(n, w, x, y);
+void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y) {
+  hk_spring_set(0)->vector->apply_factor_transposed(n, w, x, y);
 }
 
-void hooke_apply_factor(int64_t n, const double *w, double *x) {
-  hooke_spring_set(0)->vector->apply_factor(n, w, x);
+void hk_apply_factor(int64_t n, const double *w, double *x) {
+  hk_spring_set(0)->vector->apply_factor(n, w, x);
 }
 
-void hooke_apply_diagonal(int64_t n, const double *d, const double *x, double *y) {
-  hooke_spring_set(0)->vector->apply_diagonal(n, d, x, y);
+void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y) {
+  hk_spring_set(0)->vector->apply_diagonal(n, d, x, y);
 }
 
-void hooke_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z) {
-  hooke_spring_set(0)->vector->linear_sum(size, a, x, b, y, z);
+void hk_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z) {
+  hk_spring_set(0)->vector->linear_sum(size, a, x, b, y, z);
 }
 
-void hooke_scale(int64_t size, double a, const double *x, double *z) {
-  hooke_spring_set(0)->vector->scale(size, a, x, z);
+void hk_scale(int64_t size, double a, const double *x, double *z) {
+  hk_spring_set(0)->vector->scale(size, a, x, z);
 }
 
-void hooke_multiply(int64_t size, const double *x, const double *y, double *z) {
-  hooke_spring_set(0)->vector->multiply(size, x, y, z);
+void hk_multiply(int64_t size, const double *x, const double *y, double *z) {
+  hk_spring_set(0)->vector->multiply(size, x, y, z);
 }
 
-void hooke_divide(int64_t size, const double *x, const double *y, double *z) {
-  hooke_spring_set(0)->vector->divide(size, x, y, z);
+void hk_divide(int64_t size, const double *x, const double *y, double *z) {
+  hk_spring_set(0)->vector->divide(size, x, y, z);
 }
 
-void hooke_invert(int64_t size, const double *x, double *z) {
-  hooke_spring_set(0)->vector->invert(size, x, z);
+void hk_invert(int64_t size, const double *x, double *z) {
+  hk_spring_set(0)->vector->invert(size, x, z);
 }
 
-void hooke_absolute(int64_t size, const double *x, double *z) {
-  hooke_spring_set(0)->vector->absolute(size, x, z);
+void hk_absolute(int64_t size, const double *x, double *z) {
+  hk_spring_set(0)->vector->absolute(size, x, z);
 }
 
-void hooke_add_number(int64_t size, double a, const double *x, double *z) {
-  hooke_spring_set(0)->vector->add_number(size, a, x, z);
+void hk_add_number(int64_t size, double a, const double *x, double *z) {
+  hk_spring_set(0)->vector->add_number(size, a, x, z);
 }
 
-double hooke_sum_of_squares(int64_t size, const double *x, const double *y) {
-  return hooke_spring_set(0)->vector->sum_of_squares(size, x, y);
+double hk_sum_of_squares(int64_t size, const double *x, const double *y) {
+  return hk_spring_set(0)->vector->sum_of_squares(size, x, y);
 }
 
-double hooke_long_dot(int64_t size, const double *x, const double *y) {
-  return hooke_spring_set(0)->vector->long_dot(size, x, y);
+double hk_long_dot(int64_t size, const double *x, const double *y) {
+  return hk_spring_set(0)->vector->long_dot(size, x, y);
 }
 
-double hooke_largest(int64_t size, const double *x) {
-  return hooke_spring_set(0)->vector->largest(size, x);
+double hk_largest(int64_t size, const double *x) {
+  return hk_spring_set(0)->vector->largest(size, x);
 }
 
-void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
-                        double beta, const struct hooke_tangent *tangent) {
-  hooke_spring_set(0)->tangent->tangent_fill(run, fields, alpha, beta, tangent);
+void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
+                     const struct hk_tangent *tangent) {
+  hk_spring_set(0)->tangent->tangent_fill(run, fields, alpha, beta, tangent);
 }
 
-void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                           const double *const x[3], double *const out[3]) {
-  hooke_spring_set(0)->tangent->tangent_product(run, tangent, x, out);
+void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
+                        double *const out[3]) {
+  hk_spring_set(0)->tangent->tangent_product(run, tangent, x, out);
 }
 
-void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                            double *const block[6]) {
-  hooke_spring_set(0)->tangent->tangent_diagonal(run, tangent, block);
+void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tangent, double *const block[6]) {
+  hk_spring_set(0)->tangent->tangent_diagonal(run, tangent, block);
 }
 
-void hooke_tangent_damping(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                           const double *const x[3], double *const out[3]) {
-  hooke_spring_set(0)->tangent->tangent_damping(run, tangent, x, out);
+void hk_tangent_damping(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
+                        double *const out[3]) {
+  hk_spring_set(0)->tangent->tangent_damping(run, tangent, x, out);
 }
 
-void hooke_triangle_forward(const struct hooke_triangle *l, double *x) {
-  hooke_spring_set(0)->triangle->triangle_forward(l, x);
+void hk_triangle_forward(const struct hk_triangle *l, double *x) {
+  hk_spring_set(0)->triangle->triangle_forward(l, x);
 }
 
-void hooke_triangle_backward(const struct hooke_triangle *l, double *x) {
-  hooke_spring_set(0)->triangle->triangle_backward(l, x);
+void hk_triangle_backward(const struct hk_triangle *l, double *x) {
+  hk_spring_set(0)->triangle->triangle_backward(l, x);
 }

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-typedef hooke_vector vec;
+typedef hk_vector vec;
 
 /* Four numbers of a row, and two; compilers split them where the instruction set has shorter vectors. */
 typedef double quad __attribute__((vector_size(32), may_alias));
@@ -19,7 +19,7 @@ enum { GROUP = HOOKE_WIDTH };
 /* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
   _Alignas(64) double s[HOOKE_NET_BATCH];
-  hooke_vector_mask lost[GROUP / HOOKE_WIDTH];
+  hk_vector_mask lost[GROUP / HOOKE_WIDTH];
 };
 
 /* Where springs are looked up, and what they do to their ends. */
@@ -167,50 +167,49 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
 
 /* Stiffness or damping of the springs from k on: their own, a share of the rest length, or one for all. */
 HOOKE_INLINE vec strength_of(const double *own, double shared, ptrdiff_t k, vec rest, const int material) {
-  if (material == HOOKE_NET_MIXED) return hooke_load(own + k);
-  if (material == HOOKE_NET_STRAIN) return hooke_all(shared) / rest;
-  return hooke_all(shared);
+  if (material == HOOKE_NET_MIXED) return hk_load(own + k);
+  if (material == HOOKE_NET_STRAIN) return hk_all(shared) / rest;
+  return hk_all(shared);
 }
 
-HOOKE_INLINE void find_strengths(const struct hooke_net_springs *springs, ptrdiff_t from,
+HOOKE_INLINE void find_strengths(const struct hk_net_springs *springs, ptrdiff_t from,
                                  const struct group *group, struct batch *batch, const int damped,
                                  const int pull, const int material) {
   for (ptrdiff_t n = 0; n < GROUP; n += HOOKE_WIDTH) {
     const ptrdiff_t k = from + n;
-    const vec dx = hooke_load(group->x + n), dy = hooke_load(group->y + n), dz = hooke_load(group->z + n);
-    const vec rest = material ? hooke_load(springs->rest_lengths + k) : hooke_all(springs->rest_length);
+    const vec dx = hk_load(group->x + n), dy = hk_load(group->y + n), dz = hk_load(group->z + n);
+    const vec rest = material ? hk_load(springs->rest_lengths + k) : hk_all(springs->rest_length);
     const vec kappa = strength_of(springs->kappas, springs->kappa, k, rest, material);
-    const vec r = hooke_vector_sqrt((dx * dx + dy * dy) + dz * dz);
-    const hooke_vector_mask together = (hooke_vector_mask)(r == 0.0);
-    const vec ir = (vec)((hooke_vector_mask)(1.0 / r) & ~together);
+    const vec r = hk_vector_sqrt((dx * dx + dy * dy) + dz * dz);
+    const hk_vector_mask together = (hk_vector_mask)(r == 0.0);
+    const vec ir = (vec)((hk_vector_mask)(1.0 / r) & ~together);
     vec tension = kappa * (r - rest);
     if (damped) {
       const vec gamma = strength_of(springs->gammas, springs->gamma, k, rest, material);
-      const vec vx = hooke_load(group->vx + n), vy = hooke_load(group->vy + n),
-                vz = hooke_load(group->vz + n);
+      const vec vx = hk_load(group->vx + n), vy = hk_load(group->vy + n), vz = hk_load(group->vz + n);
       tension = tension + gamma * (((vx * dx + vy * dy) + vz * dz) * ir);
     }
-    if (pull) tension = (vec)((hooke_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
-    hooke_store(batch->s + k, tension * ir);
-    batch->lost[n / HOOKE_WIDTH] -= together & (hooke_vector_mask)(rest != 0.0);
+    if (pull) tension = (vec)((hk_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
+    hk_store(batch->s + k, tension * ir);
+    batch->lost[n / HOOKE_WIDTH] -= together & (hk_vector_mask)(rest != 0.0);
   }
 }
 
 /* Of the first of a group alone. */
-HOOKE_INLINE int64_t find_strength(const struct hooke_net_springs *springs, ptrdiff_t k,
+HOOKE_INLINE int64_t find_strength(const struct hk_net_springs *springs, ptrdiff_t k,
                                    const struct group *group, struct batch *batch, const int damped,
                                    const int pull, const int material) {
   const double dx = group->x[0], dy = group->y[0], dz = group->z[0];
   const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
   const double share = material == HOOKE_NET_STRAIN ? rest_length : 1.0;
   const double kappa = material == HOOKE_NET_MIXED ? springs->kappas[k] : springs->kappa / share;
-  const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+  const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
   double brake = 0.0;
   if (damped) {
     const double gamma = material == HOOKE_NET_MIXED ? springs->gammas[k] : springs->gamma / share;
     brake = gamma * (((group->vx[0] * dx + group->vy[0] * dy) + group->vz[0] * dz) * ir);
   }
-  batch->s[k] = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+  batch->s[k] = hk_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
   return (r == 0.0) & (rest_length != 0.0);
 }
 
@@ -226,7 +225,7 @@ HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_
 /* Forces are written so many springs after their strengths were begun, or groups would wait for roots and quotients. */
 enum { BEHIND = 3 * GROUP };
 
-HOOKE_INLINE int64_t fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *low,
+HOOKE_INLINE int64_t fill(const struct hk_net_springs *springs, ptrdiff_t count, const double *low,
                           const double *up, double *on_lower, double *on_upper, const int damped,
                           const int pull, const int wide, const int material) {
   const struct ends ends = {springs->lower, springs->upper, low, up, on_lower, on_upper};
@@ -335,7 +334,7 @@ static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const
 
 #define NAME(shape) fill_##shape
 #define FILL(shape)                                                                                          \
-  static int64_t NAME(shape)(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,  \
+  static int64_t NAME(shape)(const struct hk_net_springs *springs, ptrdiff_t count, const double *lower,     \
                              const double *upper, double *on_lower, double *on_upper) {                      \
     return fill(springs, count, lower, upper, on_lower, on_upper, (shape)&HOOKE_NET_DAMPED,                  \
                 (shape)&HOOKE_NET_PULL_ONLY, (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);               \
@@ -352,5 +351,5 @@ EVERY(FILL)
 
 #define ENTRY(shape) NAME(shape),
 
-const struct hooke_net_loops HOOKE_NET_LOOPS = {
+const struct hk_net_loops HOOKE_NET_LOOPS = {
     .fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}, .rows = copy_rows};

@@ -24,7 +24,7 @@ enum {
   HOOKE_NET_SHAPES = 32
 };
 
-struct hooke_net_springs {
+struct hk_net_springs {
   const uint8_t *lower; /* rows of the lower ends, from the first of the tile */
   const void *upper;    /* rows of the upper ends */
   double kappa, gamma, rest_length;
@@ -32,21 +32,21 @@ struct hooke_net_springs {
 };
 
 /* Forces of `count` springs on their lower and upper ends; returns how many had a rest length but no direction. */
-typedef int64_t hooke_net_fill(const struct hooke_net_springs *springs, ptrdiff_t count, const double *lower,
-                               const double *upper, double *on_lower, double *on_upper);
+typedef int64_t hk_net_fill(const struct hk_net_springs *springs, ptrdiff_t count, const double *lower,
+                            const double *upper, double *on_lower, double *on_upper);
 
 /* f = sums of the rows of forces at `place`, degree[p] of them at particle p, in this order; returns where `place` ends. */
-typedef const void *hooke_net_sum(ptrdiff_t count, const uint16_t *degree, const void *place,
-                                  const double *force, double *const f[3]);
+typedef const void *hk_net_sum(ptrdiff_t count, const uint16_t *degree, const void *place,
+                               const double *force, double *const f[3]);
 
 /* Rows of `count` particles, those that `order` (NULL: the first ones) says; v NULL: positions alone. */
-typedef void hooke_net_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
-                            const double *const v[3], double *rows);
+typedef void hk_net_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
+                         const double *const v[3], double *rows);
 
-struct hooke_net_loops {
-  hooke_net_fill *fill[HOOKE_NET_SHAPES];
-  hooke_net_sum *sum[2]; /* narrow, wide */
-  hooke_net_rows *rows;
+struct hk_net_loops {
+  hk_net_fill *fill[HOOKE_NET_SHAPES];
+  hk_net_sum *sum[2]; /* narrow, wide */
+  hk_net_rows *rows;
 };
 
 #endif

@@ -9,18 +9,18 @@
 #define HOOKE_INLINE static inline __attribute__((always_inline))
 
 /* The length of (dx, dy, dz). */
-HOOKE_INLINE double hooke_spring_length(double dx, double dy, double dz) {
+HOOKE_INLINE double hk_spring_length(double dx, double dy, double dz) {
   return sqrt((dx * dx + dy * dy) + dz * dz);
 }
 
 /* 1/r, and 0 where r = 0: ends at one place have no direction and no force. */
-HOOKE_INLINE double hooke_spring_inverse_length(double r) {
+HOOKE_INLINE double hk_spring_inverse_length(double r) {
   return 1.0 / (r == 0.0 ? INFINITY : r);
 }
 
 /* Tension kappa (r - l0) + gamma v.u [N]; a spring that only pulls has none while slack, and never pushes. */
-HOOKE_INLINE double hooke_spring_tension(double r, double rest_length, double kappa, double damping_force,
-                                         int damped, int pull_only) {
+HOOKE_INLINE double hk_spring_tension(double r, double rest_length, double kappa, double damping_force,
+                                      int damped, int pull_only) {
   double tension = kappa * (r - rest_length);
   if (damped) tension = tension + damping_force;
   /* no branch: | and not || */

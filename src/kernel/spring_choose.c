@@ -7,31 +7,31 @@
 #define HOOKE_KERNEL_X86 0
 #endif
 
-extern const struct hooke_spring_set hooke_spring_set_baseline;
+extern const struct hk_spring_set hk_spring_set_baseline;
 
 #if HOOKE_KERNEL_X86
-extern const struct hooke_spring_set hooke_spring_set_avx2, hooke_spring_set_avx512;
+extern const struct hk_spring_set hk_spring_set_avx2, hk_spring_set_avx512;
 #endif
 
-const struct hooke_spring_set *hooke_spring_set(int32_t set) {
-  const struct hooke_spring_set *found[3];
+const struct hk_spring_set *hk_spring_set(int32_t set) {
+  const struct hk_spring_set *found[3];
   int32_t count = 0;
 #if HOOKE_KERNEL_X86
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) {
-    found[count++] = &hooke_spring_set_avx512;
+    found[count++] = &hk_spring_set_avx512;
   }
-  if (__builtin_cpu_supports("avx2")) found[count++] = &hooke_spring_set_avx2;
+  if (__builtin_cpu_supports("avx2")) found[count++] = &hk_spring_set_avx2;
 #endif
-  found[count++] = &hooke_spring_set_baseline;
+  found[count++] = &hk_spring_set_baseline;
   return set >= 0 && set < count ? found[set] : NULL;
 }
 
-hooke_step_loop *hooke_step_loop_of(int32_t move) {
-  const struct hooke_spring_set *set = hooke_spring_set(0);
+hk_step_loop *hk_step_loop_of(int32_t move) {
+  const struct hk_spring_set *set = hk_spring_set(0);
   return move == HOOKE_KICK_THEN_DRIFT ? set->kick_then_drift : set->drift_then_kick;
 }
 
-const char *hooke_kernel_instructions(void) {
-  return hooke_spring_set(0)->name;
+const char *hk_kernel_instructions(void) {
+  return hk_spring_set(0)->name;
 }

@@ -35,13 +35,13 @@ HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double
     const double kappa = mixed ? springs.kappas[k] : springs.kappa;
     const double rest_length = mixed ? springs.rest_lengths[k] : springs.rest_length;
     const double dx = qx[i] - qx[j], dy = qy[i] - qy[j], dz = qz[i] - qz[j];
-    const double r = hooke_spring_length(dx, dy, dz), ir = hooke_spring_inverse_length(r);
+    const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
     double brake = 0.0;
     if (damped) {
       const double gamma = mixed ? springs.gammas[k] : springs.gamma;
       brake = gamma * ((((vx[i] - vx[j]) * dx + (vy[i] - vy[j]) * dy) + (vz[i] - vz[j]) * dz) * ir);
     }
-    const double s = hooke_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
+    const double s = hk_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
     bx[k] = s * dx;
     by[k] = s * dy;
     bz[k] = s * dz;
@@ -72,7 +72,7 @@ HOOKE_INLINE void add_block(double *f, const double *b, ptrdiff_t i, ptrdiff_t j
   }
 }
 
-HOOKE_INLINE struct springs springs_from(const struct hooke_run *run, int64_t done, int mixed) {
+HOOKE_INLINE struct springs springs_from(const struct hk_run *run, int64_t done, int mixed) {
   struct springs springs = {
       .kappa = run->kappa, .gamma = run->gamma, .rest_length = run->rest_length, .offset = run->offset};
   if (mixed) {
@@ -83,8 +83,8 @@ HOOKE_INLINE struct springs springs_from(const struct hooke_run *run, int64_t do
   return springs;
 }
 
-HOOKE_INLINE int64_t offset_loop(const struct hooke_run *run, const struct hooke_fields *fields,
-                                 const int damped, const int mixed, const int pull) {
+HOOKE_INLINE int64_t offset_loop(const struct hk_run *run, const struct hk_fields *fields, const int damped,
+                                 const int mixed, const int pull) {
   struct block b;
   int64_t lost = 0;
   for (int64_t done = 0; done < run->count; done += BLOCK) {
@@ -100,8 +100,8 @@ HOOKE_INLINE int64_t offset_loop(const struct hooke_run *run, const struct hooke
   return lost;
 }
 
-HOOKE_INLINE int64_t indexed_loop(const struct hooke_run *run, const struct hooke_fields *fields,
-                                  const int damped, const int mixed, const int pull) {
+HOOKE_INLINE int64_t indexed_loop(const struct hk_run *run, const struct hk_fields *fields, const int damped,
+                                  const int mixed, const int pull) {
   struct block b;
   double *fx = fields->f[0], *fy = fields->f[1], *fz = fields->f[2];
   int64_t lost = 0;
@@ -158,12 +158,10 @@ static void drift_then_kick(ptrdiff_t count, double h, const double *restrict w,
 
 #define NAME(what, damped, mixed, pull) what##_##damped##mixed##pull
 #define LOOPS(damped, mixed, pull)                                                                           \
-  static int64_t NAME(offset, damped, mixed, pull)(const struct hooke_run *run,                              \
-                                                   const struct hooke_fields *f) {                           \
+  static int64_t NAME(offset, damped, mixed, pull)(const struct hk_run *run, const struct hk_fields *f) {    \
     return offset_loop(run, f, damped, mixed, pull);                                                         \
   }                                                                                                          \
-  static int64_t NAME(indexed, damped, mixed, pull)(const struct hooke_run *run,                             \
-                                                    const struct hooke_fields *f) {                          \
+  static int64_t NAME(indexed, damped, mixed, pull)(const struct hk_run *run, const struct hk_fields *f) {   \
     return indexed_loop(run, f, damped, mixed, pull);                                                        \
   }
 LOOPS(0, 0, 0)
@@ -187,7 +185,7 @@ LOOPS(1, 1, 1)
 #define TEXT_OF(word) #word
 #define TEXT(word)    TEXT_OF(word)
 
-const struct hooke_spring_set HOOKE_SPRING_SET = {
+const struct hk_spring_set HOOKE_SPRING_SET = {
     .name = TEXT(HOOKE_ISA),
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
     .lanes = HOOKE_LANE_LOOP,

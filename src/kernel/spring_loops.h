@@ -14,7 +14,7 @@
 
 /* Positions, velocities and forces with x, y and z apart, one array of n doubles each. Velocities are read by
  * damped runs only. */
-struct hooke_fields {
+struct hk_fields {
   const double *q[3];
   const double *v[3];
   double *f[3];
@@ -29,16 +29,16 @@ enum {
   HOOKE_RUN_SHAPES = 16
 };
 
-struct hooke_run;
-struct hooke_net_loops;
-struct hooke_triangle_set;
-struct hooke_tangent_set;
-struct hooke_vector_set;
+struct hk_run;
+struct hk_net_loops;
+struct hk_triangle_set;
+struct hk_tangent_set;
+struct hk_vector_set;
 
 /* Adds the forces of a run; returns how many of its springs had a rest length but no direction. */
-typedef int64_t hooke_spring_loop(const struct hooke_run *run, const struct hooke_fields *fields);
+typedef int64_t hk_spring_loop(const struct hk_run *run, const struct hk_fields *fields);
 
-struct hooke_run {
+struct hk_run {
   int64_t first, count; /* springs first .. first + count - 1, in spring order */
   int32_t shape;
   int32_t start, offset;                        /* constant offset */
@@ -48,47 +48,46 @@ struct hooke_run {
   const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
   int32_t
       strain; /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
-  hooke_spring_loop *loop;
+  hk_spring_loop *loop;
 };
 
-struct hooke_material {
+struct hk_material {
   double kappa, gamma, rest_length;
 };
 
-static inline struct hooke_material hooke_run_material(const struct hooke_run *run, ptrdiff_t k) {
-  if (!(run->shape & HOOKE_RUN_MIXED))
-    return (struct hooke_material){run->kappa, run->gamma, run->rest_length};
+static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdiff_t k) {
+  if (!(run->shape & HOOKE_RUN_MIXED)) return (struct hk_material){run->kappa, run->gamma, run->rest_length};
   const ptrdiff_t at = run->place ? run->place[k] : k;
   const double length = run->rest_lengths[at];
-  if (run->kappas) return (struct hooke_material){run->kappas[at], run->gammas[at], length};
-  if (run->strain) return (struct hooke_material){run->kappa / length, run->gamma / length, length};
-  return (struct hooke_material){run->kappa, run->gamma, length};
+  if (run->kappas) return (struct hk_material){run->kappas[at], run->gammas[at], length};
+  if (run->strain) return (struct hk_material){run->kappa / length, run->gamma / length, length};
+  return (struct hk_material){run->kappa, run->gamma, length};
 }
 
 /* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g. Symplectic
  * Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g is NULL, a = w f. */
-typedef void hooke_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
-                             double *q, double *v);
+typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
+                          double *q, double *v);
 
 /* The loops of one instruction set, by shape. Sets are named "avx512", "avx2", "baseline"; `set` counts from
  * the best that this machine has; NULL past the last. */
-struct hooke_spring_set {
+struct hk_spring_set {
   const char *name;
-  hooke_spring_loop *loop[HOOKE_RUN_SHAPES];
-  hooke_lane_loop *lanes;
-  hooke_step_loop *kick_then_drift, *drift_then_kick;
-  hooke_bending_loop *const *bending; /* by HOOKE_BENDING_* */
-  const struct hooke_net_loops *net;
-  const struct hooke_vector_set *vector;
-  const struct hooke_tangent_set *tangent;
-  const struct hooke_triangle_set *triangle;
+  hk_spring_loop *loop[HOOKE_RUN_SHAPES];
+  hk_lane_loop *lanes;
+  hk_step_loop *kick_then_drift, *drift_then_kick;
+  hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
+  const struct hk_net_loops *net;
+  const struct hk_vector_set *vector;
+  const struct hk_tangent_set *tangent;
+  const struct hk_triangle_set *triangle;
 };
-const struct hooke_spring_set *hooke_spring_set(int32_t set);
+const struct hk_spring_set *hk_spring_set(int32_t set);
 
 /* The loop of this machine's set for HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK. */
-hooke_step_loop *hooke_step_loop_of(int32_t move);
+hk_step_loop *hk_step_loop_of(int32_t move);
 
 /* Name of the set that is used on this machine. */
-const char *hooke_kernel_instructions(void);
+const char *hk_kernel_instructions(void);
 
 #endif

@@ -2,15 +2,15 @@
 
 #include <stddef.h>
 
-void hooke_advance(int64_t n, double h, const double *restrict rate, double *restrict x) {
+void hk_advance(int64_t n, double h, const double *restrict rate, double *restrict x) {
   for (int64_t p = 0; p < n; p++)
     x[p] += h * rate[p];
 }
 
 /* ---- g NULL: no gravity, a = w f ---- */
 
-void hooke_kick_and_drift(int64_t n, double kick, double drift, const double *restrict w,
-                          const double *restrict f, const double *g, double *restrict q, double *restrict v) {
+void hk_kick_and_drift(int64_t n, double kick, double drift, const double *restrict w,
+                       const double *restrict f, const double *g, double *restrict q, double *restrict v) {
   if (g == NULL) {
     for (int64_t p = 0; p < n; p++) {
       v[p] += kick * (w[p] * f[p]);
@@ -25,8 +25,8 @@ void hooke_kick_and_drift(int64_t n, double kick, double drift, const double *re
   }
 }
 
-void hooke_kick(int64_t n, double kick, const double *restrict w, const double *restrict f, const double *g,
-                double *restrict v) {
+void hk_kick(int64_t n, double kick, const double *restrict w, const double *restrict f, const double *g,
+             double *restrict v) {
   if (g == NULL) {
     for (int64_t p = 0; p < n; p++)
       v[p] += kick * (w[p] * f[p]);
@@ -37,8 +37,8 @@ void hooke_kick(int64_t n, double kick, const double *restrict w, const double *
     v[p] += kick * (w[p] * f[p] + gravity);
 }
 
-void hooke_kick_with_drag(int64_t n, double kick, double drag, const double *restrict w,
-                          const double *restrict f, const double *g, double *restrict v) {
+void hk_kick_with_drag(int64_t n, double kick, double drag, const double *restrict w,
+                       const double *restrict f, const double *g, double *restrict v) {
   const double brake = kick * drag;
   if (g == NULL) {
     for (int64_t p = 0; p < n; p++)
@@ -50,7 +50,7 @@ void hooke_kick_with_drag(int64_t n, double kick, double drag, const double *res
     v[p] = (v[p] + kick * (w[p] * f[p] + gravity)) / (1.0 + brake * w[p]);
 }
 
-void hooke_acceleration(int64_t n, const double *restrict w, const double *g, double *restrict f) {
+void hk_acceleration(int64_t n, const double *restrict w, const double *g, double *restrict f) {
   if (g == NULL) {
     for (int64_t p = 0; p < n; p++)
       f[p] = w[p] * f[p];
@@ -61,24 +61,24 @@ void hooke_acceleration(int64_t n, const double *restrict w, const double *g, do
     f[p] = w[p] * f[p] + gravity;
 }
 
-void hooke_first_stage(int64_t n, double h, const double *restrict rate, double *restrict sum,
-                       double *restrict x) {
+void hk_first_stage(int64_t n, double h, const double *restrict rate, double *restrict sum,
+                    double *restrict x) {
   for (int64_t p = 0; p < n; p++) {
     sum[p] = rate[p];
     x[p] += h * rate[p];
   }
 }
 
-void hooke_middle_stage(int64_t n, double h, const double *restrict rate, const double *restrict start,
-                        double *restrict sum, double *restrict x) {
+void hk_middle_stage(int64_t n, double h, const double *restrict rate, const double *restrict start,
+                     double *restrict sum, double *restrict x) {
   for (int64_t p = 0; p < n; p++) {
     sum[p] += 2.0 * rate[p];
     x[p] = start[p] + h * rate[p];
   }
 }
 
-void hooke_last_stage(int64_t n, double sixth, const double *restrict rate, const double *restrict start,
-                      const double *restrict sum, double *restrict x) {
+void hk_last_stage(int64_t n, double sixth, const double *restrict rate, const double *restrict start,
+                   const double *restrict sum, double *restrict x) {
   for (int64_t p = 0; p < n; p++)
     x[p] = start[p] + sixth * (sum[p] + rate[p]);
 }

@@ -6,25 +6,25 @@
 #include <stdint.h>
 
 /* x += h rate. */
-void hooke_advance(int64_t n, double h, const double *rate, double *x);
+void hk_advance(int64_t n, double h, const double *rate, double *x);
 
 /* Halves of a Verlet step, a = w f + *g, or w f where g is NULL: v += kick a, q += drift v(new); v += kick a; and
  * v = (v + kick a)/(1 + kick drag w), which is the same with the drag at the new velocity. */
-void hooke_kick_and_drift(int64_t n, double kick, double drift, const double *w, const double *f,
-                          const double *g, double *q, double *v);
-void hooke_kick(int64_t n, double kick, const double *w, const double *f, const double *g, double *v);
-void hooke_kick_with_drag(int64_t n, double kick, double drag, const double *w, const double *f,
-                          const double *g, double *v);
+void hk_kick_and_drift(int64_t n, double kick, double drift, const double *w, const double *f,
+                       const double *g, double *q, double *v);
+void hk_kick(int64_t n, double kick, const double *w, const double *f, const double *g, double *v);
+void hk_kick_with_drag(int64_t n, double kick, double drag, const double *w, const double *f, const double *g,
+                       double *v);
 
 /* f = w f + *g, or w f where g is NULL. */
-void hooke_acceleration(int64_t n, const double *w, const double *g, double *f);
+void hk_acceleration(int64_t n, const double *w, const double *g, double *f);
 
 /* Stages of the classical Runge-Kutta method, from the rate at the stage before to the place of the next:
  *   first   sum = rate, x += h rate        middle  sum += 2 rate, x = start + h rate
  *   last    x = start + sixth (sum + rate) */
-void hooke_first_stage(int64_t n, double h, const double *rate, double *sum, double *x);
-void hooke_middle_stage(int64_t n, double h, const double *rate, const double *start, double *sum, double *x);
-void hooke_last_stage(int64_t n, double sixth, const double *rate, const double *start, const double *sum,
-                      double *x);
+void hk_first_stage(int64_t n, double h, const double *rate, double *sum, double *x);
+void hk_middle_stage(int64_t n, double h, const double *rate, const double *start, double *sum, double *x);
+void hk_last_stage(int64_t n, double sixth, const double *rate, const double *start, const double *sum,
+                   double *x);
 
 #endif

@@ -11,18 +11,18 @@ enum { BLOCK = 256 };
 
 /* ---- filling ---- */
 
-HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *fields, const double alpha,
-                       const double beta, const struct hooke_tangent *tangent, const int axial) {
+HOOKE_INLINE void fill(const struct hk_run *run, const struct hk_fields *fields, const double alpha,
+                       const double beta, const struct hk_tangent *tangent, const int axial) {
   const double *const *q = fields->q, *const *v = fields->v;
   const int indexed = run->shape & HOOKE_RUN_INDEXED;
   const int pull = run->shape & HOOKE_RUN_PULL_ONLY;
   for (ptrdiff_t k = 0; k < run->count; k++) {
     const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
-    const struct hooke_material material = hooke_run_material(run, k);
+    const struct hk_material material = hk_run_material(run, k);
     const double kappa = material.kappa, gamma = material.gamma, rest_length = material.rest_length;
     const double d[3] = {q[0][i] - q[0][j], q[1][i] - q[1][j], q[2][i] - q[2][j]};
     const double w[3] = {v[0][i] - v[0][j], v[1][i] - v[1][j], v[2][i] - v[2][j]};
-    const double r = hooke_spring_length(d[0], d[1], d[2]), ir = hooke_spring_inverse_length(r);
+    const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
     const double rate = ((w[0] * d[0] + w[1] * d[1]) + w[2] * d[2]) * ir;
     const double tension = kappa * (r - rest_length) + gamma * rate;
     const double taut = pull && ((r <= rest_length) | (tension < 0.0)) ? 0.0 : 1.0;
@@ -45,8 +45,8 @@ HOOKE_INLINE void fill(const struct hooke_run *run, const struct hooke_fields *f
   }
 }
 
-static void tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
-                         double beta, const struct hooke_tangent *tangent) {
+static void tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
+                         const struct hk_tangent *tangent) {
   if (tangent->b)
     fill(run, fields, alpha, beta, tangent, 0);
   else
@@ -66,8 +66,8 @@ struct numbers {
   ptrdiff_t offset;
 };
 
-HOOKE_INLINE struct numbers numbers_of(const struct hooke_run *run, const struct hooke_tangent *t,
-                                       int64_t done, int axial) {
+HOOKE_INLINE struct numbers numbers_of(const struct hk_run *run, const struct hk_tangent *t, int64_t done,
+                                       int axial) {
   const int64_t s = run->first + done;
   struct numbers numbers = {.ux = t->u[0] + s, .uy = t->u[1] + s, .uz = t->u[2] + s, .offset = run->offset};
   if (!axial) {
@@ -115,7 +115,7 @@ HOOKE_INLINE void add_to_ends(double *out, const double *restrict b, ptrdiff_t i
     second[k] -= b[k];
 }
 
-HOOKE_INLINE void multiply(const struct hooke_run *run, const struct hooke_tangent *tangent,
+HOOKE_INLINE void multiply(const struct hk_run *run, const struct hk_tangent *tangent,
                            const double *const x[3], double *const out[3], const int indexed,
                            const int axial) {
   struct block b;
@@ -142,7 +142,7 @@ HOOKE_INLINE void multiply(const struct hooke_run *run, const struct hooke_tange
   }
 }
 
-static void tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
+static void tangent_product(const struct hk_run *run, const struct hk_tangent *tangent,
                             const double *const x[3], double *const out[3]) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = tangent->b == NULL;
   if (indexed && axial)
@@ -157,8 +157,7 @@ static void tangent_product(const struct hooke_run *run, const struct hooke_tang
 
 /* ---- diagonal ---- */
 
-static void tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *t,
-                             double *const block[6]) {
+static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *t, double *const block[6]) {
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
   const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = t->b == NULL;
   for (ptrdiff_t k = 0; k < run->count; k++) {
@@ -180,13 +179,13 @@ static void tangent_diagonal(const struct hooke_run *run, const struct hooke_tan
 
 /* ---- damping ---- */
 
-static void tangent_damping(const struct hooke_run *run, const struct hooke_tangent *t,
-                            const double *const x[3], double *const out[3]) {
+static void tangent_damping(const struct hk_run *run, const struct hk_tangent *t, const double *const x[3],
+                            double *const out[3]) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED;
   for (ptrdiff_t k = 0; k < run->count; k++) {
     const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
     const ptrdiff_t s = run->first + k;
-    const double gamma = hooke_run_material(run, k).gamma;
+    const double gamma = hk_run_material(run, k).gamma;
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
     const double along =
         gamma * (((x[0][i] - x[0][j]) * u[0] + (x[1][i] - x[1][j]) * u[1]) + (x[2][i] - x[2][j]) * u[2]);
@@ -197,5 +196,5 @@ static void tangent_damping(const struct hooke_run *run, const struct hooke_tang
   }
 }
 
-const struct hooke_tangent_set HOOKE_TANGENT_SET = {tangent_fill, tangent_product, tangent_diagonal,
-                                                    tangent_damping};
+const struct hk_tangent_set HOOKE_TANGENT_SET = {tangent_fill, tangent_product, tangent_diagonal,
+                                                 tangent_damping};

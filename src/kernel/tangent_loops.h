@@ -10,37 +10,36 @@
 #include "kernel/spring_loops.h"
 
 /* By spring number. With alpha = 0, u is g, e is the same arrays, and b is NULL. */
-struct hooke_tangent {
+struct hk_tangent {
   double *u[3], *e[3], *b;
 };
 
 /* The loops are compiled once for each instruction set; these functions take the best that the machine has. */
 
 /* At the positions and velocities of `fields`. */
-void hooke_tangent_fill(const struct hooke_run *run, const struct hooke_fields *fields, double alpha,
-                        double beta, const struct hooke_tangent *tangent);
+void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
+                     const struct hk_tangent *tangent);
 
 /* out += the blocks times x; x, y and z apart. */
-void hooke_tangent_product(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                           const double *const x[3], double *const out[3]);
+void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
+                        double *const out[3]);
 
 /* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal block of
  * either end: xx, yy, zz, xy, xz, yz. */
-void hooke_tangent_diagonal(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                            double *const block[6]);
+void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tangent, double *const block[6]);
 
 /* out += what springs damp of velocities x: gamma u (u.x) of those that are not slack. */
-void hooke_tangent_damping(const struct hooke_run *run, const struct hooke_tangent *tangent,
-                           const double *const x[3], double *const out[3]);
+void hk_tangent_damping(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
+                        double *const out[3]);
 
 /* The loops of one instruction set, under the names above. */
-struct hooke_tangent_set {
-  void (*tangent_fill)(const struct hooke_run *, const struct hooke_fields *, double, double,
-                       const struct hooke_tangent *);
-  void (*tangent_product)(const struct hooke_run *, const struct hooke_tangent *, const double *const[3],
+struct hk_tangent_set {
+  void (*tangent_fill)(const struct hk_run *, const struct hk_fields *, double, double,
+                       const struct hk_tangent *);
+  void (*tangent_product)(const struct hk_run *, const struct hk_tangent *, const double *const[3],
                           double *const[3]);
-  void (*tangent_diagonal)(const struct hooke_run *, const struct hooke_tangent *, double *const[6]);
-  void (*tangent_damping)(const struct hooke_run *, const struct hooke_tangent *, const double *const[3],
+  void (*tangent_diagonal)(const struct hk_run *, const struct hk_tangent *, double *const[6]);
+  void (*tangent_damping)(const struct hk_run *, const struct hk_tangent *, const double *const[3],
                           double *const[3]);
 };
 

@@ -8,7 +8,7 @@ typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 
 #define INLINE static inline __attribute__((always_inline))
 
-static void triangle_forward(const struct hooke_triangle *l, double *x) {
+static void triangle_forward(const struct hk_triangle *l, double *x) {
   for (int64_t k = 0; k < l->count; k++) {
     const double *c = l->corner + 6 * k;
     double *own = x + 3 * k;
@@ -29,7 +29,7 @@ struct sums {
   four of[3];
 };
 
-INLINE void add_block(const struct hooke_triangle *l, int64_t e, const double *x, struct sums *sums) {
+INLINE void add_block(const struct hk_triangle *l, int64_t e, const double *x, struct sums *sums) {
   const double *block = l->block + 9 * e;
   const four y = *(const four *)(x + l->row[e]);
   for (ptrdiff_t c = 0; c < 3; c++)
@@ -42,7 +42,7 @@ INLINE double total(const struct sums *a, const struct sums *b, int c) {
 }
 
 /* Down in memory all the way, which machines foresee. */
-static void triangle_backward(const struct hooke_triangle *l, double *x) {
+static void triangle_backward(const struct hk_triangle *l, double *x) {
   for (int64_t k = l->count - 1; k >= 0; k--) {
     struct sums one = {{{0.0}}}, other = {{{0.0}}};
     int64_t e = l->begin[k + 1] - 1;
@@ -59,4 +59,4 @@ static void triangle_backward(const struct hooke_triangle *l, double *x) {
   }
 }
 
-const struct hooke_triangle_set HOOKE_TRIANGLE_SET = {triangle_forward, triangle_backward};
+const struct hk_triangle_set HOOKE_TRIANGLE_SET = {triangle_forward, triangle_backward};

@@ -8,7 +8,7 @@
 /* Room behind arrays that is read and has no influence. */
 enum { HOOKE_TRIANGLE_SPARE = 1 };
 
-struct hooke_triangle {
+struct hk_triangle {
   int64_t count;  /* of columns of blocks */
   int64_t *begin; /* count + 1: of the blocks of a column that are below the diagonal */
   int32_t *row;   /* of each of them: its first row of numbers, a multiple of 3 */
@@ -17,13 +17,13 @@ struct hooke_triangle {
 };
 
 /* x = L^-1 x and x = L^-T x; 3 count numbers and HOOKE_TRIANGLE_SPARE more. */
-void hooke_triangle_forward(const struct hooke_triangle *l, double *x);
-void hooke_triangle_backward(const struct hooke_triangle *l, double *x);
+void hk_triangle_forward(const struct hk_triangle *l, double *x);
+void hk_triangle_backward(const struct hk_triangle *l, double *x);
 
 /* The loops of one instruction set, under the names above. */
-struct hooke_triangle_set {
-  void (*triangle_forward)(const struct hooke_triangle *, double *);
-  void (*triangle_backward)(const struct hooke_triangle *, double *);
+struct hk_triangle_set {
+  void (*triangle_forward)(const struct hk_triangle *, double *);
+  void (*triangle_backward)(const struct hk_triangle *, double *);
 };
 
 #endif

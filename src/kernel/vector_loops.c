@@ -207,7 +207,7 @@ static double largest(int64_t size, const double *x) {
   return most;
 }
 
-const struct hooke_vector_set HOOKE_VECTOR_SET = {
+const struct hk_vector_set HOOKE_VECTOR_SET = {
     .dot = dot,
     .add_multiple = add_multiple,
     .scale_and_add = scale_and_add,

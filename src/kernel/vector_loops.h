@@ -6,44 +6,44 @@
 
 #include <stdint.h>
 
-double hooke_dot(int64_t size, const double *x, const double *y);
+double hk_dot(int64_t size, const double *x, const double *y);
 
 /* y += a x; y = x + b y. */
-void hooke_add_multiple(int64_t size, double a, const double *x, double *y);
-void hooke_scale_and_add(int64_t size, double b, const double *x, double *y);
+void hk_add_multiple(int64_t size, double a, const double *x, double *y);
+void hk_scale_and_add(int64_t size, double b, const double *x, double *y);
 
 /* The same sum over n particles, x, y and z apart, each weighed by one of n numbers. */
-double hooke_dot_weighed(int64_t n, const double *weight, const double *x, const double *y);
+double hk_dot_weighed(int64_t n, const double *weight, const double *x, const double *y);
 
 /* Half a turn each of Lanczos's recurrence in the norm of masses, on vectors as above:
  * out = a inverse out - b before, returns out.Mx;  out -= c x, returns out.M out. */
-double hooke_lanczos_begin(int64_t n, const double *mass, const double *inverse, double a, double b,
-                           const double *before, const double *x, double *out);
-double hooke_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out);
+double hk_lanczos_begin(int64_t n, const double *mass, const double *inverse, double a, double b,
+                        const double *before, const double *x, double *out);
+double hk_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out);
 
 /* Lower triangular 3x3 blocks W, one a particle: 11, 22, 33, 21, 31, 32, n numbers each; vectors are n of x, n of y, n of
  * z. y = W^T x; x = W x; y = d x
  * with n numbers d. */
-void hooke_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y);
-void hooke_apply_factor(int64_t n, const double *w, double *x);
-void hooke_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
+void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y);
+void hk_apply_factor(int64_t n, const double *w, double *x);
+void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
 
 /* Loops for libraries that call them one by one; vectors may be the same, and else do not overlap.
  * z = a x + b y;  z = a x;  z = x y;  z = x/y;  z = 1/x;  z = |x|;  z = a + x */
-void hooke_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z);
-void hooke_scale(int64_t size, double a, const double *x, double *z);
-void hooke_multiply(int64_t size, const double *x, const double *y, double *z);
-void hooke_divide(int64_t size, const double *x, const double *y, double *z);
-void hooke_invert(int64_t size, const double *x, double *z);
-void hooke_absolute(int64_t size, const double *x, double *z);
-void hooke_add_number(int64_t size, double a, const double *x, double *z);
+void hk_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z);
+void hk_scale(int64_t size, double a, const double *x, double *z);
+void hk_multiply(int64_t size, const double *x, const double *y, double *z);
+void hk_divide(int64_t size, const double *x, const double *y, double *z);
+void hk_invert(int64_t size, const double *x, double *z);
+void hk_absolute(int64_t size, const double *x, double *z);
+void hk_add_number(int64_t size, double a, const double *x, double *z);
 /* The sums of (x y)^2 and of x y in thirty-two parts, and the largest |x|. */
-double hooke_sum_of_squares(int64_t size, const double *x, const double *y);
-double hooke_long_dot(int64_t size, const double *x, const double *y);
-double hooke_largest(int64_t size, const double *x);
+double hk_sum_of_squares(int64_t size, const double *x, const double *y);
+double hk_long_dot(int64_t size, const double *x, const double *y);
+double hk_largest(int64_t size, const double *x);
 
 /* The loops of one instruction set, under the names above. */
-struct hooke_vector_set {
+struct hk_vector_set {
   double (*dot)(int64_t, const double *, const double *);
   void (*add_multiple)(int64_t, double, const double *, double *);
   void (*scale_and_add)(int64_t, double, const double *, double *);

@@ -43,7 +43,7 @@ const char *hooke_build_fact(const char *what) {
   if (!strcmp(what, "jansson")) return HOOKE_JANSSON_VERSION;
   if (!strcmp(what, "chartjs")) return HOOKE_CHARTJS_VERSION;
   if (!strcmp(what, "threejs")) return HOOKE_THREEJS_VERSION;
-  if (!strcmp(what, "instructions")) return hooke_kernel_instructions();
+  if (!strcmp(what, "instructions")) return hk_kernel_instructions();
   if (!strcmp(what, "licence")) return licence();
   if (!strcmp(what, "machine")) return machine();
   return NULL;

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 static void add(uint32_t *value, const void *bytes, int64_t count, size_t size) {
-  *value = hooke_crc32(*value, bytes, count * (int64_t)size);
+  *value = hk_crc32(*value, bytes, count * (int64_t)size);
 }
 
 static void add_whole(uint32_t *value, int64_t number) {
@@ -24,9 +24,9 @@ static void add_particles(uint32_t *value, const hooke_system *system) {
 }
 
 static void add_springs(uint32_t *value, const hooke_system *system) {
-  struct hooke_spring_batch batch;
+  struct hk_spring_batch batch;
   add_whole(value, system->springs.count);
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     add(value, batch.head, batch.count, sizeof *batch.head);
     add(value, batch.tail, batch.count, sizeof *batch.tail);
     add(value, batch.kappa, batch.count, sizeof(double));
@@ -37,9 +37,9 @@ static void add_springs(uint32_t *value, const hooke_system *system) {
 }
 
 static void add_bending(uint32_t *value, const hooke_system *system) {
-  struct hooke_triple triple;
+  struct hk_triple triple;
   add_whole(value, system->bending.count);
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     add(value, triple.particle, 3, sizeof *triple.particle);
     add(value, &triple.coefficient, 1, sizeof(double));
   }
@@ -48,7 +48,7 @@ static void add_bending(uint32_t *value, const hooke_system *system) {
 static void add_altitudes(uint32_t *value, const hooke_system *system) {
   add_whole(value, system->altitudes.count);
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
     add(value, t->particle, 4, sizeof *t->particle);
     add_whole(value, t->choice);
     add_whole(value, t->pull_only);
@@ -62,7 +62,7 @@ static void add_altitudes(uint32_t *value, const hooke_system *system) {
 static void add_drives(uint32_t *value, const hooke_system *system) {
   add_whole(value, system->drive_count);
   for (int64_t k = 0; k < system->drive_count; k++) {
-    const struct hooke_drive_group *drive = &system->drive[k];
+    const struct hk_drive_group *drive = &system->drive[k];
     add_whole(value, drive->kind);
     add_whole(value, drive->count);
     add(value, drive->particle, drive->count, sizeof *drive->particle);
@@ -76,7 +76,7 @@ static void add_drives(uint32_t *value, const hooke_system *system) {
   }
 }
 
-uint32_t hooke_system_check_value(const hooke_system *system) {
+uint32_t hk_system_check_value(const hooke_system *system) {
   uint32_t value = 0;
   add_particles(&value, system);
   add_springs(&value, system);

@@ -15,10 +15,10 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
     for (int a = 0; a < 3; a++) {
       const double v = system->velocity[3 * p + a];
       if (v == 0.0) continue;
-      hooke_fail(HOOKE_BAD_VALUE, NULL,
-                 "particle %lld is pinned and has velocity %g; a pinned particle has velocity 0",
-                 (long long)p, v);
-      return hooke_fail_within(HOOKE_BAD_VALUE, "particles.velocity[%lld][%d]", (long long)p, a);
+      hk_fail(HOOKE_BAD_VALUE, NULL,
+              "particle %lld is pinned and has velocity %g; a pinned particle has velocity 0", (long long)p,
+              v);
+      return hk_fail_within(HOOKE_BAD_VALUE, "particles.velocity[%lld][%d]", (long long)p, a);
     }
   }
   return HOOKE_OK;
@@ -27,8 +27,8 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 /* Groups first, parts after, each in the order of adding; names stay, springs go into runs. */
 static int32_t sort_springs(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
-    hooke_group_drop(&system->group[k]);
-  struct hooke_group *sorted = hooke_new(system->group_count, sizeof *sorted);
+    hk_group_drop(&system->group[k]);
+  struct hk_group *sorted = hk_new(system->group_count, sizeof *sorted);
   if (sorted == NULL) return HOOKE_NO_MEMORY;
   int64_t next = 0;
   for (int32_t from_part = 0; from_part <= 1; from_part++) {
@@ -36,13 +36,13 @@ static int32_t sort_springs(hooke_system *system) {
       if (system->group[k].from_part == from_part) sorted[next++] = system->group[k];
     }
   }
-  const int32_t status = hooke_springs_create(sorted, system->group_count, &system->springs);
+  const int32_t status = hk_springs_create(sorted, system->group_count, &system->springs);
   if (status == HOOKE_OK) {
-    hooke_free(system->group);
+    hk_free(system->group);
     system->group = sorted;
     system->group_capacity = system->group_count;
   } else {
-    hooke_free(sorted);
+    hk_free(sorted);
   }
   return status;
 }
@@ -60,25 +60,25 @@ static int is_at_rest(const hooke_system *system) {
 static void trim_particles(hooke_system *system) {
   const int64_t n = system->particle_count;
   if (is_at_rest(system)) {
-    hooke_free(system->velocity);
+    hk_free(system->velocity);
     system->velocity = NULL;
   }
   if (system->particle_capacity == n) return;
-  int32_t status = hooke_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
+  int32_t status = hk_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK && system->velocity)
-    status = hooke_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
-  if (status == HOOKE_OK) status = hooke_grow((void **)&system->mass, n, n, sizeof(double));
-  if (status == HOOKE_OK) status = hooke_grow((void **)&system->held, n, n, sizeof(uint8_t));
+    status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, n, n, sizeof(double));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->held, n, n, sizeof(uint8_t));
   if (status == HOOKE_OK) system->particle_capacity = n;
 }
 
 static void drop_building_arrays(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
-    hooke_group_release_arrays(&system->group[k]);
+    hk_group_release_arrays(&system->group[k]);
   for (int64_t k = 0; k < system->bending_group_count; k++)
-    hooke_bending_group_strip(&system->bending_group[k]);
+    hk_bending_group_strip(&system->bending_group[k]);
   for (int64_t k = 0; k < system->altitude_group_count; k++)
-    hooke_altitude_group_strip(&system->altitude_group[k]);
+    hk_altitude_group_strip(&system->altitude_group[k]);
 }
 
 static int32_t fill_particles(hooke_system *system) {
@@ -86,8 +86,8 @@ static int32_t fill_particles(hooke_system *system) {
   int64_t held = 0;
   for (int64_t p = 0; p < n; p++)
     held += system->held[p] != 0;
-  system->inverse_mass = hooke_new(n + HOOKE_LANE_UNIT, sizeof(double)); /* loops go by whole units */
-  system->held_particle = hooke_new(held, sizeof(int32_t));
+  system->inverse_mass = hk_new(n + HOOKE_LANE_UNIT, sizeof(double)); /* loops go by whole units */
+  system->held_particle = hk_new(held, sizeof(int32_t));
   if (system->inverse_mass == NULL || system->held_particle == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < n; p++) {
     if (system->held[p])
@@ -98,14 +98,14 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
-void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched) {
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++)
       touched[batch.head[k]] = touched[batch.tail[k]] = 1;
   }
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++)
       touched[triple.particle[e]] = 1;
   }
@@ -120,11 +120,11 @@ static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64
 
 /* Spans, and the pinned particles in them, which are counted before there is a list. */
 static void add_tile(hooke_system *system, int64_t from, int64_t end) {
-  struct hooke_span *last = &system->span[system->span_count - 1];
+  struct hk_span *last = &system->span[system->span_count - 1];
   if (system->span_count > 0 && last->from + last->count == from)
     last->count += end - from;
   else
-    system->span[system->span_count++] = (struct hooke_span){from, end - from};
+    system->span[system->span_count++] = (struct hk_span){from, end - from};
   for (int64_t p = from; p < end; p++) {
     if (system->held[p] != HOOKE_HELD_PINNED) continue;
     if (system->anchor) system->anchor[system->anchor_count] = (int32_t)p;
@@ -144,32 +144,32 @@ static void add_tiles(hooke_system *system, const uint8_t *idle) {
 /* What no step has to go over: tiles of pinned particles that nothing touches. A callback force may look at any. */
 static int32_t find_stepped(hooke_system *system) {
   const int64_t n = system->particle_count;
-  uint8_t *idle = hooke_new(n, sizeof *idle);
-  system->span = hooke_new(n / HOOKE_TILE / 2 + 2, sizeof *system->span);
+  uint8_t *idle = hk_new(n, sizeof *idle);
+  system->span = hk_new(n / HOOKE_TILE / 2 + 2, sizeof *system->span);
   int32_t status = idle && system->span ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
-    hooke_system_mark_touched(system, idle);
+    hk_system_mark_touched(system, idle);
     for (int64_t p = 0; p < n; p++) {
       idle[p] = !idle[p] && system->held[p] == HOOKE_HELD_PINNED && system->force == NULL;
       system->idle_count += idle[p];
     }
     add_tiles(system, idle);
-    system->anchor = hooke_new(system->anchor_count, sizeof *system->anchor);
+    system->anchor = hk_new(system->anchor_count, sizeof *system->anchor);
     if (system->anchor == NULL) status = HOOKE_NO_MEMORY;
   }
   if (status == HOOKE_OK) add_tiles(system, idle);
-  hooke_free(idle);
+  hk_free(idle);
   return status;
 }
 
 static int32_t choose_forces(hooke_system *system) {
   int32_t rows = 0;
-  while (hooke_force_table(rows))
+  while (hk_force_table(rows))
     rows++;
-  system->force_row = hooke_new(rows, sizeof(const struct hooke_force_row *));
+  system->force_row = hk_new(rows, sizeof(const struct hk_force_row *));
   if (system->force_row == NULL) return HOOKE_NO_MEMORY;
   for (int32_t k = 0; k < rows; k++) {
-    const struct hooke_force_row *row = hooke_force_table(k);
+    const struct hk_force_row *row = hk_force_table(k);
     if (row->present(system)) system->force_row[system->force_row_count++] = row;
   }
   return HOOKE_OK;
@@ -178,21 +178,21 @@ static int32_t choose_forces(hooke_system *system) {
 /* Back to an open system after a failure half-way. */
 static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
-    hooke_group_take_back(&system->group[k]);
-  hooke_lanes_release(&system->lanes);
-  hooke_net_release(&system->net);
-  hooke_springs_release(&system->springs);
-  hooke_bending_release(&system->bending);
-  hooke_altitudes_release(&system->altitudes);
-  hooke_free(system->inverse_mass);
-  hooke_free(system->held_particle);
-  hooke_free(system->force_row);
+    hk_group_take_back(&system->group[k]);
+  hk_lanes_release(&system->lanes);
+  hk_net_release(&system->net);
+  hk_springs_release(&system->springs);
+  hk_bending_release(&system->bending);
+  hk_altitudes_release(&system->altitudes);
+  hk_free(system->inverse_mass);
+  hk_free(system->held_particle);
+  hk_free(system->force_row);
   system->inverse_mass = NULL;
   system->held_particle = NULL;
   system->force_row = NULL;
   system->held_count = 0;
-  hooke_free(system->span);
-  hooke_free(system->anchor);
+  hk_free(system->span);
+  hk_free(system->anchor);
   system->span = NULL;
   system->anchor = NULL;
   system->idle_count = system->span_count = system->anchor_count = 0;
@@ -200,22 +200,22 @@ static void undo(hooke_system *system) {
 }
 
 int32_t hooke_system_commit(hooke_system *system) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = sort_springs(system);
   if (status == HOOKE_OK) {
-    status = hooke_lanes_create(&system->springs, system->particle_count, &system->lanes);
+    status = hk_lanes_create(&system->springs, system->particle_count, &system->lanes);
   }
   if (status == HOOKE_OK) {
-    status = hooke_bending_create(system->bending_group, system->bending_group_count, &system->bending);
+    status = hk_bending_create(system->bending_group, system->bending_group_count, &system->bending);
   }
   if (status == HOOKE_OK) {
-    status = hooke_altitudes_create(system->altitude_group, system->altitude_group_count, &system->altitudes);
+    status = hk_altitudes_create(system->altitude_group, system->altitude_group_count, &system->altitudes);
   }
   if (status == HOOKE_OK && system->lanes.count == 0) {
-    status = hooke_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
+    status = hk_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);

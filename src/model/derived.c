@@ -7,26 +7,26 @@
 #include <math.h>
 #include <string.h>
 
-int32_t hooke_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
-                                 const char *unit, double value) {
+int32_t hk_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
+                              const char *unit, double value) {
   const int64_t count = system->derived_count, capacity = 2 * system->derived_capacity + 8;
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK && count == system->derived_capacity) {
-    status = hooke_grow((void **)&system->derived, count, capacity, sizeof *system->derived);
+    status = hk_grow((void **)&system->derived, count, capacity, sizeof *system->derived);
     if (status == HOOKE_OK) system->derived_capacity = capacity;
   }
-  char *copy = status == HOOKE_OK ? hooke_copy_text(part) : NULL;
+  char *copy = status == HOOKE_OK ? hk_copy_text(part) : NULL;
   if (copy == NULL) return status == HOOKE_OK ? HOOKE_NO_MEMORY : status;
-  system->derived[system->derived_count++] = (struct hooke_derived){copy, family, name, unit, value};
+  system->derived[system->derived_count++] = (struct hk_derived){copy, family, name, unit, value};
   return HOOKE_OK;
 }
 
-void hooke_system_drop_derived(hooke_system *system, int64_t kept) {
+void hk_system_drop_derived(hooke_system *system, int64_t kept) {
   while (system->derived_count > kept)
-    hooke_free(system->derived[--system->derived_count].part);
+    hk_free(system->derived[--system->derived_count].part);
 }
 
-static const struct hooke_derived *find(const hooke_system *system, int64_t number) {
+static const struct hk_derived *find(const hooke_system *system, int64_t number) {
   return number >= 0 && number < system->derived_count ? &system->derived[number] : NULL;
 }
 
@@ -35,7 +35,7 @@ int64_t hooke_system_derived_count(const hooke_system *system) {
 }
 
 const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what) {
-  const struct hooke_derived *row = find(system, number);
+  const struct hk_derived *row = find(system, number);
   if (row == NULL) return NULL;
   if (strcmp(what, "part") == 0) return row->part;
   if (strcmp(what, "family") == 0) return row->family;
@@ -44,6 +44,6 @@ const char *hooke_system_derived_text(const hooke_system *system, int64_t number
 }
 
 double hooke_system_derived_value(const hooke_system *system, int64_t number) {
-  const struct hooke_derived *row = find(system, number);
+  const struct hk_derived *row = find(system, number);
   return row ? row->value : (double)NAN;
 }

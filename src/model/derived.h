@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-struct hooke_derived {
+struct hk_derived {
   char *part;
   const char *family, *name, *unit; /* texts that live as long as the library; no family: NULL */
   double value;

@@ -6,31 +6,31 @@
 
 #include <string.h>
 
-int64_t hooke_part_record_pinned(const hooke_system *system, const struct hooke_part_record *record) {
+int64_t hk_part_record_pinned(const hooke_system *system, const struct hk_part_record *record) {
   int64_t pinned = 0;
   for (int64_t p = record->first; p < record->first + record->count; p++)
     pinned += system->held[p] == HOOKE_HELD_PINNED;
   return pinned;
 }
 
-int32_t hooke_part_record_keep(hooke_system *system, struct hooke_part_record record, const char *name,
-                               const hooke_options *options) {
+int32_t hk_part_record_keep(hooke_system *system, struct hk_part_record record, const char *name,
+                            const hooke_options *options) {
   const int64_t last = system->part_count - 1;
-  record.pinned = hooke_part_record_pinned(system, &record);
-  record.name = hooke_copy_text(name);
+  record.pinned = hk_part_record_pinned(system, &record);
+  record.name = hk_copy_text(name);
   int32_t status = record.name ? hooke_options_copy(options, &record.options) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && (last & (last - 1)) == 0) { /* full at powers of two */
-    status = hooke_grow((void **)&system->part, last, last > 0 ? 2 * last : 1, sizeof record);
+    status = hk_grow((void **)&system->part, last, last > 0 ? 2 * last : 1, sizeof record);
   }
   if (status == HOOKE_OK)
     system->part[last] = record;
   else
-    hooke_part_record_release(&record);
+    hk_part_record_release(&record);
   return status;
 }
 
-void hooke_part_record_release(struct hooke_part_record *record) {
-  hooke_free(record->name);
+void hk_part_record_release(struct hk_part_record *record) {
+  hk_free(record->name);
   hooke_options_destroy(record->options);
   memset(record, 0, sizeof *record);
 }

@@ -5,19 +5,19 @@
 #include "hooke/system.h"
 
 /* hooke_system_add_part(), which belongs to a layer above. */
-typedef int32_t hooke_part_add(hooke_system *system, const char *kind, const char *name,
-                               const hooke_options *options, int64_t *first, int64_t *count);
+typedef int32_t hk_part_add(hooke_system *system, const char *kind, const char *name,
+                            const hooke_options *options, int64_t *first, int64_t *count);
 
 /* A kind whose particles are a grid: cells along each axis, one less than particles; the first axis is the fastest. Returns
  * the number of axes, 1 to 3. */
-struct hooke_part_grid {
+struct hk_part_grid {
   int32_t (*cells)(const hooke_options *options, int64_t cells[3]);
   int32_t (*set_cells)(hooke_options *options, const int64_t cells[3]);
 };
 
-struct hooke_part_record {
-  hooke_part_add *add;
-  const struct hooke_part_grid *grid; /* NULL: not a grid */
+struct hk_part_record {
+  hk_part_add *add;
+  const struct hk_part_grid *grid; /* NULL: not a grid */
   const char *kind;
   char *name;
   hooke_options *options;
@@ -26,10 +26,10 @@ struct hooke_part_record {
 };
 
 /* Remembers the part that is being added, with copies of `name` and `options`. HOOKE_NO_MEMORY. */
-int32_t hooke_part_record_keep(hooke_system *system, struct hooke_part_record record, const char *name,
-                               const hooke_options *options);
+int32_t hk_part_record_keep(hooke_system *system, struct hk_part_record record, const char *name,
+                            const hooke_options *options);
 /* How many of its particles are pinned. */
-int64_t hooke_part_record_pinned(const hooke_system *system, const struct hooke_part_record *record);
-void hooke_part_record_release(struct hooke_part_record *record);
+int64_t hk_part_record_pinned(const hooke_system *system, const struct hk_part_record *record);
+void hk_part_record_release(struct hk_part_record *record);
 
 #endif

@@ -7,12 +7,12 @@
 
 #include <string.h>
 
-int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
-  hooke_state *state = hooke_handle_new("hooke_state", sizeof *state);
-  double *block = hooke_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
+int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
+  hooke_state *state = hk_handle_new("hooke_state", sizeof *state);
+  double *block = hk_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
   if (state == NULL || block == NULL) {
-    hooke_handle_free(state);
-    hooke_free(block);
+    hk_handle_free(state);
+    hk_free(block);
     return HOOKE_NO_MEMORY;
   }
   *state = (hooke_state){.size = size, .has_v = has_v, .t = block, .q = block + 1};
@@ -21,37 +21,35 @@ int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **out)
   return HOOKE_OK;
 }
 
-int32_t hooke_state_check(const hooke_state *state, const hooke_system *system) {
+int32_t hk_state_check(const hooke_state *state, const hooke_system *system) {
   const int64_t size = 3 * system->particle_count;
   if (state->has_v && state->size == size) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "state",
-                    "is of another system: it has %lld numbers, the system has %lld", (long long)state->size,
-                    (long long)size);
+  return hk_fail(HOOKE_BAD_VALUE, "state", "is of another system: it has %lld numbers, the system has %lld",
+                 (long long)state->size, (long long)size);
 }
 
 /* Puts driven particles where their motion has them at t = 0. */
 static int32_t place_driven(const hooke_system *system, hooke_state *state) {
   for (int64_t g = 0; g < system->drive_count; g++) {
-    const struct hooke_drive_group *drive = &system->drive[g];
-    double *q = hooke_new(6 * drive->count, sizeof(double));
+    const struct hk_drive_group *drive = &system->drive[g];
+    double *q = hk_new(6 * drive->count, sizeof(double));
     if (q == NULL) return HOOKE_NO_MEMORY;
     double *v = q + 3 * drive->count;
-    const int32_t value = hooke_drive_evaluate(drive, 0.0, q, v);
+    const int32_t value = hk_drive_evaluate(drive, 0.0, q, v);
     for (int64_t k = 0; k < drive->count && value == 0; k++) {
       memcpy(state->q + 3 * (int64_t)drive->particle[k], q + 3 * k, 3 * sizeof(double));
       memcpy(state->v + 3 * (int64_t)drive->particle[k], v + 3 * k, 3 * sizeof(double));
     }
-    hooke_free(q);
-    if (value != 0)
-      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = 0", (int)value);
+    hk_free(q);
+    if (value != 0) return hk_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = 0", (int)value);
   }
   return HOOKE_OK;
 }
 
 int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
   hooke_state *state = NULL;
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = hooke_state_create_sized(3 * system->particle_count, 1, &state);
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_state_create_sized(3 * system->particle_count, 1, &state);
   if (status != HOOKE_OK) return status;
   if (system->particle_count > 0) {
     const size_t bytes = (size_t)state->size * sizeof(double);
@@ -67,21 +65,20 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
 }
 
 int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
-  if (size < 1)
-    return hooke_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
-  return hooke_state_create_sized(size, 0, state);
+  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
+  return hk_state_create_sized(size, 0, state);
 }
 
 void hooke_state_destroy(hooke_state *state) {
   if (state == NULL) return;
-  hooke_free(state->t);
-  hooke_handle_free(state);
+  hk_free(state->t);
+  hk_handle_free(state);
 }
 
 int32_t hooke_state_copy(const hooke_state *from, hooke_state *to) {
   if (from->size != to->size || from->has_v != to->has_v) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a state of %lld numbers does not fit one of %lld",
-                      (long long)from->size, (long long)to->size);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "a state of %lld numbers does not fit one of %lld",
+                   (long long)from->size, (long long)to->size);
   }
   memcpy(to->t, from->t, (size_t)(1 + (from->has_v ? 2 : 1) * from->size) * sizeof(double));
   return HOOKE_OK;

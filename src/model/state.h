@@ -11,9 +11,9 @@ struct hooke_state {
 };
 
 /* A state of zeros with `size` numbers in q, and as many in v if it has one. HOOKE_NO_MEMORY. */
-int32_t hooke_state_create_sized(int64_t size, int32_t has_v, hooke_state **state);
+int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **state);
 
 /* HOOKE_BAD_VALUE unless the state is one of a system like this. */
-int32_t hooke_state_check(const hooke_state *state, const hooke_system *system);
+int32_t hk_state_check(const hooke_state *state, const hooke_system *system);
 
 #endif

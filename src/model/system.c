@@ -10,56 +10,55 @@
 #include <string.h>
 
 int32_t hooke_system_create(hooke_system **system) {
-  *system = hooke_handle_new("hooke_system", sizeof **system);
+  *system = hk_handle_new("hooke_system", sizeof **system);
   return *system ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 void hooke_system_destroy(hooke_system *system) {
   if (system == NULL) return;
   for (int64_t k = 0; k < system->group_count; k++)
-    hooke_group_release(&system->group[k]);
+    hk_group_release(&system->group[k]);
   for (int64_t k = 0; k < system->part_count; k++)
-    hooke_part_record_release(&system->part[k]);
+    hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
-    hooke_drive_release(&system->drive[k]);
+    hk_drive_release(&system->drive[k]);
   for (int64_t k = 0; k < system->bending_group_count; k++)
-    hooke_bending_group_release(&system->bending_group[k]);
+    hk_bending_group_release(&system->bending_group[k]);
   for (int64_t k = 0; k < system->altitude_group_count; k++)
-    hooke_altitude_group_release(&system->altitude_group[k]);
-  hooke_lanes_release(&system->lanes);
-  hooke_bending_release(&system->bending);
-  hooke_altitudes_release(&system->altitudes);
-  hooke_net_release(&system->net);
-  hooke_springs_release(&system->springs);
-  hooke_free(system->position);
-  hooke_free(system->velocity);
-  hooke_free(system->mass);
-  hooke_free(system->held);
-  hooke_free(system->inverse_mass);
-  hooke_free(system->held_particle);
-  hooke_free(system->span);
-  hooke_free(system->anchor);
-  hooke_free(system->group);
-  hooke_free(system->part);
-  hooke_free(system->bending_group);
-  hooke_free(system->altitude_group);
-  hooke_system_drop_derived(system, 0);
-  hooke_free(system->derived);
-  hooke_free(system->drive);
-  hooke_free(system->force_row);
-  hooke_handle_free(system);
+    hk_altitude_group_release(&system->altitude_group[k]);
+  hk_lanes_release(&system->lanes);
+  hk_bending_release(&system->bending);
+  hk_altitudes_release(&system->altitudes);
+  hk_net_release(&system->net);
+  hk_springs_release(&system->springs);
+  hk_free(system->position);
+  hk_free(system->velocity);
+  hk_free(system->mass);
+  hk_free(system->held);
+  hk_free(system->inverse_mass);
+  hk_free(system->held_particle);
+  hk_free(system->span);
+  hk_free(system->anchor);
+  hk_free(system->group);
+  hk_free(system->part);
+  hk_free(system->bending_group);
+  hk_free(system->altitude_group);
+  hk_system_drop_derived(system, 0);
+  hk_free(system->derived);
+  hk_free(system->drive);
+  hk_free(system->force_row);
+  hk_handle_free(system);
 }
 
-int32_t hooke_system_require_open(const hooke_system *system) {
+int32_t hk_system_require_open(const hooke_system *system) {
   if (!system->committed) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_CALL, NULL,
-                    "the system is committed and can no longer be changed; build a new one");
+  return hk_fail(HOOKE_BAD_CALL, NULL,
+                 "the system is committed and can no longer be changed; build a new one");
 }
 
-int32_t hooke_system_require_committed(const hooke_system *system) {
+int32_t hk_system_require_committed(const hooke_system *system) {
   if (system->committed) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_CALL, NULL,
-                    "the system is not committed yet; call hooke_system_commit() first");
+  return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
 }
 
 /* Capacity for `count` more particles in every particle array. */
@@ -67,11 +66,11 @@ static int32_t reserve_particles(hooke_system *system, int64_t count) {
   int64_t used = system->particle_count, needed = used + count;
   if (needed <= system->particle_capacity) return HOOKE_OK;
   int64_t capacity = used == 0 ? needed : needed + needed / 2;
-  int32_t status = hooke_grow((void **)&system->position, 3 * used, 3 * capacity, sizeof(double));
+  int32_t status = hk_grow((void **)&system->position, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK)
-    status = hooke_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
-  if (status == HOOKE_OK) status = hooke_grow((void **)&system->mass, used, capacity, sizeof(double));
-  if (status == HOOKE_OK) status = hooke_grow((void **)&system->held, used, capacity, sizeof(uint8_t));
+    status = hk_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, used, capacity, sizeof(double));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->held, used, capacity, sizeof(uint8_t));
   if (status == HOOKE_OK) system->particle_capacity = capacity;
   return status;
 }
@@ -79,25 +78,24 @@ static int32_t reserve_particles(hooke_system *system, int64_t count) {
 static int32_t check_finite(const char *name, int64_t count, const double *value) {
   for (int64_t k = 0; k < 3 * count; k++) {
     if (isfinite(value[k])) continue;
-    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", value[k]);
-    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%d]", name, (long long)(k / 3), (int)(k % 3));
+    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", value[k]);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%d]", name, (long long)(k / 3), (int)(k % 3));
   }
   return HOOKE_OK;
 }
 
 static int32_t check_mass(int64_t count, int64_t mass_count, const double *mass) {
   if (mass_count != 1 && mass_count != count) {
-    return hooke_fail(HOOKE_BAD_VALUE, "mass",
-                      "%lld masses for %lld particles; allowed: one, or one for each", (long long)mass_count,
-                      (long long)count);
+    return hk_fail(HOOKE_BAD_VALUE, "mass", "%lld masses for %lld particles; allowed: one, or one for each",
+                   (long long)mass_count, (long long)count);
   }
   for (int64_t k = 0; k < mass_count; k++) {
     /* the inverse has to be a finite number too */
     if (mass[k] > 0.0 && isfinite(mass[k]) && isfinite(1.0 / mass[k])) continue;
-    hooke_fail(HOOKE_BAD_VALUE, NULL,
-               "%g is not allowed; a mass is a number > 0 (pin a particle to hold it still)", mass[k]);
-    return mass_count == 1 ? hooke_fail_within(HOOKE_BAD_VALUE, "mass")
-                           : hooke_fail_within(HOOKE_BAD_VALUE, "mass[%lld]", (long long)k);
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "%g is not allowed; a mass is a number > 0 (pin a particle to hold it still)", mass[k]);
+    return mass_count == 1 ? hk_fail_within(HOOKE_BAD_VALUE, "mass")
+                           : hk_fail_within(HOOKE_BAD_VALUE, "mass[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
@@ -105,13 +103,13 @@ static int32_t check_mass(int64_t count, int64_t mass_count, const double *mass)
 int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const double *position,
                                    const double *velocity, int64_t mass_count, const double *mass,
                                    int64_t *first) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK && count < 0) {
-    status = hooke_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more particles are",
-                        (long long)count);
+    status =
+        hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more particles are", (long long)count);
   }
   if (status == HOOKE_OK)
-    status = hooke_system_check_room(system, (struct hooke_more){.particles = (double)count}, NULL);
+    status = hk_system_check_room(system, (struct hk_more){.particles = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_finite("position", count, position);
   if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
   if (status == HOOKE_OK) status = check_mass(count, mass_count, mass);
@@ -136,41 +134,41 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
 }
 
 int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hooke_system_check_particles(system, "pinned", count, particles, HOOKE_HELD_DRIVEN);
+    status = hk_system_check_particles(system, "pinned", count, particles, HOOKE_HELD_DRIVEN);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < count; k++)
     system->held[particles[k]] = HOOKE_HELD_PINNED;
   return HOOKE_OK;
 }
 
-int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
-                                     const int64_t *particles, int32_t refused) {
+int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
+                                  const int64_t *particles, int32_t refused) {
   for (int64_t k = 0; k < count; k++) {
     const int64_t p = particles[k];
     if (p < 0 || p >= system->particle_count) {
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
-                 (long long)(system->particle_count - 1));
+      hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
+              (long long)(system->particle_count - 1));
     } else if (system->held[p] & refused) {
-      hooke_fail(HOOKE_BAD_VALUE, NULL,
-                 "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,
-                 system->held[p] == HOOKE_HELD_PINNED ? "pinned" : "driven");
+      hk_fail(HOOKE_BAD_VALUE, NULL,
+              "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,
+              system->held[p] == HOOKE_HELD_PINNED ? "pinned" : "driven");
     } else {
       continue;
     }
-    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", place, (long long)k);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", place, (long long)k);
   }
   return HOOKE_OK;
 }
 
 int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   for (int k = 0; k < 3; k++) {
     if (isfinite(gravity[k])) continue;
-    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
-    return hooke_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
+    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
+    return hk_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
   }
   /* no gravity is +0, whatever the sign of the zeros */
   system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
@@ -180,10 +178,10 @@ int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
 }
 
 int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   if (!(coefficient >= 0.0) || !isfinite(coefficient)) {
-    return hooke_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
+    return hk_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
   }
   system->drag = coefficient > 0.0 ? coefficient : 0.0;
   return HOOKE_OK;
@@ -191,7 +189,7 @@ int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
 
 int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_force_product *product,
                                void *ctx) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   system->force = force;
   system->force_product = product;
@@ -199,30 +197,30 @@ int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_f
   return HOOKE_OK;
 }
 
-int64_t hooke_system_next_part(hooke_system *system) {
+int64_t hk_system_next_part(hooke_system *system) {
   return system->part_count++;
 }
 
-struct hooke_system_mark hooke_system_mark(const hooke_system *system) {
-  return (struct hooke_system_mark){system->particle_count,      system->group_count,
-                                    system->bending_group_count, system->altitude_group_count,
-                                    system->derived_count,       system->part_count};
+struct hk_system_mark hk_system_mark(const hooke_system *system) {
+  return (struct hk_system_mark){system->particle_count,      system->group_count,
+                                 system->bending_group_count, system->altitude_group_count,
+                                 system->derived_count,       system->part_count};
 }
 
-void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark) {
+void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark) {
   while (system->group_count > mark.group_count) {
     system->spring_total -= system->group[--system->group_count].count;
-    hooke_group_release(&system->group[system->group_count]);
+    hk_group_release(&system->group[system->group_count]);
   }
   while (system->bending_group_count > mark.bending_group_count) {
     system->triple_total -= system->bending_group[--system->bending_group_count].count;
-    hooke_bending_group_release(&system->bending_group[system->bending_group_count]);
+    hk_bending_group_release(&system->bending_group[system->bending_group_count]);
   }
   while (system->altitude_group_count > mark.altitude_group_count) {
     system->tetrahedron_total -= system->altitude_group[--system->altitude_group_count].count;
-    hooke_altitude_group_release(&system->altitude_group[system->altitude_group_count]);
+    hk_altitude_group_release(&system->altitude_group[system->altitude_group_count]);
   }
-  hooke_system_drop_derived(system, mark.derived_count);
+  hk_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;
 }

@@ -12,12 +12,12 @@
 #include "model/part_record.h"
 #include "model/force/spring.h"
 
-struct hooke_force_row;
+struct hk_force_row;
 
 enum { HOOKE_HELD_PINNED = 1, HOOKE_HELD_DRIVEN = 2 };
 
 /* Whole tiles of particles (HOOKE_TILE), the last one cut at the end. */
-struct hooke_span {
+struct hk_span {
   int64_t from, count;
 };
 
@@ -34,32 +34,32 @@ struct hooke_system {
   int32_t *held_particle;
   int64_t idle_count; /* from commit on: pinned particles that nothing touches */
   int64_t span_count; /* from commit on: what is stepped, ascending */
-  struct hooke_span *span;
+  struct hk_span *span;
   int64_t
       anchor_count; /* from commit on: pinned particles in there, which are put back after a step; ascending */
   int32_t *anchor;
 
   /* spring groups; from commit on in spring order */
   int64_t group_count, group_capacity;
-  struct hooke_group *group;
+  struct hk_group *group;
   int64_t part_count;
-  struct hooke_part_record *part; /* part_count, in the order of adding */
-  struct hooke_springs springs;   /* from commit on */
-  struct hooke_lanes lanes;       /* from commit on, of all springs or of none */
-  struct hooke_net net;           /* the same, where there are no lanes */
+  struct hk_part_record *part; /* part_count, in the order of adding */
+  struct hk_springs springs;   /* from commit on */
+  struct hk_lanes lanes;       /* from commit on, of all springs or of none */
+  struct hk_net net;           /* the same, where there are no lanes */
 
   /* groups of triples, those of parts last */
   int64_t bending_group_count, bending_group_capacity;
-  struct hooke_bending_group *bending_group;
-  struct hooke_bending bending; /* from commit on */
+  struct hk_bending_group *bending_group;
+  struct hk_bending bending; /* from commit on */
 
   /* the same of tetrahedra */
   int64_t altitude_group_count, altitude_group_capacity;
-  struct hooke_altitude_group *altitude_group;
-  struct hooke_altitudes altitudes; /* from commit on */
+  struct hk_altitude_group *altitude_group;
+  struct hk_altitudes altitudes; /* from commit on */
 
   int64_t derived_count, derived_capacity;
-  struct hooke_derived *derived;
+  struct hk_derived *derived;
 
   int64_t spring_total, triple_total, tetrahedron_total; /* of all groups, as added */
   double memory_limit; /* [bytes] that it may need; 0: what the machine has */
@@ -72,54 +72,54 @@ struct hooke_system {
   void *force_ctx;
 
   int64_t drive_count, drive_capacity;
-  struct hooke_drive_group *drive;
+  struct hk_drive_group *drive;
 
   int32_t force_row_count; /* from commit on: the forces that are there */
-  const struct hooke_force_row **force_row;
+  const struct hk_force_row **force_row;
 };
 
 /* HOOKE_BAD_CALL unless the system is still open (or, the second, committed). */
-int32_t hooke_system_require_open(const hooke_system *system);
-int32_t hooke_system_require_committed(const hooke_system *system);
+int32_t hk_system_require_open(const hooke_system *system);
+int32_t hk_system_require_committed(const hooke_system *system);
 
 /* HOOKE_BAD_VALUE, with "<place>[k]", for the first particle that does not exist or is held in the way
  * `refused` says. */
-int32_t hooke_system_check_particles(const hooke_system *system, const char *place, int64_t count,
-                                     const int64_t *particles, int32_t refused);
+int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
+                                  const int64_t *particles, int32_t refused);
 
 /* What a system needs at most with more of each [bytes], and whether there is room, in 32-bit numbers and in memory; `what` is what they are ("a cloth of 3 x 4
  * particles", NULL: the scene). HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-struct hooke_more {
+struct hk_more {
   double particles, springs, triples, tetrahedra; /* which cannot overflow */
 };
-double hooke_system_needed_bytes(const hooke_system *system, struct hooke_more more);
-int32_t hooke_system_check_room(const hooke_system *system, struct hooke_more more, const char *what);
+double hk_system_needed_bytes(const hooke_system *system, struct hk_more more);
+int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, const char *what);
 
 /* Sets touched[p] to 1 for every particle that a spring, a triple or a tetrahedron is at. */
-void hooke_system_mark_touched(const hooke_system *system, uint8_t *touched);
+void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
- * the same as hooke_system_add_springs(), and so with triples. hooke_system_next_part() counts parts: it returns 0, 1, ... */
-int32_t hooke_system_add_part_springs(hooke_system *system, const char *name, int64_t count,
-                                      const int64_t *ends, const hooke_options *options);
-int32_t hooke_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
-                                      const int64_t *triples, int64_t coefficient_count,
-                                      const double *coefficient);
+ * the same as hooke_system_add_springs(), and so with triples. hk_system_next_part() counts parts: it returns 0, 1, ... */
+int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                                   const hooke_options *options);
+int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
+                                   const int64_t *triples, int64_t coefficient_count,
+                                   const double *coefficient);
 /* `family` (NULL: none), `name` and `unit` have to live as long as the library. HOOKE_NO_MEMORY, HOOKE_BAD_CALL. */
-int32_t hooke_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
-                                 const char *unit, double value);
+int32_t hk_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
+                              const char *unit, double value);
 /* Drops all but the first `kept` of them. */
-void hooke_system_drop_derived(hooke_system *system, int64_t kept);
-int64_t hooke_system_next_part(hooke_system *system);
+void hk_system_drop_derived(hooke_system *system, int64_t kept);
+int64_t hk_system_next_part(hooke_system *system);
 
 /* A builder that fails half-way takes back what it added since the mark. */
-struct hooke_system_mark {
+struct hk_system_mark {
   int64_t particle_count, group_count, bending_group_count, altitude_group_count, derived_count, part_count;
 };
-struct hooke_system_mark hooke_system_mark(const hooke_system *system);
-void hooke_system_roll_back(hooke_system *system, struct hooke_system_mark mark);
+struct hk_system_mark hk_system_mark(const hooke_system *system);
+void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark);
 
 /* Energy of springs, bending and altitude springs [J], which is never below 0. */
-double hooke_elastic_energy(const hooke_system *system, const double *q);
+double hk_elastic_energy(const hooke_system *system, const double *q);
 
 #endif

@@ -60,12 +60,12 @@ const double *hooke_system_inverse_mass(const hooke_system *system) {
 }
 
 int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       ends[2 * (run->first + k)] = spring.head;
       ends[2 * (run->first + k) + 1] = spring.tail;
     }
@@ -75,12 +75,12 @@ int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends) {
 
 int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
                                      double *rest_length) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       if (kappa) kappa[run->first + k] = spring.kappa;
       if (gamma) gamma[run->first + k] = spring.gamma;
       if (rest_length) rest_length[run->first + k] = spring.rest_length;
@@ -92,9 +92,9 @@ int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, 
 int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
   int64_t count = 0;
   double length[HOOKE_SPRING_BATCH];
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
-    hooke_batch_lengths(&batch, q, length);
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    hk_batch_lengths(&batch, q, length);
     for (int64_t k = 0; k < batch.count; k++)
       count += length[k] == 0.0 && batch.rest_length[k] != 0.0;
   }
@@ -110,13 +110,13 @@ const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
 }
 
 int64_t hooke_system_spring_memory(const hooke_system *system) {
-  return hooke_springs_memory(&system->springs) + hooke_net_spring_memory(&system->net);
+  return hk_springs_memory(&system->springs) + hk_net_spring_memory(&system->net);
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + hooke_springs_memory(&system->springs) + system->lanes.memory +
-                  hooke_net_memory(&system->net) + hooke_bending_memory(&system->bending) +
-                  hooke_altitudes_memory(&system->altitudes);
+  int64_t bytes = (int64_t)sizeof *system + hk_springs_memory(&system->springs) + system->lanes.memory +
+                  hk_net_memory(&system->net) + hk_bending_memory(&system->bending) +
+                  hk_altitudes_memory(&system->altitudes);
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
            (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
     {.name = "edges",
      .type = HOOKE_OPTION_NUMBERS,
@@ -40,7 +40,7 @@ static const struct hooke_option_row rows[] = {
     HOOKE_PART_BENDING("N m", "stiffness of a strip of the cloth as a beam, over its width"),
 };
 
-static const struct hooke_option_table table = {"cloth", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"cloth", HOOKE_OPTION_ROWS(rows)};
 
 static void place_particles(const double *origin, const double *edges, int64_t nu, int64_t nv,
                             double *position) {
@@ -73,66 +73,66 @@ static struct cell find_cell(const double *edges, int64_t nu, int64_t nv) {
     normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   return (struct cell){.nu = nu,
                        .nv = nv,
-                       .u = hooke_part_length(edges) / (double)(nu - 1),
-                       .v = hooke_part_length(edges + 3) / (double)(nv - 1),
-                       .along = hooke_part_length(along),
-                       .across = hooke_part_length(across),
-                       .area = hooke_part_length(normal)};
+                       .u = hk_part_length(edges) / (double)(nu - 1),
+                       .v = hk_part_length(edges + 3) / (double)(nv - 1),
+                       .along = hk_part_length(along),
+                       .across = hk_part_length(across),
+                       .area = hk_part_length(normal)};
 }
 
-static int32_t add_springs(struct hooke_part *part, const struct cell *cell) {
+static int32_t add_springs(struct hk_part *part, const struct cell *cell) {
   const int64_t nu = cell->nu, nv = cell->nv;
-  const struct hooke_part_strip structural[] = {{nv, nu - 1, 0, 1, cell->u, HOOKE_PART_U},
-                                                {nv - 1, nu, 0, nu, cell->v, HOOKE_PART_V}};
-  const struct hooke_part_strip shear[] = {{nv - 1, nu - 1, 0, nu + 1, cell->along, HOOKE_PART_DIAGONAL},
-                                           {nv - 1, nu - 1, 1, nu, cell->across, HOOKE_PART_OTHER_DIAGONAL}};
-  const struct hooke_part_strip bend[] = {{nv, nu - 2, 0, 2, 2.0 * cell->u, HOOKE_PART_U},
-                                          {nv - 2, nu, 0, 2 * nu, 2.0 * cell->v, HOOKE_PART_V}};
-  int32_t status = hooke_part_add_family(part, "structural", nu, 2, structural);
-  if (status == HOOKE_OK) status = hooke_part_add_family(part, "shear", nu, 2, shear);
-  if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", nu, 2, bend);
+  const struct hk_part_strip structural[] = {{nv, nu - 1, 0, 1, cell->u, HOOKE_PART_U},
+                                             {nv - 1, nu, 0, nu, cell->v, HOOKE_PART_V}};
+  const struct hk_part_strip shear[] = {{nv - 1, nu - 1, 0, nu + 1, cell->along, HOOKE_PART_DIAGONAL},
+                                        {nv - 1, nu - 1, 1, nu, cell->across, HOOKE_PART_OTHER_DIAGONAL}};
+  const struct hk_part_strip bend[] = {{nv, nu - 2, 0, 2, 2.0 * cell->u, HOOKE_PART_U},
+                                       {nv - 2, nu, 0, 2 * nu, 2.0 * cell->v, HOOKE_PART_V}};
+  int32_t status = hk_part_add_family(part, "structural", nu, 2, structural);
+  if (status == HOOKE_OK) status = hk_part_add_family(part, "shear", nu, 2, shear);
+  if (status == HOOKE_OK) status = hk_part_add_family(part, "bend", nu, 2, bend);
   return status;
 }
 
 /* A line is a beam as wide as the distance of its neighbours, at right angles to it. */
-static int32_t add_bending(struct hooke_part *part, const struct cell *cell) {
+static int32_t add_bending(struct hk_part *part, const struct cell *cell) {
   const double stiffness = hooke_options_number(part->options, "bending"), u = cell->u, v = cell->v;
-  const struct hooke_part_beams beams[] = {
+  const struct hk_part_beams beams[] = {
       {cell->nv, cell->nu - 2, 1, stiffness * (cell->area / u) / (u * u * u), HOOKE_PART_U, HOOKE_BEAMS_ROWS},
       {cell->nv - 2, cell->nu, cell->nu, stiffness * (cell->area / v) / (v * v * v), HOOKE_PART_V,
        HOOKE_BEAMS_COLUMNS}};
-  return hooke_part_add_bending(part, cell->nu, 2, beams);
+  return hk_part_add_bending(part, cell->nu, 2, beams);
 }
 
 /* In numbers that cannot overflow. */
-static struct hooke_more size_of(const struct hooke_part *part, double nu, double nv) {
+static struct hk_more size_of(const struct hk_part *part, double nu, double nv) {
   const double along = (nu - 1.0) * nv + nu * (nv - 1.0), across = 2.0 * (nu - 1.0) * (nv - 1.0);
   const double two_apart = fmax(0.0, nu - 2.0) * nv + nu * fmax(0.0, nv - 2.0);
-  return (struct hooke_more){
-      .particles = nu * nv,
-      .springs = hooke_part_if_family(part, "structural", along) +
-                 hooke_part_if_family(part, "shear", across) + hooke_part_if_family(part, "bend", two_apart),
-      .triples = hooke_options_number(part->options, "bending") > 0.0 ? two_apart : 0.0};
+  return (struct hk_more){.particles = nu * nv,
+                          .springs = hk_part_if_family(part, "structural", along) +
+                                     hk_part_if_family(part, "shear", across) +
+                                     hk_part_if_family(part, "bend", two_apart),
+                          .triples = hooke_options_number(part->options, "bending") > 0.0 ? two_apart : 0.0};
 }
 
-static int32_t build(struct hooke_part *part) {
+static int32_t build(struct hk_part *part) {
   const double *size = hooke_options_numbers(part->options, "size");
   const double *edges = hooke_options_numbers(part->options, "edges");
   const int64_t nu = (int64_t)size[0], nv = (int64_t)size[1];
 
   double *position;
-  int32_t status = hooke_part_new_positions(part, size_of(part, size[0], size[1]), &position,
-                                            "a cloth of %lld x %lld particles", (long long)nu, (long long)nv);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "size");
+  int32_t status = hk_part_new_positions(part, size_of(part, size[0], size[1]), &position,
+                                         "a cloth of %lld x %lld particles", (long long)nu, (long long)nv);
+  if (status != HOOKE_OK) return hk_fail_within(status, "size");
   const struct cell cell = find_cell(edges, nu, nv);
   place_particles(hooke_options_numbers(part->options, "origin"), edges, nu, nv, position);
-  status = hooke_part_add_particles(part, nv, nu, cell.area, position);
-  hooke_free(position);
+  status = hk_part_add_particles(part, nv, nu, cell.area, position);
+  hk_free(position);
   if (status == HOOKE_OK) status = add_springs(part, &cell);
   return status == HOOKE_OK ? add_bending(part, &cell) : status;
 }
 
-static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   const int64_t nu = (int64_t)hooke_options_numbers(part->options, "size")[0];
   if (strcmp(word, "top") == 0) return k < nu ? k : -1;
   const int64_t corner[] = {0, nu - 1, part->count - nu, part->count - 1};
@@ -151,9 +151,9 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
   return hooke_options_set_numbers(options, "size", 2, size);
 }
 
-static const struct hooke_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_cloth = {
+const struct hooke_part_kind hk_part_cloth = {
     &table, build, named, &grid,
     "a grid of particles over two edges, with springs along it, across its cells and "
     "two apart"};

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
     {.name = "edges",
      .type = HOOKE_OPTION_NUMBERS,
@@ -41,7 +41,7 @@ static const struct hooke_option_row rows[] = {
     HOOKE_PART_FAMILY("bend", "springs two apart along x, y and z"),
 };
 
-static const struct hooke_option_table table = {"lattice", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"lattice", HOOKE_OPTION_ROWS(rows)};
 
 /* Directions of springs in their order, in steps along x, y and z; the second end has the higher number. */
 enum { AXES = 3, DIAGONALS = 10 };
@@ -76,15 +76,15 @@ static double springs_along(const struct lattice *lattice, const int32_t *step, 
 }
 
 /* In numbers that cannot overflow. */
-static struct hooke_more size_of(const struct hooke_part *part, const struct lattice *lattice) {
-  struct hooke_more more = {.particles = 1.0};
+static struct hk_more size_of(const struct hk_part *part, const struct lattice *lattice) {
+  struct hk_more more = {.particles = 1.0};
   for (int a = 0; a < 3; a++) {
     more.particles *= (double)lattice->size[a];
-    more.springs += hooke_part_if_family(part, "structural", springs_along(lattice, axis[a], 1));
-    more.springs += hooke_part_if_family(part, "bend", springs_along(lattice, axis[a], 2));
+    more.springs += hk_part_if_family(part, "structural", springs_along(lattice, axis[a], 1));
+    more.springs += hk_part_if_family(part, "bend", springs_along(lattice, axis[a], 2));
   }
   for (int d = 0; d < DIAGONALS; d++)
-    more.springs += hooke_part_if_family(part, "shear", springs_along(lattice, diagonal[d], 1));
+    more.springs += hk_part_if_family(part, "shear", springs_along(lattice, diagonal[d], 1));
   return more;
 }
 
@@ -128,7 +128,7 @@ static void share_mass(const struct lattice *lattice, double inner, double *mass
   }
 }
 
-static int32_t derive_masses(const struct hooke_part *part, const struct lattice *lattice) {
+static int32_t derive_masses(const struct hk_part *part, const struct lattice *lattice) {
   static const char *const name[] = {"mass of an inner particle", "mass of a particle on a face",
                                      "mass of a particle on an edge", "mass of a corner"};
   int wide = 0; /* axes with particles between the two faces */
@@ -136,33 +136,32 @@ static int32_t derive_masses(const struct hooke_part *part, const struct lattice
     wide += lattice->size[a] > 2;
   int32_t status = HOOKE_OK;
   for (int outside = 3 - wide; outside <= 3 && status == HOOKE_OK; outside++) {
-    status = hooke_system_add_derived(part->system, part->name, NULL, name[outside], "kg",
-                                      ldexp(part->inner_mass, -outside));
+    status = hk_system_add_derived(part->system, part->name, NULL, name[outside], "kg",
+                                   ldexp(part->inner_mass, -outside));
   }
   return status;
 }
 
-static int32_t add_by_density(struct hooke_part *part, const struct lattice *lattice,
-                              const double *position) {
+static int32_t add_by_density(struct hk_part *part, const struct lattice *lattice, const double *position) {
   const double piece = cell_volume(lattice);
   part->inner_mass = hooke_options_number(part->options, "density") * piece;
   if (!isfinite(part->inner_mass) || !isfinite(1.0 / (0.125 * part->inner_mass))) {
-    return hooke_fail(HOOKE_BAD_VALUE, "density",
-                      "an inner particle stands for %g m^3 and would have a mass of %g kg; allowed: finite "
-                      "and > 0, so let the edges of the part span a volume",
-                      piece, part->inner_mass);
+    return hk_fail(HOOKE_BAD_VALUE, "density",
+                   "an inner particle stands for %g m^3 and would have a mass of %g kg; allowed: finite "
+                   "and > 0, so let the edges of the part span a volume",
+                   piece, part->inner_mass);
   }
-  double *mass = hooke_new(part->count, sizeof(double));
+  double *mass = hk_new(part->count, sizeof(double));
   if (mass == NULL) return HOOKE_NO_MEMORY;
   share_mass(lattice, part->inner_mass, mass);
   int32_t status =
       hooke_system_add_particles(part->system, part->count, position, NULL, part->count, mass, &part->first);
-  hooke_free(mass);
+  hk_free(mass);
   return status == HOOKE_OK ? derive_masses(part, lattice) : status;
 }
 
-static int32_t add_particles(struct hooke_part *part, const struct lattice *lattice, const double *position) {
-  int32_t status = hooke_part_check_masses(part);
+static int32_t add_particles(struct hk_part *part, const struct lattice *lattice, const double *position) {
+  int32_t status = hk_part_check_masses(part);
   if (status != HOOKE_OK) return status;
   if (hooke_options_is_set(part->options, "density")) return add_by_density(part, lattice, position);
   part->inner_mass = hooke_options_number(part->options, "mass") / (double)part->count;
@@ -177,12 +176,12 @@ static double rest_length(const struct lattice *lattice, const int32_t *step, do
   for (int i = 0; i < 3; i++)
     vector[i] = ((double)step[0] * lattice->side[0][i] + (double)step[1] * lattice->side[1][i]) +
                 (double)step[2] * lattice->side[2][i];
-  return apart * hooke_part_length(vector);
+  return apart * hk_part_length(vector);
 }
 
 /* Springs of one direction, a strip for every layer. */
 static void fill_strips(const struct lattice *lattice, const int32_t *step, int32_t apart, int32_t direction,
-                        struct hooke_part_strip *strip) {
+                        struct hk_part_strip *strip) {
   const int64_t nx = lattice->size[0], ny = lattice->size[1];
   int64_t low = 0, stride[3] = {1, nx, nx * ny}, jump = 0;
   for (int a = 0; a < 3; a++) {
@@ -191,18 +190,18 @@ static void fill_strips(const struct lattice *lattice, const int32_t *step, int3
   }
   for (int64_t z = 0; z < lattice->size[2] - (step[2] ? apart : 0); z++) {
     const int64_t first = low + z * stride[2];
-    *strip++ = (struct hooke_part_strip){.rows = ny - (step[1] ? apart : 0),
-                                         .columns = nx - (step[0] ? apart : 0),
-                                         .low = first,
-                                         .high = first + jump,
-                                         .rest_length = rest_length(lattice, step, apart),
-                                         .direction = (enum hooke_part_direction)direction};
+    *strip++ = (struct hk_part_strip){.rows = ny - (step[1] ? apart : 0),
+                                      .columns = nx - (step[0] ? apart : 0),
+                                      .low = first,
+                                      .high = first + jump,
+                                      .rest_length = rest_length(lattice, step, apart),
+                                      .direction = (enum hk_part_direction)direction};
   }
 }
 
-static int32_t add_family(struct hooke_part *part, const struct lattice *lattice, const char *family,
+static int32_t add_family(struct hk_part *part, const struct lattice *lattice, const char *family,
                           int32_t count, const int32_t (*step)[3], int32_t apart, int32_t first) {
-  struct hooke_part_strip *strip = hooke_new(count * lattice->size[2], sizeof *strip);
+  struct hk_part_strip *strip = hk_new(count * lattice->size[2], sizeof *strip);
   if (strip == NULL) return HOOKE_NO_MEMORY;
   int32_t strips = 0;
   for (int32_t d = 0; d < count; d++) {
@@ -210,12 +209,12 @@ static int32_t add_family(struct hooke_part *part, const struct lattice *lattice
     fill_strips(lattice, step[d], apart, first + d, strip + strips);
     strips += layers > 0 ? (int32_t)layers : 0;
   }
-  const int32_t status = hooke_part_add_family(part, family, lattice->size[0], strips, strip);
-  hooke_free(strip);
+  const int32_t status = hk_part_add_family(part, family, lattice->size[0], strips, strip);
+  hk_free(strip);
   return status;
 }
 
-static int32_t add_springs(struct hooke_part *part, const struct lattice *lattice) {
+static int32_t add_springs(struct hk_part *part, const struct lattice *lattice) {
   const int32_t along = HOOKE_PART_LATTICE, across = HOOKE_PART_LATTICE + AXES;
   int32_t status = add_family(part, lattice, "structural", AXES, axis, 1, along);
   if (status == HOOKE_OK) status = add_family(part, lattice, "shear", DIAGONALS, diagonal, 1, across);
@@ -225,21 +224,21 @@ static int32_t add_springs(struct hooke_part *part, const struct lattice *lattic
 
 /* ---- the kind ---- */
 
-static int32_t build(struct hooke_part *part) {
+static int32_t build(struct hk_part *part) {
   const struct lattice lattice = lattice_of(part->options);
   const int64_t *size = lattice.size;
   double *position;
   int32_t status =
-      hooke_part_new_positions(part, size_of(part, &lattice), &position, "a lattice of %lld x %lld x %lld",
-                               (long long)size[0], (long long)size[1], (long long)size[2]);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "size");
+      hk_part_new_positions(part, size_of(part, &lattice), &position, "a lattice of %lld x %lld x %lld",
+                            (long long)size[0], (long long)size[1], (long long)size[2]);
+  if (status != HOOKE_OK) return hk_fail_within(status, "size");
   place_particles(part->options, &lattice, position);
   status = add_particles(part, &lattice, position);
-  hooke_free(position);
+  hk_free(position);
   return status == HOOKE_OK ? add_springs(part, &lattice) : status;
 }
 
-static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   const struct lattice lattice = lattice_of(part->options);
   const int64_t layer = lattice.size[0] * lattice.size[1];
   if (k >= layer) return -1;
@@ -258,8 +257,8 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
   return hooke_options_set_numbers(options, "size", 3, size);
 }
 
-static const struct hooke_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_lattice = {
+const struct hooke_part_kind hk_part_lattice = {
     &table, build, named, &grid,
     "a grid of particles over three edges, with springs along it, across its cells and two apart"};

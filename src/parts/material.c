@@ -7,25 +7,25 @@
 #include <math.h>
 #include <stdio.h>
 
-static double option_of(const struct hooke_part *part, const char *family, const char *key) {
+static double option_of(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
   return hooke_options_number(part->options, dotted);
 }
 
-static int32_t derive(const struct hooke_part *part, const char *family, const char *name, const char *unit,
+static int32_t derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
                       double value) {
-  return hooke_system_add_derived(part->system, part->name, family, name, unit, value);
+  return hk_system_add_derived(part->system, part->name, family, name, unit, value);
 }
 
 /* ---- masses ---- */
 
-int32_t hooke_part_check_masses(const struct hooke_part *part) {
+int32_t hk_part_check_masses(const struct hk_part *part) {
   const int both = hooke_options_is_set(part->options, "density");
   if (both != hooke_options_is_set(part->options, "mass")) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, both ? "density" : NULL,
-                    "%s; a part needs one of mass (total, kg) and density (of its material)",
-                    both ? "mass and density are both given" : "neither mass nor density is given");
+  return hk_fail(HOOKE_BAD_VALUE, both ? "density" : NULL,
+                 "%s; a part needs one of mass (total, kg) and density (of its material)",
+                 both ? "mass and density are both given" : "neither mass nor density is given");
 }
 
 static int is_edge(int64_t k, int64_t count) {
@@ -33,7 +33,7 @@ static int is_edge(int64_t k, int64_t count) {
 }
 
 /* The kinds of particles that there are, by how many edges they are on. */
-static int32_t derive_masses(const struct hooke_part *part, int64_t rows, int64_t columns) {
+static int32_t derive_masses(const struct hk_part *part, int64_t rows, int64_t columns) {
   const int64_t within = columns - 2, down = rows - 2;
   const int rope = rows == 1;
   int32_t status = HOOKE_OK;
@@ -47,13 +47,13 @@ static int32_t derive_masses(const struct hooke_part *part, int64_t rows, int64_
   return status;
 }
 
-int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
-                          int64_t *mass_count, double **mass) {
-  const int32_t status = hooke_part_check_masses(part);
+int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
+                       double **mass) {
+  const int32_t status = hk_part_check_masses(part);
   if (status != HOOKE_OK) return status;
   const int by_density = hooke_options_is_set(part->options, "density");
   *mass_count = by_density ? rows * columns : 1;
-  *mass = hooke_new(*mass_count, sizeof(double));
+  *mass = hk_new(*mass_count, sizeof(double));
   if (*mass == NULL) return HOOKE_NO_MEMORY;
   if (!by_density) {
     part->inner_mass = **mass = hooke_options_number(part->options, "mass") / (double)part->count;
@@ -61,11 +61,10 @@ int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns
   }
   const double inner = part->inner_mass = hooke_options_number(part->options, "density") * piece;
   if (!isfinite(inner) || !isfinite(1.0 / (0.25 * inner))) {
-    return hooke_fail(
-        HOOKE_BAD_VALUE, "density",
-        "an inner particle stands for %g m%s and would have a mass of %g kg; allowed: finite and "
-        "> 0, so let the ends and edges of the part lie apart",
-        piece, rows == 1 ? "" : "^2", inner);
+    return hk_fail(HOOKE_BAD_VALUE, "density",
+                   "an inner particle stands for %g m%s and would have a mass of %g kg; allowed: finite and "
+                   "> 0, so let the ends and edges of the part lie apart",
+                   piece, rows == 1 ? "" : "^2", inner);
   }
   for (int64_t r = 0; r < rows; r++) {
     for (int64_t c = 0; c < columns; c++) {
@@ -78,14 +77,14 @@ int32_t hooke_part_masses(struct hooke_part *part, int64_t rows, int64_t columns
 
 /* ---- damping ---- */
 
-static double reduced_mass(const struct hooke_part *part, const int64_t *ends) {
+static double reduced_mass(const struct hk_part *part, const int64_t *ends) {
   if (part->inner_mass > 0.0) return 0.5 * part->inner_mass;
   const double a = part->system->mass[ends[0]], b = part->system->mass[ends[1]];
   return a * (b / (a + b));
 }
 
-void hooke_part_damping(const struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
-                        const double *rest_length, double *damping) {
+void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
+                     const double *rest_length, double *damping) {
   const double zeta = option_of(part, family, "damping_ratio");
   const double stiffness = option_of(part, family, "stiffness");
   const double scale = option_of(part, family, "rest_scale");
@@ -101,10 +100,10 @@ void hooke_part_damping(const struct hooke_part *part, const char *family, int64
       of " along x - z", of " along y + z", of " along y - z", of " along x + y + z", of " along x - y - z", \
       of " along x - y + z", of " along x + y - z"
 
-int32_t hooke_part_derive_springs(const struct hooke_part *part, const char *family, int32_t strip_count,
-                                  const struct hooke_part_strip *strip) {
+int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
+                               const struct hk_part_strip *strip) {
   static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
-  const struct hooke_group *group = &part->system->group[part->system->group_count - 1];
+  const struct hk_group *group = &part->system->group[part->system->group_count - 1];
   int32_t status = HOOKE_OK;
   for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK; s++) {
     const int64_t springs = strip[s].rows * strip[s].columns;
@@ -120,11 +119,11 @@ int32_t hooke_part_derive_springs(const struct hooke_part *part, const char *fam
 
 /* ---- bending ---- */
 
-static int64_t triples_of(const struct hooke_part_beams *beams) {
+static int64_t triples_of(const struct hk_part_beams *beams) {
   return beams->rows > 0 && beams->columns > 0 ? beams->rows * beams->columns : 0;
 }
 
-static void join(const struct hooke_part *part, int64_t stride, const struct hooke_part_beams *beams,
+static void join(const struct hk_part *part, int64_t stride, const struct hk_part_beams *beams,
                  int64_t *triple, double *coefficient) {
   for (int64_t r = 0; r < beams->rows; r++) {
     for (int64_t c = 0; c < beams->columns; c++) {
@@ -139,7 +138,7 @@ static void join(const struct hooke_part *part, int64_t stride, const struct hoo
   }
 }
 
-static int32_t derive_beams(const struct hooke_part *part, const struct hooke_part_beams *beams) {
+static int32_t derive_beams(const struct hk_part *part, const struct hk_part_beams *beams) {
   static const char *const inner[] = {"c", "c along u", "c along v"};
   static const char *const edge[] = {NULL, "c along u at an edge", "c along v at an edge"};
   const int64_t lines = beams->side_by_side == HOOKE_BEAMS_ROWS ? beams->rows : beams->columns;
@@ -151,16 +150,16 @@ static int32_t derive_beams(const struct hooke_part *part, const struct hooke_pa
   return status;
 }
 
-static int32_t check_beams(const struct hooke_part_beams *beams) {
+static int32_t check_beams(const struct hk_part_beams *beams) {
   if (beams->coefficient > 0.0 && beams->coefficient <= 1e300) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "bending",
-                    "its triples would have a coefficient of %g N/m; allowed: > 0 up to 1e300, so let the "
-                    "ends and edges of the part lie apart",
-                    beams->coefficient);
+  return hk_fail(HOOKE_BAD_VALUE, "bending",
+                 "its triples would have a coefficient of %g N/m; allowed: > 0 up to 1e300, so let the "
+                 "ends and edges of the part lie apart",
+                 beams->coefficient);
 }
 
-static int32_t add_triples(const struct hooke_part *part, int64_t stride, int32_t count,
-                           const struct hooke_part_beams *beams, int64_t *triple, double *coefficient) {
+static int32_t add_triples(const struct hk_part *part, int64_t stride, int32_t count,
+                           const struct hk_part_beams *beams, int64_t *triple, double *coefficient) {
   int64_t done = 0;
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < count && status == HOOKE_OK; k++) {
@@ -170,25 +169,25 @@ static int32_t add_triples(const struct hooke_part *part, int64_t stride, int32_
     join(part, stride, &beams[k], triple + 3 * done, coefficient + done);
     done += triples_of(&beams[k]);
   }
-  char *name = hooke_part_group_name(part, "bending");
+  char *name = hk_part_group_name(part, "bending");
   if (name == NULL) return HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
-    status = hooke_system_add_part_bending(part->system, name, done, triple, done, coefficient);
-  hooke_free(name);
+    status = hk_system_add_part_bending(part->system, name, done, triple, done, coefficient);
+  hk_free(name);
   return status;
 }
 
-int32_t hooke_part_add_bending(struct hooke_part *part, int64_t stride, int32_t count,
-                               const struct hooke_part_beams *beams) {
+int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
+                            const struct hk_part_beams *beams) {
   int64_t triples = 0;
   for (int32_t k = 0; k < count; k++)
     triples += triples_of(&beams[k]);
   if (hooke_options_number(part->options, "bending") == 0.0 || triples == 0) return HOOKE_OK;
-  int64_t *triple = hooke_new(3 * triples, sizeof(int64_t));
-  double *coefficient = hooke_new(triples, sizeof(double));
+  int64_t *triple = hk_new(3 * triples, sizeof(int64_t));
+  double *coefficient = hk_new(triples, sizeof(double));
   int32_t status = HOOKE_NO_MEMORY;
   if (triple && coefficient) status = add_triples(part, stride, count, beams, triple, coefficient);
-  hooke_free(triple);
-  hooke_free(coefficient);
+  hk_free(triple);
+  hk_free(coefficient);
   return status;
 }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const struct hooke_option_row transform_rows[] = {
+static const struct hk_option_row transform_rows[] = {
     {.name = "scale",
      .type = HOOKE_OPTION_NUMBER,
      .fallback = "1",
@@ -27,9 +27,9 @@ static const struct hooke_option_row transform_rows[] = {
      .doc = "vector that is added then"},
 };
 
-static const struct hooke_option_table transform = {"transform", HOOKE_OPTION_ROWS(transform_rows)};
+static const struct hk_option_table transform = {"transform", HOOKE_OPTION_ROWS(transform_rows)};
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     {.name = "file",
      .type = HOOKE_OPTION_TEXT,
      .example = "mesh.obj",
@@ -78,64 +78,63 @@ static const struct hooke_option_row rows[] = {
     HOOKE_PART_FAMILY("bend", "springs between the vertices opposite to each other across an edge"),
 };
 
-static const struct hooke_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                        int64_t triangle_count, const int64_t *triangles) {
-  if (options == NULL || hooke_options_table(options) != &table) {
-    return hooke_fail(
+  if (options == NULL || hk_options_table(options) != &table) {
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
   }
   if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
       !vertices || !triangles) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "%lld vertices and %lld triangles given; allowed: arrays of both, of up to 2147483647 rows",
         (long long)vertex_count, (long long)triangle_count);
   }
-  double *corner = hooke_new(3 * triangle_count, sizeof *corner);
+  double *corner = hk_new(3 * triangle_count, sizeof *corner);
   if (corner == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 3 * triangle_count; k++)
     corner[k] = (double)triangles[k];
   int32_t status = hooke_options_set_numbers(options, "vertices", 3 * vertex_count, vertices);
   if (status == HOOKE_OK)
     status = hooke_options_set_numbers(options, "triangles", 3 * triangle_count, corner);
-  hooke_free(corner);
+  hk_free(corner);
   return status;
 }
 
 static int32_t check_given(const hooke_options *options) {
   const int vertices = hooke_options_is_set(options, "vertices");
   if (hooke_options_is_set(options, "file")) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, "file",
         "\"%s\" is not read here; hooke_mesh_read() puts the vertices and triangles of a file into "
         "the options",
         hooke_options_text(options, "file"));
   }
   if (vertices && hooke_options_is_set(options, "triangles")) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, vertices ? "triangles" : "vertices",
-                    "is missing; allowed: a file, or vertices and triangles");
+  return hk_fail(HOOKE_BAD_VALUE, vertices ? "triangles" : "vertices",
+                 "is missing; allowed: a file, or vertices and triangles");
 }
 
 /* ---- particles ---- */
 
-static int32_t derive_range(const struct hooke_part *part, const char *family, const char *least,
+static int32_t derive_range(const struct hk_part *part, const char *family, const char *least,
                             const char *most, const char *unit, int64_t count, const double *value) {
   double low = value[0], high = value[0];
   for (int64_t k = 1; k < count; k++) {
     low = fmin(low, value[k]);
     high = fmax(high, value[k]);
   }
-  int32_t status = hooke_system_add_derived(part->system, part->name, family, least, unit, low);
-  if (status == HOOKE_OK)
-    status = hooke_system_add_derived(part->system, part->name, family, most, unit, high);
+  int32_t status = hk_system_add_derived(part->system, part->name, family, least, unit, low);
+  if (status == HOOKE_OK) status = hk_system_add_derived(part->system, part->name, family, most, unit, high);
   return status;
 }
 
 /* In place of the areas. */
-static void find_masses(const struct hooke_part *part, const struct hooke_surface *surface, double *mass) {
+static void find_masses(const struct hk_part *part, const struct hk_surface *surface, double *mass) {
   const int by_density = hooke_options_is_set(part->options, "density");
   const double given = hooke_options_number(part->options, by_density ? "density" : "mass");
   double area = 0.0;
@@ -145,10 +144,10 @@ static void find_masses(const struct hooke_part *part, const struct hooke_surfac
     mass[v] = by_density ? given * surface->area[v] : given * (surface->area[v] / area);
 }
 
-static int32_t add_particles(struct hooke_part *part, const struct hooke_surface *surface) {
-  int32_t status = hooke_part_check_masses(part);
+static int32_t add_particles(struct hk_part *part, const struct hk_surface *surface) {
+  int32_t status = hk_part_check_masses(part);
   if (status != HOOKE_OK) return status;
-  double *mass = hooke_new(surface->vertex_count, sizeof(double));
+  double *mass = hk_new(surface->vertex_count, sizeof(double));
   if (mass == NULL) return HOOKE_NO_MEMORY;
   find_masses(part, surface, mass);
   status = hooke_system_add_particles(part->system, part->count, surface->position, NULL, part->count, mass,
@@ -157,23 +156,23 @@ static int32_t add_particles(struct hooke_part *part, const struct hooke_surface
     status = derive_range(part, NULL, "mass of the lightest particle", "mass of the heaviest particle", "kg",
                           part->count, mass);
   }
-  hooke_free(mass);
+  hk_free(mass);
   return status;
 }
 
 /* ---- springs ---- */
 
-static int32_t add_family(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends) {
-  double *rest_length = hooke_new(count, sizeof(double));
+static int32_t add_family(struct hk_part *part, const char *family, int64_t count, const int64_t *ends) {
+  double *rest_length = hk_new(count, sizeof(double));
   if (rest_length == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {
     const double *a = part->system->position + 3 * ends[2 * k],
                  *b = part->system->position + 3 * ends[2 * k + 1];
-    rest_length[k] = hooke_part_length((const double[]){a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+    rest_length[k] = hk_part_length((const double[]){a[0] - b[0], a[1] - b[1], a[2] - b[2]});
   }
   const int64_t groups = part->system->group_count;
-  int32_t status = hooke_part_add_pairs(part, family, count, ends, rest_length);
-  hooke_free(rest_length);
+  int32_t status = hk_part_add_pairs(part, family, count, ends, rest_length);
+  hk_free(rest_length);
   if (status != HOOKE_OK || part->system->group_count == groups) return status;
   char ratio[32];
   snprintf(ratio, sizeof ratio, "%s.damping_ratio", family);
@@ -182,8 +181,8 @@ static int32_t add_family(struct hooke_part *part, const char *family, int64_t c
                       part->system->group[groups].gamma);
 }
 
-static int32_t add_springs(struct hooke_part *part, const struct hooke_surface *surface) {
-  int64_t *ends = hooke_new(2 * surface->edge_count, sizeof *ends), bends = 0;
+static int32_t add_springs(struct hk_part *part, const struct hk_surface *surface) {
+  int64_t *ends = hk_new(2 * surface->edge_count, sizeof *ends), bends = 0;
   if (ends == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < surface->edge_count; k++) {
     ends[2 * k] = part->first + surface->edge[k].low;
@@ -197,36 +196,36 @@ static int32_t add_springs(struct hooke_part *part, const struct hooke_surface *
     ends[2 * bends++ + 1] = part->first + (a < b ? b : a);
   }
   if (status == HOOKE_OK) status = add_family(part, "bend", bends, ends);
-  hooke_free(ends);
+  hk_free(ends);
   return status;
 }
 
 /* ---- the kind ---- */
 
-static int32_t refuse(const struct hooke_surface_fault *fault) {
+static int32_t refuse(const struct hk_surface_fault *fault) {
   char text[256];
-  hooke_surface_describe(fault, 0, NULL, text, sizeof text);
+  hk_surface_describe(fault, 0, NULL, text, sizeof text);
   const int of_vertex = fault->trouble == HOOKE_SURFACE_UNUSED;
-  hooke_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
-  return hooke_fail_within(HOOKE_BAD_VALUE, of_vertex ? "vertices[%lld]" : "triangles[%lld]",
-                           (long long)(of_vertex ? fault->vertex[0] : fault->triangle[0]));
+  hk_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
+  return hk_fail_within(HOOKE_BAD_VALUE, of_vertex ? "vertices[%lld]" : "triangles[%lld]",
+                        (long long)(of_vertex ? fault->vertex[0] : fault->triangle[0]));
 }
 
-static int32_t check_room(const struct hooke_part *part, const struct hooke_surface *surface) {
+static int32_t check_room(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
-  const struct hooke_more more = {.particles = (double)surface->vertex_count,
-                                  .springs = hooke_part_if_family(part, "structural", edges) +
-                                             hooke_part_if_family(part, "bend", edges)};
-  const int32_t status = hooke_system_check_room(part->system, more, "the mesh");
-  return status == HOOKE_OK ? status : hooke_fail_within(status, "vertices");
+  const struct hk_more more = {.particles = (double)surface->vertex_count,
+                               .springs = hk_part_if_family(part, "structural", edges) +
+                                          hk_part_if_family(part, "bend", edges)};
+  const int32_t status = hk_system_check_room(part->system, more, "the mesh");
+  return status == HOOKE_OK ? status : hk_fail_within(status, "vertices");
 }
 
-static int32_t build(struct hooke_part *part) {
-  struct hooke_surface surface;
-  struct hooke_surface_fault fault;
+static int32_t build(struct hk_part *part) {
+  struct hk_surface surface;
+  struct hk_surface_fault fault;
   int32_t status = check_given(part->options);
   if (status != HOOKE_OK) return status;
-  status = hooke_surface_create(part->options, &surface, &fault);
+  status = hk_surface_create(part->options, &surface, &fault);
   if (fault.trouble != HOOKE_SURFACE_FINE) status = refuse(&fault);
   if (status == HOOKE_OK) status = check_room(part, &surface);
   part->count = surface.vertex_count;
@@ -234,20 +233,20 @@ static int32_t build(struct hooke_part *part) {
   if (status == HOOKE_OK) {
     const int64_t given = hooke_options_number_count(part->options, "vertices") / 3;
     if (given > part->count)
-      status = hooke_system_add_derived(part->system, part->name, NULL, "vertices welded to others", "",
-                                        (double)(given - part->count));
+      status = hk_system_add_derived(part->system, part->name, NULL, "vertices welded to others", "",
+                                     (double)(given - part->count));
   }
   if (status == HOOKE_OK) status = add_springs(part, &surface);
-  hooke_surface_release(&surface);
+  hk_surface_release(&surface);
   return status;
 }
 
-static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   (void)part;
   (void)word;
   (void)k;
   return -1; /* it has no words */
 }
 
-const struct hooke_part_kind hooke_part_mesh = {
+const struct hooke_part_kind hk_part_mesh = {
     &table, build, named, NULL, "a surface of triangles, with springs along its edges and across them"};

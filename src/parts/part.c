@@ -11,11 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_part_kind *const kinds[] = {
-    &hooke_part_rope, &hooke_part_cloth, &hooke_part_lattice, &hooke_part_mesh, &hooke_part_strand};
+static const struct hooke_part_kind *const kinds[] = {&hk_part_rope, &hk_part_cloth, &hk_part_lattice,
+                                                      &hk_part_mesh, &hk_part_strand};
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
-static const struct hooke_option_row family_rows[] = {
+static const struct hk_option_row family_rows[] = {
     {.name = "stiffness",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "N",
@@ -49,7 +49,7 @@ static const struct hooke_option_row family_rows[] = {
      .doc = "false: the springs only pull"},
 };
 
-const struct hooke_option_table hooke_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};
+const struct hk_option_table hk_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};
 
 int64_t hooke_part_kind_count(void) {
   return KIND_COUNT;
@@ -72,56 +72,56 @@ static const struct hooke_part_kind *find_kind(const char *name) {
     const size_t used = strlen(known);
     snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kinds[k]->table->name);
   }
-  hooke_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
-             known);
+  hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
+          known);
   return NULL;
 }
 
 int32_t hooke_part_options_create(const char *kind, hooke_options **options) {
   *options = NULL;
   const struct hooke_part_kind *found = find_kind(kind);
-  return found ? hooke_options_create(found->table, options) : HOOKE_BAD_VALUE;
+  return found ? hk_options_create(found->table, options) : HOOKE_BAD_VALUE;
 }
 
-double hooke_part_length(const double *vector) {
+double hk_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
 }
 
-double hooke_part_if_family(const struct hooke_part *part, const char *family, double count) {
-  return hooke_options_has_family(part->options, family) ? count : 0.0;
+double hk_part_if_family(const struct hk_part *part, const char *family, double count) {
+  return hk_options_has_family(part->options, family) ? count : 0.0;
 }
 
-int32_t hooke_part_new_positions(struct hooke_part *part, struct hooke_more more, double **position,
-                                 const char *format, ...) {
+int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
+                              const char *format, ...) {
   char what[128];
   va_list args;
   va_start(args, format);
-  hooke_print_list(what, sizeof what, format, args);
+  hk_print_list(what, sizeof what, format, args);
   va_end(args);
 
   *position = NULL;
-  const int32_t status = hooke_system_check_room(part->system, more, what);
+  const int32_t status = hk_system_check_room(part->system, more, what);
   if (status != HOOKE_OK) return status;
   part->count = (int64_t)more.particles;
-  *position = hooke_new(3 * part->count, sizeof(double));
+  *position = hk_new(3 * part->count, sizeof(double));
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hooke_part_add_particles(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
-                                 const double *position) {
+int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
+                              const double *position) {
   int64_t mass_count = 0;
   double *mass = NULL;
-  int32_t status = hooke_part_masses(part, rows, columns, piece, &mass_count, &mass);
+  int32_t status = hk_part_masses(part, rows, columns, piece, &mass_count, &mass);
   if (status == HOOKE_OK) {
     status =
         hooke_system_add_particles(part->system, part->count, position, NULL, mass_count, mass, &part->first);
   }
-  hooke_free(mass);
+  hk_free(mass);
   return status;
 }
 
-static void join(const struct hooke_part *part, int64_t stride, int32_t strip_count,
-                 const struct hooke_part_strip *strip, int64_t *ends, double *rest_length) {
+static void join(const struct hk_part *part, int64_t stride, int32_t strip_count,
+                 const struct hk_part_strip *strip, int64_t *ends, double *rest_length) {
   for (int32_t s = 0; s < strip_count; s++) {
     for (int64_t r = 0; r < strip[s].rows; r++) {
       for (int64_t c = 0; c < strip[s].columns; c++) {
@@ -134,18 +134,18 @@ static void join(const struct hooke_part *part, int64_t stride, int32_t strip_co
   }
 }
 
-static int32_t set_damping(const struct hooke_part *part, const char *family, int64_t count,
-                           const int64_t *ends, const double *rest_length, hooke_options *options) {
-  double *damping = hooke_new(count, sizeof(double));
+static int32_t set_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
+                           const double *rest_length, hooke_options *options) {
+  double *damping = hk_new(count, sizeof(double));
   if (damping == NULL) return HOOKE_NO_MEMORY;
-  hooke_part_damping(part, family, count, ends, rest_length, damping);
+  hk_part_damping(part, family, count, ends, rest_length, damping);
   const int32_t status = hooke_options_set_numbers(options, "damping", count, damping);
-  hooke_free(damping);
+  hk_free(damping);
   return status;
 }
 
 /* Options of a spring group with the values of a family. */
-static int32_t material(const struct hooke_part *part, const char *family, int by_ratio, int64_t count,
+static int32_t material(const struct hk_part *part, const char *family, int by_ratio, int64_t count,
                         const int64_t *ends, const double *rest_length, hooke_options **options) {
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
   int32_t status = hooke_spring_options_create(options);
@@ -159,20 +159,20 @@ static int32_t material(const struct hooke_part *part, const char *family, int b
   return status;
 }
 
-char *hooke_part_group_name(const struct hooke_part *part, const char *family) {
-  char *name = hooke_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
+char *hk_part_group_name(const struct hk_part *part, const char *family) {
+  char *name = hk_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
   if (name) sprintf(name, "%s.%s", part->name, family);
   return name;
 }
 
-static int is_given(const struct hooke_part *part, const char *family, const char *key) {
+static int is_given(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
   return hooke_options_is_set(part->options, dotted);
 }
 
 /* How many rest lengths (and dampings) say it all: one if they are equal to the bit. */
-static int64_t count_given(const struct hooke_part *part, int by_ratio, int64_t count,
+static int64_t count_given(const struct hk_part *part, int by_ratio, int64_t count,
                            const double *rest_length) {
   if (by_ratio && part->inner_mass == 0.0) return count; /* the masses differ, too */
   int64_t same = 1;
@@ -181,48 +181,48 @@ static int64_t count_given(const struct hooke_part *part, int by_ratio, int64_t 
   return same == count ? 1 : count;
 }
 
-static int32_t add_group(struct hooke_part *part, const char *family, int by_ratio, int64_t count,
+static int32_t add_group(struct hk_part *part, const char *family, int by_ratio, int64_t count,
                          const int64_t *ends, const double *rest_length) {
   const int64_t given = count_given(part, by_ratio, count, rest_length);
 
-  char *name = hooke_part_group_name(part, family);
+  char *name = hk_part_group_name(part, family);
   if (name == NULL) return HOOKE_NO_MEMORY;
   hooke_options *options = NULL;
   int32_t status = material(part, family, by_ratio, given, ends, rest_length, &options);
-  if (status == HOOKE_OK) status = hooke_system_add_part_springs(part->system, name, count, ends, options);
+  if (status == HOOKE_OK) status = hk_system_add_part_springs(part->system, name, count, ends, options);
   hooke_options_destroy(options);
-  hooke_free(name);
+  hk_free(name);
   return status;
 }
 static int32_t check_rest_length(const char *family, double length) {
   if (length > 0.0 && isfinite(length)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, family,
-                    "its springs would have a rest length of %g m; allowed: finite "
-                    "and > 0, so let the ends and edges of the part lie apart",
-                    length);
+  return hk_fail(HOOKE_BAD_VALUE, family,
+                 "its springs would have a rest length of %g m; allowed: finite "
+                 "and > 0, so let the ends and edges of the part lie apart",
+                 length);
 }
 
-static int32_t check_damping(const struct hooke_part *part, const char *family) {
+static int32_t check_damping(const struct hk_part *part, const char *family) {
   if (!is_given(part, family, "damping_ratio") || !is_given(part, family, "damping")) return HOOKE_OK;
-  hooke_fail(HOOKE_BAD_VALUE, "damping_ratio",
-             "damping and damping_ratio are both given; a family has one of them");
-  return hooke_fail_within(HOOKE_BAD_VALUE, "%s", family);
+  hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+          "damping and damping_ratio are both given; a family has one of them");
+  return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
 }
 
-int32_t hooke_part_add_pairs(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
-                             const double *rest_length) {
-  if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
+int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
+                          const double *rest_length) {
+  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
   int32_t status = check_damping(part, family);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     status = check_rest_length(family, rest_length[k]);
   if (status != HOOKE_OK || count == 0) return status;
   status = add_group(part, family, is_given(part, family, "damping_ratio"), count, ends, rest_length);
-  return status == HOOKE_OK ? status : hooke_fail_within(status, "%s", family);
+  return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
 }
 
-int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
-                              int32_t strip_count, const struct hooke_part_strip *strip) {
-  if (!hooke_options_has_family(part->options, family)) return HOOKE_OK;
+int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t stride, int32_t strip_count,
+                           const struct hk_part_strip *strip) {
+  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
   int32_t status = check_damping(part, family);
   int64_t count = 0;
   for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
@@ -232,29 +232,29 @@ int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64
   }
   if (status != HOOKE_OK || count == 0) return status; /* 0: too short for springs two apart */
 
-  int64_t *ends = hooke_new(2 * count, sizeof(int64_t));
-  double *rest_length = hooke_new(count, sizeof(double));
+  int64_t *ends = hk_new(2 * count, sizeof(int64_t));
+  double *rest_length = hk_new(count, sizeof(double));
   status = HOOKE_NO_MEMORY;
   if (ends && rest_length) {
     join(part, stride, strip_count, strip, ends, rest_length);
-    status = hooke_part_add_pairs(part, family, count, ends, rest_length);
+    status = hk_part_add_pairs(part, family, count, ends, rest_length);
     if (status == HOOKE_OK && is_given(part, family, "damping_ratio")) {
-      status = hooke_part_derive_springs(part, family, strip_count, strip);
+      status = hk_part_derive_springs(part, family, strip_count, strip);
     }
   }
-  hooke_free(ends);
-  hooke_free(rest_length);
+  hk_free(ends);
+  hk_free(rest_length);
   return status;
 }
 
-static int32_t pin_numbers(const struct hooke_part *part) {
+static int32_t pin_numbers(const struct hk_part *part) {
   const int64_t count = hooke_options_number_count(part->options, "pinned");
   const double *number = hooke_options_numbers(part->options, "pinned");
   for (int64_t k = 0; k < count; k++) {
     if (number[k] >= (double)part->count) {
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "the part has no particle %.0f; allowed: 0 to %lld", number[k],
-                 (long long)(part->count - 1));
-      return hooke_fail_within(HOOKE_BAD_VALUE, "pinned[%lld]", (long long)k);
+      hk_fail(HOOKE_BAD_VALUE, NULL, "the part has no particle %.0f; allowed: 0 to %lld", number[k],
+              (long long)(part->count - 1));
+      return hk_fail_within(HOOKE_BAD_VALUE, "pinned[%lld]", (long long)k);
     }
     const int64_t particle = part->first + (int64_t)number[k];
     int32_t status = hooke_system_pin(part->system, 1, &particle);
@@ -263,7 +263,7 @@ static int32_t pin_numbers(const struct hooke_part *part) {
   return HOOKE_OK;
 }
 
-static int32_t pin_words(const struct hooke_part_kind *kind, const struct hooke_part *part) {
+static int32_t pin_words(const struct hooke_part_kind *kind, const struct hk_part *part) {
   const char *text = hooke_options_text(part->options, "pinned");
   while (*(text += strspn(text, " "))) {
     const size_t length = strcspn(text, " ");
@@ -280,8 +280,8 @@ static int32_t pin_words(const struct hooke_part_kind *kind, const struct hooke_
   return HOOKE_OK;
 }
 
-static int32_t build(const struct hooke_part_kind *kind, struct hooke_part *part) {
-  int32_t status = hooke_options_check_required(part->options);
+static int32_t build(const struct hooke_part_kind *kind, struct hk_part *part) {
+  int32_t status = hk_options_check_required(part->options);
   if (status == HOOKE_OK) status = kind->build(part);
   if (status == HOOKE_OK) status = pin_numbers(part);
   if (status == HOOKE_OK) status = pin_words(kind, part);
@@ -292,31 +292,31 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
                               const hooke_options *options, int64_t *first, int64_t *count) {
   const struct hooke_part_kind *found = find_kind(kind);
   if (found == NULL) return HOOKE_BAD_VALUE;
-  if (options == NULL || hooke_options_table(options) != found->table) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "the options are not those of a %s; make them with "
-                      "hooke_part_options_create(\"%s\", ...)",
-                      kind, kind);
+  if (options == NULL || hk_options_table(options) != found->table) {
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "the options are not those of a %s; make them with "
+                   "hooke_part_options_create(\"%s\", ...)",
+                   kind, kind);
   }
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
 
-  const struct hooke_system_mark mark = hooke_system_mark(system);
-  const int64_t number = hooke_system_next_part(system);
+  const struct hk_system_mark mark = hk_system_mark(system);
+  const int64_t number = hk_system_next_part(system);
   char unnamed[64];
   snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
-  struct hooke_part part = {.system = system, .name = name && name[0] ? name : unnamed, .options = options};
+  struct hk_part part = {.system = system, .name = name && name[0] ? name : unnamed, .options = options};
   status = build(found, &part);
   if (status == HOOKE_OK) {
-    const struct hooke_part_record record = {.add = hooke_system_add_part,
-                                             .grid = found->grid,
-                                             .kind = found->table->name,
-                                             .first = part.first,
-                                             .count = part.count};
-    status = hooke_part_record_keep(system, record, part.name, options);
+    const struct hk_part_record record = {.add = hooke_system_add_part,
+                                          .grid = found->grid,
+                                          .kind = found->table->name,
+                                          .first = part.first,
+                                          .count = part.count};
+    status = hk_part_record_keep(system, record, part.name, options);
   }
   if (status != HOOKE_OK) {
-    hooke_system_roll_back(system, mark);
+    hk_system_roll_back(system, mark);
     return status;
   }
   if (first) *first = part.first;

@@ -8,7 +8,7 @@
 #include "model/system.h"
 
 /* A part under construction. */
-struct hooke_part {
+struct hk_part {
   hooke_system *system;
   const char *name;
   const hooke_options *options;
@@ -17,19 +17,19 @@ struct hooke_part {
 };
 
 struct hooke_part_kind {
-  const struct hooke_option_table *table;
-  int32_t (*build)(struct hooke_part *part);
+  const struct hk_option_table *table;
+  int32_t (*build)(struct hk_part *part);
   /* The k-th particle (0, 1, ...) that a word of `pinned` stands for; -1 past the last. */
-  int64_t (*named)(const struct hooke_part *part, const char *word, int64_t k);
-  const struct hooke_part_grid *grid; /* NULL: its particles are no grid */
-  const char *summary;                /* one line */
+  int64_t (*named)(const struct hk_part *part, const char *word, int64_t k);
+  const struct hk_part_grid *grid; /* NULL: its particles are no grid */
+  const char *summary;             /* one line */
 };
 
-extern const struct hooke_part_kind hooke_part_rope;
-extern const struct hooke_part_kind hooke_part_cloth;
-extern const struct hooke_part_kind hooke_part_lattice;
-extern const struct hooke_part_kind hooke_part_mesh;
-extern const struct hooke_part_kind hooke_part_strand;
+extern const struct hooke_part_kind hk_part_rope;
+extern const struct hooke_part_kind hk_part_cloth;
+extern const struct hooke_part_kind hk_part_lattice;
+extern const struct hooke_part_kind hk_part_mesh;
+extern const struct hooke_part_kind hk_part_strand;
 
 /* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the density, bending
  * stiffness, held particles, a family of springs. */
@@ -69,15 +69,15 @@ extern const struct hooke_part_kind hooke_part_strand;
     .words = (names), .word_lists = 1, .doc = (text)                                                         \
   }
 #define HOOKE_PART_FAMILY(key, text)                                                                         \
-  { .name = (key), .type = HOOKE_OPTION_FAMILY, .family = &hooke_part_family, .doc = (text) }
+  { .name = (key), .type = HOOKE_OPTION_FAMILY, .family = &hk_part_family, .doc = (text) }
 
 /* Options of a family of springs, nested in the table of every kind. */
-extern const struct hooke_option_table hooke_part_family;
+extern const struct hk_option_table hk_part_family;
 
 /* Springs of one family and direction between the points of a grid: row by row, spring (r, c) joins r*stride
  * + c + low and r*stride + c + high, low < high. One rest length serves them all, so that it is equal to the
  * bit. */
-enum hooke_part_direction {
+enum hk_part_direction {
   HOOKE_PART_ALONG,
   HOOKE_PART_U,
   HOOKE_PART_V,
@@ -85,50 +85,50 @@ enum hooke_part_direction {
   HOOKE_PART_OTHER_DIAGONAL,
   HOOKE_PART_LATTICE /* and those after it: the directions of a lattice, in its order */
 };
-struct hooke_part_strip {
+struct hk_part_strip {
   int64_t rows, columns, low, high;
   double rest_length;
-  enum hooke_part_direction direction;
+  enum hk_part_direction direction;
 };
 
 /* Lines of a grid as beams, side by side: triple (r, c) joins particles at = r*stride + c, at + step and at + 2 step. Those
  * in the first and the last row (or column) stand for half as much as the others. */
-enum hooke_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
-struct hooke_part_beams {
+enum hk_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
+struct hk_part_beams {
   int64_t rows, columns, step;
   double coefficient; /* [N/m] */
-  enum hooke_part_direction direction;
-  enum hooke_part_beam_order side_by_side;
+  enum hk_part_direction direction;
+  enum hk_part_beam_order side_by_side;
 };
 
 /* Checks that there is room for so much before anything is allocated and gives an array of 3 coordinates for each particle,
  * to be freed. The format says what is too large: "a cloth of 3 x 4 particles". */
-int32_t hooke_part_new_positions(struct hooke_part *part, struct hooke_more more, double **position,
-                                 const char *format, ...) __attribute__((format(printf, 4, 5)));
+int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
+                              const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 /* `count` if the part has springs of the family, else 0. */
-double hooke_part_if_family(const struct hooke_part *part, const char *family, double count);
+double hk_part_if_family(const struct hk_part *part, const char *family, double count);
 
 /* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an inner one stands
  * for: its length (one row) or area. */
-int32_t hooke_part_add_particles(struct hooke_part *part, int64_t rows, int64_t columns, double piece,
-                                 const double *position);
+int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
+                              const double *position);
 
 /* Adds the springs of a family, strip after strip, as one group; nothing if the family is not named. */
-int32_t hooke_part_add_family(struct hooke_part *part, const char *family, int64_t stride,
-                              int32_t strip_count, const struct hooke_part_strip *strip);
+int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t stride, int32_t strip_count,
+                           const struct hk_part_strip *strip);
 
 /* The same from pairs of particles and a rest length for each. */
-int32_t hooke_part_add_pairs(struct hooke_part *part, const char *family, int64_t count, const int64_t *ends,
-                             const double *rest_length);
+int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
+                          const double *rest_length);
 
 /* Adds bending along the beams, one after the other, as one group; nothing if the option `bending` is 0. */
-int32_t hooke_part_add_bending(struct hooke_part *part, int64_t stride, int32_t count,
-                               const struct hooke_part_beams *beams);
+int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
+                            const struct hk_part_beams *beams);
 
 /* "<part>.<family>", the caller's to free; NULL without memory. */
-char *hooke_part_group_name(const struct hooke_part *part, const char *family);
+char *hk_part_group_name(const struct hk_part *part, const char *family);
 
-double hooke_part_length(const double *vector);
+double hk_part_length(const double *vector);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     HOOKE_PART_POINT("from", "0,0,0", "where it begins"),
     HOOKE_PART_POINT("to", "1,0,0", "where it ends"),
     {.name = "segments",
@@ -25,46 +25,45 @@ static const struct hooke_option_row rows[] = {
     HOOKE_PART_BENDING("N m^2", "stiffness of the rope as a beam"),
 };
 
-static const struct hooke_option_table table = {"rope", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"rope", HOOKE_OPTION_ROWS(rows)};
 
-static int32_t build(struct hooke_part *part) {
+static int32_t build(struct hk_part *part) {
   const double *from = hooke_options_numbers(part->options, "from");
   const double *to = hooke_options_numbers(part->options, "to");
   const int64_t segments = (int64_t)hooke_options_number(part->options, "segments");
   const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 
   const double links = (double)segments;
-  const struct hooke_more more = {
+  const struct hk_more more = {
       .particles = links + 1.0,
-      .springs =
-          hooke_part_if_family(part, "stretch", links) + hooke_part_if_family(part, "bend", links - 1.0),
+      .springs = hk_part_if_family(part, "stretch", links) + hk_part_if_family(part, "bend", links - 1.0),
       .triples = hooke_options_number(part->options, "bending") > 0.0 ? links - 1.0 : 0.0};
   double *position;
   int32_t status =
-      hooke_part_new_positions(part, more, &position, "a rope of %lld segments", (long long)segments);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "segments");
+      hk_part_new_positions(part, more, &position, "a rope of %lld segments", (long long)segments);
+  if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < segments; k++) {
     const double share = (double)k / (double)segments;
     for (int i = 0; i < 3; i++)
       position[3 * k + i] = from[i] + share * span[i];
   }
   memcpy(position + 3 * segments, to, 3 * sizeof(double));
-  const double piece = hooke_part_length(span) / (double)segments;
-  status = hooke_part_add_particles(part, 1, segments + 1, piece, position);
-  hooke_free(position);
+  const double piece = hk_part_length(span) / (double)segments;
+  status = hk_part_add_particles(part, 1, segments + 1, piece, position);
+  hk_free(position);
 
-  const struct hooke_part_strip stretch = {1, segments, 0, 1, piece, HOOKE_PART_ALONG};
-  const struct hooke_part_strip bend = {1, segments - 1, 0, 2, 2.0 * piece, HOOKE_PART_ALONG};
+  const struct hk_part_strip stretch = {1, segments, 0, 1, piece, HOOKE_PART_ALONG};
+  const struct hk_part_strip bend = {1, segments - 1, 0, 2, 2.0 * piece, HOOKE_PART_ALONG};
   const double stiffness = hooke_options_number(part->options, "bending");
-  const struct hooke_part_beams beam = {
+  const struct hk_part_beams beam = {
       1, segments - 1, 1, stiffness / (piece * piece * piece), HOOKE_PART_ALONG, HOOKE_BEAMS_ALONE};
-  if (status == HOOKE_OK) status = hooke_part_add_family(part, "stretch", segments + 1, 1, &stretch);
-  if (status == HOOKE_OK) status = hooke_part_add_family(part, "bend", segments + 1, 1, &bend);
-  if (status == HOOKE_OK) status = hooke_part_add_bending(part, segments + 1, 1, &beam);
+  if (status == HOOKE_OK) status = hk_part_add_family(part, "stretch", segments + 1, 1, &stretch);
+  if (status == HOOKE_OK) status = hk_part_add_family(part, "bend", segments + 1, 1, &bend);
+  if (status == HOOKE_OK) status = hk_part_add_bending(part, segments + 1, 1, &beam);
   return status;
 }
 
-static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   if (k > 0) return -1;
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
@@ -78,7 +77,7 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
   return hooke_options_set_number(options, "segments", (double)cells[0]);
 }
 
-static const struct hooke_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_rope = {
+const struct hooke_part_kind hk_part_rope = {
     &table, build, named, &grid, "particles in a line, with springs between neighbours and two apart"};

@@ -18,7 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     HOOKE_PART_POINT("from", "0,0,0", "where its axis begins"),
     HOOKE_PART_POINT("to", "0,-1,0", "where its axis ends"),
     {.name = "segments",
@@ -58,7 +58,7 @@ static const struct hooke_option_row rows[] = {
     HOOKE_PART_FAMILY("altitude", "altitude springs of every four consecutive particles"),
 };
 
-static const struct hooke_option_table table = {"strand", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"strand", HOOKE_OPTION_ROWS(rows)};
 
 /* Straight, or a curl if its radius is above 0. */
 struct strand {
@@ -90,20 +90,19 @@ static void find_axes(const double span[3], double length, double axis[3][3]) {
 static int32_t read(const hooke_options *options, struct strand *strand) {
   const double *from = hooke_options_numbers(options, "from"), *to = hooke_options_numbers(options, "to");
   const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  const double length = hooke_part_length(span);
+  const double length = hk_part_length(span);
   const int curl = hooke_options_is_set(options, "curl"), turns = hooke_options_is_set(options, "turns");
   if (curl != turns) {
-    return hooke_fail(HOOKE_BAD_VALUE, curl ? "curl" : "turns",
-                      "a curl has both curl (its radius) and turns, and %s is missing",
-                      curl ? "turns" : "curl");
+    return hk_fail(HOOKE_BAD_VALUE, curl ? "curl" : "turns",
+                   "a curl has both curl (its radius) and turns, and %s is missing", curl ? "turns" : "curl");
   }
   if (curl && hooke_options_is_set(options, "offset")) {
-    return hooke_fail(HOOKE_BAD_VALUE, "offset",
-                      "a curl has no extra particles; an offset is for a strand without curl and turns");
+    return hk_fail(HOOKE_BAD_VALUE, "offset",
+                   "a curl has no extra particles; an offset is for a strand without curl and turns");
   }
   if (!(length > 0.0) || !isfinite(length)) {
-    return hooke_fail(HOOKE_BAD_VALUE, "to",
-                      "the axis from `from` to `to` is %g m long; allowed: finite and > 0", length);
+    return hk_fail(HOOKE_BAD_VALUE, "to",
+                   "the axis from `from` to `to` is %g m long; allowed: finite and > 0", length);
   }
   strand->segments = (int64_t)hooke_options_number(options, "segments");
   strand->piece = length / (double)strand->segments;
@@ -124,7 +123,7 @@ static double place(const struct strand *strand, int64_t k, double across[2]) {
   static const double sixth[6][2] = {{1, 0}, {0.5, s}, {-0.5, s}, {-1, 0}, {-0.5, -s}, {0.5, -s}};
   if (is_curl(strand)) {
     double sine, cosine;
-    hooke_sine_of_turns((double)k * strand->turns, &sine, &cosine);
+    hk_sine_of_turns((double)k * strand->turns, &sine, &cosine);
     across[0] = strand->radius * cosine;
     across[1] = strand->radius * sine;
     return (double)k;
@@ -139,7 +138,7 @@ static double distance(const struct strand *strand, int64_t k, int64_t apart) {
   const double half = 0.5 * (double)apart * strand->piece;
   if (is_curl(strand)) {
     double sine, cosine;
-    hooke_sine_of_turns(0.5 * (double)apart * strand->turns, &sine, &cosine);
+    hk_sine_of_turns(0.5 * (double)apart * strand->turns, &sine, &cosine);
     const double chord = 2.0 * strand->radius * sine, along = 2.0 * half;
     return sqrt(chord * chord + along * along);
   }
@@ -148,19 +147,19 @@ static double distance(const struct strand *strand, int64_t k, int64_t apart) {
   return sqrt(half * half + strand->offset * strand->offset);
 }
 
-static int32_t add_particles(struct hooke_part *part, const struct strand *strand, int64_t count) {
+static int32_t add_particles(struct hk_part *part, const struct strand *strand, int64_t count) {
   const double *from = hooke_options_numbers(part->options, "from");
   const double *to = hooke_options_numbers(part->options, "to");
   const double n = (double)count;
-  const struct hooke_more more = {.particles = n,
-                                  .springs = hooke_part_if_family(part, "stretch", n) +
-                                             hooke_part_if_family(part, "bend", n) +
-                                             hooke_part_if_family(part, "twist", n),
-                                  .tetrahedra = hooke_part_if_family(part, "altitude", n)};
+  const struct hk_more more = {.particles = n,
+                               .springs = hk_part_if_family(part, "stretch", n) +
+                                          hk_part_if_family(part, "bend", n) +
+                                          hk_part_if_family(part, "twist", n),
+                               .tetrahedra = hk_part_if_family(part, "altitude", n)};
   double *position;
-  int32_t status = hooke_part_new_positions(part, more, &position, "a strand of %lld segments",
-                                            (long long)strand->segments);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "segments");
+  int32_t status =
+      hk_part_new_positions(part, more, &position, "a strand of %lld segments", (long long)strand->segments);
+  if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < count; k++) {
     double across[2];
     const double share = place(strand, k, across) / (double)strand->segments;
@@ -170,60 +169,60 @@ static int32_t add_particles(struct hooke_part *part, const struct strand *stran
     }
   }
   const double piece = is_curl(strand) ? distance(strand, 0, 1) : 0.5 * strand->piece;
-  status = hooke_part_add_particles(part, 1, count, piece, position);
-  hooke_free(position);
+  status = hk_part_add_particles(part, 1, count, piece, position);
+  hk_free(position);
   return status;
 }
 
-static int is_given(const struct hooke_part *part, const char *family, const char *key) {
+static int is_given(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
   return hooke_options_is_set(part->options, dotted);
 }
 
 /* What the first two springs of the bend of a straight strand have come to: no others are different. */
-static int32_t derive_bend(const struct hooke_part *part, int64_t count) {
+static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
   static const char *const gamma[] = {"gamma on the axis", "gamma of extra particles"};
-  const struct hooke_group *group = &part->system->group[part->system->group_count - 1];
+  const struct hk_group *group = &part->system->group[part->system->group_count - 1];
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 && k < count && status == HOOKE_OK; k++) {
-    status = hooke_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m", group->kappa[k]);
+    status = hk_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m", group->kappa[k]);
     if (status == HOOKE_OK)
-      status = hooke_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m", group->gamma[k]);
+      status = hk_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m", group->gamma[k]);
   }
   return status;
 }
 
 /* Of a straight strand, every second one between particles on the axis. */
-static int32_t add_bend(struct hooke_part *part, const struct strand *strand) {
+static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 2;
-  int64_t *ends = hooke_new(2 * count, sizeof *ends);
-  double *rest_length = hooke_new(count, sizeof *rest_length);
+  int64_t *ends = hk_new(2 * count, sizeof *ends);
+  double *rest_length = hk_new(count, sizeof *rest_length);
   int32_t status = ends && rest_length ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     ends[2 * k] = part->first + k;
     ends[2 * k + 1] = part->first + k + 2;
     rest_length[k] = distance(strand, k, 2);
   }
-  if (status == HOOKE_OK) status = hooke_part_add_pairs(part, "bend", count, ends, rest_length);
+  if (status == HOOKE_OK) status = hk_part_add_pairs(part, "bend", count, ends, rest_length);
   if (status == HOOKE_OK && is_given(part, "bend", "damping_ratio")) status = derive_bend(part, count);
-  hooke_free(ends);
-  hooke_free(rest_length);
+  hk_free(ends);
+  hk_free(rest_length);
   return status;
 }
 
-static int32_t add_springs(struct hooke_part *part, const struct strand *strand) {
+static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
   static const char *const family[] = {"stretch", "bend", "twist"};
   int32_t status = HOOKE_OK;
   for (int64_t apart = 1; apart <= 3 && status == HOOKE_OK; apart++) {
     const int64_t count = part->count - apart;
-    const struct hooke_part_strip strip = {1,     count > 0 ? count : 0,      0,
-                                           apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
+    const struct hk_part_strip strip = {1,     count > 0 ? count : 0,      0,
+                                        apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
     if (apart == 2 && !is_curl(strand))
-      status = hooke_options_has_family(part->options, "bend") ? add_bend(part, strand) : HOOKE_OK;
+      status = hk_options_has_family(part->options, "bend") ? add_bend(part, strand) : HOOKE_OK;
     else
-      status = hooke_part_add_family(part, family[apart - 1], part->count, 1, &strip);
+      status = hk_part_add_family(part, family[apart - 1], part->count, 1, &strip);
   }
   return status;
 }
@@ -232,36 +231,36 @@ static int32_t add_springs(struct hooke_part *part, const struct strand *strand)
 
 /* Four consecutive particles, the first at k, with rest lengths from their places about an axis through the origin, so that
  * those of a strand are the same to the bit wherever it is. */
-static int32_t find_rest(const struct hooke_part *part, const struct strand *strand, int64_t k, double scale,
-                         struct hooke_tetrahedron *tetrahedron) {
+static int32_t find_rest(const struct hk_part *part, const struct strand *strand, int64_t k, double scale,
+                         struct hk_tetrahedron *tetrahedron) {
   double x[4][3];
   for (int j = 0; j < 4; j++) {
     x[j][2] = strand->piece * place(strand, k + j, x[j]);
     tetrahedron->particle[j] = (int32_t)(part->first + k + j);
   }
-  return hooke_tetrahedron_rest((const double(*)[3])x, scale, tetrahedron);
+  return hk_tetrahedron_rest((const double(*)[3])x, scale, tetrahedron);
 }
 
 /* Damping of the shortest altitude on particles of the inner mass, which half of them move on either side. */
-static int32_t find_damping(const struct hooke_part *part, struct hooke_tetrahedron *t) {
+static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
   if (!is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
   if (is_given(part, "altitude", "damping")) {
-    return hooke_fail(HOOKE_BAD_VALUE, "damping_ratio",
-                      "damping and damping_ratio are both given; a family has one of them");
+    return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+                   "damping and damping_ratio are both given; a family has one of them");
   }
   double l = t->rest[0];
   for (int k = 1; k < HOOKE_ALTITUDES; k++)
     l = fmin(l, t->rest[k]);
   const double zeta = hooke_options_number(part->options, "altitude.damping_ratio");
   t->damping = 2.0 * zeta * sqrt(t->stiffness / l * (0.5 * part->inner_mass)) * l;
-  return hooke_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
+  return hk_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
 }
 
-static int32_t fill_tetrahedra(const struct hooke_part *part, const struct strand *strand, int64_t count,
-                               struct hooke_tetrahedron *tetrahedron) {
+static int32_t fill_tetrahedra(const struct hk_part *part, const struct strand *strand, int64_t count,
+                               struct hk_tetrahedron *tetrahedron) {
   const double scale = hooke_options_number(part->options, "altitude.rest_scale");
-  struct hooke_tetrahedron kind[2] = {
+  struct hk_tetrahedron kind[2] = {
       {.stiffness = hooke_options_number(part->options, "altitude.stiffness"),
        .pull_only = hooke_options_number(part->options, "altitude.compression") == 0.0}};
   int32_t status = find_rest(part, strand, 0, scale, &kind[0]);
@@ -276,20 +275,20 @@ static int32_t fill_tetrahedra(const struct hooke_part *part, const struct stran
   return status;
 }
 
-static int32_t add_altitude(struct hooke_part *part, const struct strand *strand) {
+static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 3;
-  if (!hooke_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
-  struct hooke_tetrahedron *tetrahedron = hooke_new(count, sizeof *tetrahedron);
-  char *name = hooke_part_group_name(part, "altitude");
+  if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
+  struct hk_tetrahedron *tetrahedron = hk_new(count, sizeof *tetrahedron);
+  char *name = hk_part_group_name(part, "altitude");
   int32_t status = tetrahedron && name ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = fill_tetrahedra(part, strand, count, tetrahedron);
-  if (status == HOOKE_OK) status = hooke_system_add_tetrahedra(part->system, name, 1, count, tetrahedron);
-  hooke_free(tetrahedron);
-  hooke_free(name);
-  return status == HOOKE_OK ? status : hooke_fail_within(status, "altitude");
+  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(part->system, name, 1, count, tetrahedron);
+  hk_free(tetrahedron);
+  hk_free(name);
+  return status == HOOKE_OK ? status : hk_fail_within(status, "altitude");
 }
 
-static int32_t build(struct hooke_part *part) {
+static int32_t build(struct hk_part *part) {
   struct strand strand;
   int32_t status = read(part->options, &strand);
   if (status != HOOKE_OK) return status;
@@ -299,7 +298,7 @@ static int32_t build(struct hooke_part *part) {
   return status == HOOKE_OK ? add_altitude(part, &strand) : status;
 }
 
-static int64_t named(const struct hooke_part *part, const char *word, int64_t k) {
+static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   if (k > 0) return -1;
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
@@ -315,13 +314,13 @@ static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
   return hooke_options_set_number(options, "segments", (double)cells[0]);
 }
 
-static const struct hooke_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, set_cells};
 
-const struct hooke_part_kind hooke_part_strand = {.table = &table,
-                                                  .build = build,
-                                                  .named = named,
-                                                  .grid = &grid,
-                                                  .summary =
-                                                      "a hair, straight or curled, that keeps its curl: "
-                                                      "springs between neighbours, two and three apart, and "
-                                                      "across tetrahedra"};
+const struct hooke_part_kind hk_part_strand = {.table = &table,
+                                               .build = build,
+                                               .named = named,
+                                               .grid = &grid,
+                                               .summary =
+                                                   "a hair, straight or curled, that keeps its curl: "
+                                                   "springs between neighbours, two and three apart, and "
+                                                   "across tetrahedra"};

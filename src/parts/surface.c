@@ -10,7 +10,7 @@
 
 static const double FLAT = 1e-12; /* height over the longest edge, from which a triangle has no area */
 
-static int32_t found(struct hooke_surface_fault *fault, struct hooke_surface_fault what) {
+static int32_t found(struct hk_surface_fault *fault, struct hk_surface_fault what) {
   *fault = what;
   return HOOKE_BAD_VALUE;
 }
@@ -30,23 +30,23 @@ static int32_t check_range(const double *corner, int64_t count, int64_t vertices
     if (corner[k] < (double)vertices) continue;
     char place[64];
     snprintf(place, sizeof place, "triangles[%lld][%lld]", (long long)(k / 3), (long long)(k % 3));
-    return hooke_fail(HOOKE_BAD_VALUE, place, "there is no vertex %.0f; allowed: 0 to %lld", corner[k],
-                      (long long)vertices - 1);
+    return hk_fail(HOOKE_BAD_VALUE, place, "there is no vertex %.0f; allowed: 0 to %lld", corner[k],
+                   (long long)vertices - 1);
   }
   return HOOKE_OK;
 }
 
 /* ---- triangles ---- */
 
-static int32_t check_corners(const struct hooke_surface *surface, const double *corner, int64_t t,
-                             struct hooke_surface_fault *fault) {
+static int32_t check_corners(const struct hk_surface *surface, const double *corner, int64_t t,
+                             struct hk_surface_fault *fault) {
   const int32_t *v = surface->triangle + 3 * t;
   for (int e = 0; e < 3; e++) {
     if (v[e] != v[(e + 1) % 3]) continue;
-    return found(
-        fault,
-        (struct hooke_surface_fault){
-            HOOKE_SURFACE_CORNERS, {(int64_t)corner[3 * t + e], (int64_t)corner[3 * t + (e + 1) % 3]}, {t}});
+    return found(fault,
+                 (struct hk_surface_fault){HOOKE_SURFACE_CORNERS,
+                                           {(int64_t)corner[3 * t + e], (int64_t)corner[3 * t + (e + 1) % 3]},
+                                           {t}});
   }
   return HOOKE_OK;
 }
@@ -72,17 +72,16 @@ static double area_of(const double *a, const double *b, const double *c) {
   return ratio > FLAT ? 0.5 * ratio * longest * longest : 0.0;
 }
 
-static int32_t share_areas(struct hooke_surface *surface, const double *corner,
-                           struct hooke_surface_fault *fault) {
+static int32_t share_areas(struct hk_surface *surface, const double *corner, struct hk_surface_fault *fault) {
   for (int64_t t = 0; t < surface->triangle_count; t++) {
     const int32_t *v = surface->triangle + 3 * t;
     const double area = area_of(surface->position + 3 * (int64_t)v[0], surface->position + 3 * (int64_t)v[1],
                                 surface->position + 3 * (int64_t)v[2]);
     if (!(area > 0.0) || !isfinite(area)) {
       const double *given = corner + 3 * t;
-      return found(fault,
-                   (struct hooke_surface_fault){
-                       HOOKE_SURFACE_FLAT, {(int64_t)given[0], (int64_t)given[1], (int64_t)given[2]}, {t}});
+      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_FLAT,
+                                                    {(int64_t)given[0], (int64_t)given[1], (int64_t)given[2]},
+                                                    {t}});
     }
     for (int e = 0; e < 3; e++)
       surface->area[v[e]] += area / 3.0;
@@ -90,10 +89,10 @@ static int32_t share_areas(struct hooke_surface *surface, const double *corner,
   return HOOKE_OK;
 }
 
-static int32_t check_used(const struct hooke_surface *surface, struct hooke_surface_fault *fault) {
+static int32_t check_used(const struct hk_surface *surface, struct hk_surface_fault *fault) {
   for (int64_t v = 0; v < surface->vertex_count; v++) {
     if (surface->area[v] == 0.0)
-      return found(fault, (struct hooke_surface_fault){HOOKE_SURFACE_UNUSED, {surface->first[v]}, {0}});
+      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_UNUSED, {surface->first[v]}, {0}});
   }
   return HOOKE_OK;
 }
@@ -105,7 +104,7 @@ struct side {
   int32_t low, high, across, triangle;
 };
 
-static void list_sides(const struct hooke_surface *surface, struct side *side) {
+static void list_sides(const struct hk_surface *surface, struct side *side) {
   for (int64_t t = 0; t < surface->triangle_count; t++) {
     const int32_t *v = surface->triangle + 3 * t;
     for (int e = 0; e < 3; e++) {
@@ -127,34 +126,34 @@ static void sort_sides(int64_t count, int64_t vertices, int by_low, const struct
     to[start[by_low ? from[k].low : from[k].high]++] = from[k];
 }
 
-static int32_t join_sides(struct hooke_surface *surface, int64_t count, const struct side *side,
-                          struct hooke_surface_fault *fault) {
+static int32_t join_sides(struct hk_surface *surface, int64_t count, const struct side *side,
+                          struct hk_surface_fault *fault) {
   for (int64_t k = 0, next; k < count; k = next) {
     const int64_t low = surface->first[side[k].low], high = surface->first[side[k].high];
     for (next = k + 1; next < count && side[next].low == side[k].low && side[next].high == side[k].high;)
       next++;
     if (next - k > 2) {
-      return found(fault, (struct hooke_surface_fault){
-                              HOOKE_SURFACE_CROWDED,
-                              {low, high},
-                              {side[k + 2].triangle, side[k].triangle, side[k + 1].triangle}});
+      return found(fault,
+                   (struct hk_surface_fault){HOOKE_SURFACE_CROWDED,
+                                             {low, high},
+                                             {side[k + 2].triangle, side[k].triangle, side[k + 1].triangle}});
     }
     if (next - k == 2 && side[k].across == side[k + 1].across) {
-      return found(fault, (struct hooke_surface_fault){HOOKE_SURFACE_TWICE,
-                                                       {low, high, surface->first[side[k].across]},
-                                                       {side[k + 1].triangle, side[k].triangle}});
+      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_TWICE,
+                                                    {low, high, surface->first[side[k].across]},
+                                                    {side[k + 1].triangle, side[k].triangle}});
     }
-    surface->edge[surface->edge_count++] = (struct hooke_surface_edge){
+    surface->edge[surface->edge_count++] = (struct hk_surface_edge){
         side[k].low, side[k].high, {side[k].across, next - k == 2 ? side[k + 1].across : -1}};
   }
   return HOOKE_OK;
 }
 
-static int32_t list_edges(struct hooke_surface *surface, struct hooke_surface_fault *fault) {
+static int32_t list_edges(struct hk_surface *surface, struct hk_surface_fault *fault) {
   const int64_t count = 3 * surface->triangle_count;
-  struct side *side = hooke_new(count, sizeof *side), *sorted = hooke_new(count, sizeof *sorted);
-  int64_t *start = hooke_new(surface->vertex_count + 1, sizeof *start);
-  surface->edge = hooke_new(count, sizeof *surface->edge);
+  struct side *side = hk_new(count, sizeof *side), *sorted = hk_new(count, sizeof *sorted);
+  int64_t *start = hk_new(surface->vertex_count + 1, sizeof *start);
+  surface->edge = hk_new(count, sizeof *surface->edge);
   int32_t status = HOOKE_NO_MEMORY;
   if (side && sorted && start && surface->edge) {
     list_sides(surface, side);
@@ -162,23 +161,23 @@ static int32_t list_edges(struct hooke_surface *surface, struct hooke_surface_fa
     sort_sides(count, surface->vertex_count, 1, sorted, side, start);
     status = join_sides(surface, count, side, fault);
   }
-  hooke_free(side);
-  hooke_free(sorted);
-  hooke_free(start);
+  hk_free(side);
+  hk_free(sorted);
+  hk_free(start);
   return status;
 }
 
 /* ---- the whole ---- */
 
-static int32_t fill(const hooke_options *options, struct hooke_surface *surface, int32_t *became,
-                    struct hooke_surface_fault *fault) {
+static int32_t fill(const hooke_options *options, struct hk_surface *surface, int32_t *became,
+                    struct hk_surface_fault *fault) {
   const int64_t given = hooke_options_number_count(options, "vertices") / 3;
   const double *corner = hooke_options_numbers(options, "triangles");
   place_vertices(options, given, surface->position);
   int32_t status = check_range(corner, 3 * surface->triangle_count, given);
   if (status == HOOKE_OK) {
-    status = hooke_weld(given, hooke_options_number(options, "weld"), surface->position, became,
-                        surface->first, &surface->vertex_count);
+    status = hk_weld(given, hooke_options_number(options, "weld"), surface->position, became, surface->first,
+                     &surface->vertex_count);
   }
   for (int64_t k = 0; k < 3 * surface->triangle_count && status == HOOKE_OK; k++)
     surface->triangle[k] = became[(int64_t)corner[k]];
@@ -190,41 +189,41 @@ static int32_t fill(const hooke_options *options, struct hooke_surface *surface,
   return status;
 }
 
-int32_t hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
-                             struct hooke_surface_fault *fault) {
+int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surface,
+                          struct hk_surface_fault *fault) {
   const int64_t vertices = hooke_options_number_count(options, "vertices") / 3;
   const int64_t triangles = hooke_options_number_count(options, "triangles") / 3;
-  *surface = (struct hooke_surface){.triangle_count = triangles};
-  *fault = (struct hooke_surface_fault){.trouble = HOOKE_SURFACE_FINE};
+  *surface = (struct hk_surface){.triangle_count = triangles};
+  *fault = (struct hk_surface_fault){.trouble = HOOKE_SURFACE_FINE};
   if (vertices > INT32_MAX || 3 * triangles > INT32_MAX) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "a mesh of %lld vertices and %lld triangles; allowed: up to 2147483647 vertices and "
-                      "715827882 triangles",
-                      (long long)vertices, (long long)triangles);
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "a mesh of %lld vertices and %lld triangles; allowed: up to 2147483647 vertices and "
+                   "715827882 triangles",
+                   (long long)vertices, (long long)triangles);
   }
-  surface->position = hooke_new(3 * vertices, sizeof(double));
-  surface->area = hooke_new(vertices, sizeof(double));
-  surface->first = hooke_new(vertices, sizeof(int32_t));
-  surface->triangle = hooke_new(3 * triangles, sizeof(int32_t));
-  int32_t *became = hooke_new(vertices, sizeof(int32_t));
+  surface->position = hk_new(3 * vertices, sizeof(double));
+  surface->area = hk_new(vertices, sizeof(double));
+  surface->first = hk_new(vertices, sizeof(int32_t));
+  surface->triangle = hk_new(3 * triangles, sizeof(int32_t));
+  int32_t *became = hk_new(vertices, sizeof(int32_t));
   int32_t status = HOOKE_NO_MEMORY;
   if (surface->position && surface->area && surface->first && surface->triangle && became)
     status = fill(options, surface, became, fault);
-  hooke_free(became);
+  hk_free(became);
   return status;
 }
 
-void hooke_surface_release(struct hooke_surface *surface) {
-  hooke_free(surface->position);
-  hooke_free(surface->area);
-  hooke_free(surface->first);
-  hooke_free(surface->triangle);
-  hooke_free(surface->edge);
-  *surface = (struct hooke_surface){.edge = NULL};
+void hk_surface_release(struct hk_surface *surface) {
+  hk_free(surface->position);
+  hk_free(surface->area);
+  hk_free(surface->first);
+  hk_free(surface->triangle);
+  hk_free(surface->edge);
+  *surface = (struct hk_surface){.edge = NULL};
 }
 
-void hooke_surface_describe(const struct hooke_surface_fault *fault, int64_t base, const int32_t *line,
-                            char *text, int64_t size) {
+void hk_surface_describe(const struct hk_surface_fault *fault, int64_t base, const int32_t *line, char *text,
+                         int64_t size) {
   const char *kind = line ? "line" : "triangle";
   long long v[3], t[3];
   for (int k = 0; k < 3; k++) {

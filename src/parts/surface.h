@@ -5,22 +5,22 @@
 #include "hooke/options.h"
 
 /* One edge of one or two triangles; `across` are the vertices opposite to it, -1 where there is no second triangle. */
-struct hooke_surface_edge {
+struct hk_surface_edge {
   int32_t low, high, across[2];
 };
 
 /* Vertices are numbered in the order of their first appearance, those at one place as one. */
-struct hooke_surface {
+struct hk_surface {
   int64_t vertex_count, triangle_count, edge_count;
   double *position;  /* 3 vertex_count */
   double *area;      /* vertex_count: a third of each triangle's at the vertex [m^2] */
   int32_t *first;    /* vertex_count: number of the given vertex that it is, the first one of them */
   int32_t *triangle; /* 3 triangle_count */
-  struct hooke_surface_edge *edge; /* edge_count, ascending by low, then high */
+  struct hk_surface_edge *edge; /* edge_count, ascending by low, then high */
 };
 
 /* What is wrong with a surface; numbers are those of what was given. */
-enum hooke_surface_trouble {
+enum hk_surface_trouble {
   HOOKE_SURFACE_FINE,
   HOOKE_SURFACE_CORNERS, /* vertex[0] and vertex[1] are one corner */
   HOOKE_SURFACE_FLAT,    /* the triangle on vertex[] has no area */
@@ -28,20 +28,20 @@ enum hooke_surface_trouble {
   HOOKE_SURFACE_CROWDED, /* the edge vertex[0], vertex[1] has three triangles, triangle[] */
   HOOKE_SURFACE_TWICE    /* triangle[0] is on the same vertices as triangle[1] */
 };
-struct hooke_surface_fault {
-  enum hooke_surface_trouble trouble;
+struct hk_surface_fault {
+  enum hk_surface_trouble trouble;
   int64_t vertex[3], triangle[3];
 };
 
 /* Makes the surface from options of a mesh: `vertices`, `triangles`, `transform`, `weld`. With a fault the status is
  * HOOKE_BAD_VALUE and what it is stands in `fault`; any other failure has its message. To be released in each case. */
-int32_t hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
-                             struct hooke_surface_fault *fault);
-void hooke_surface_release(struct hooke_surface *surface);
+int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surface,
+                          struct hk_surface_fault *fault);
+void hk_surface_release(struct hk_surface *surface);
 
 /* The fault in words; vertices are counted from `base`, and triangles are called by their number, or by their line in a
  * file if `line` is not NULL. */
-void hooke_surface_describe(const struct hooke_surface_fault *fault, int64_t base, const int32_t *line,
-                            char *text, int64_t size);
+void hk_surface_describe(const struct hk_surface_fault *fault, int64_t base, const int32_t *line, char *text,
+                         int64_t size);
 
 #endif

@@ -57,13 +57,13 @@ static int32_t find(const struct cubes *cubes, const double cube[3], const doubl
   return best;
 }
 
-int32_t hooke_weld(int64_t count, double distance, double *position, int32_t *became, int32_t *first,
-                   int64_t *kept) {
+int32_t hk_weld(int64_t count, double distance, double *position, int32_t *became, int32_t *first,
+                int64_t *kept) {
   struct cubes cubes = {.distance = distance, .mask = 1};
   while (cubes.mask < 2 * count)
     cubes.mask *= 2;
-  cubes.newest = hooke_new(cubes.mask, sizeof(int32_t));
-  cubes.older = hooke_new(count, sizeof(int32_t));
+  cubes.newest = hk_new(cubes.mask, sizeof(int32_t));
+  cubes.older = hk_new(count, sizeof(int32_t));
   cubes.mask--;
   int64_t added = 0;
   for (int64_t p = 0; p < count && cubes.newest && cubes.older; p++) {
@@ -80,8 +80,8 @@ int32_t hooke_weld(int64_t count, double distance, double *position, int32_t *be
     first[added - 1] = (int32_t)p;
   }
   const int32_t status = cubes.newest && cubes.older ? HOOKE_OK : HOOKE_NO_MEMORY;
-  hooke_free(cubes.newest);
-  hooke_free(cubes.older);
+  hk_free(cubes.newest);
+  hk_free(cubes.older);
   *kept = added;
   return status;
 }

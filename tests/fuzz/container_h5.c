@@ -391,9 +391,9 @@ static const struct place *place_of(const struct image *image, const char *name)
 /* Row `frame` of an array of the run, NULL if it is no longer where and what it was. */
 static uint8_t *row_of(const struct image *image, int array, int64_t frame) {
   char name[HOOKE_RECORDING_PATH];
-  hooke_recording_path("all", array, name);
+  hk_recording_path("all", array, name);
   const struct place *place = place_of(image, name);
-  const uint64_t bytes = (uint64_t)hooke_frame_bytes(4, array), begin = (uint64_t)frame * bytes;
+  const uint64_t bytes = (uint64_t)hk_frame_bytes(4, array), begin = (uint64_t)frame * bytes;
   if (place == NULL || begin + bytes > place->stored) return NULL;
   return own.patched + place->data + begin;
 }
@@ -402,7 +402,7 @@ static void patch_check(const struct image *image, int64_t frame) {
   uint32_t check = 0;
   for (int k = 0; k < HOOKE_FRAME_CHECK; k++) {
     const uint8_t *row = row_of(image, k, frame);
-    if (row) check = hooke_crc32(check, row, hooke_frame_bytes(4, k));
+    if (row) check = hk_crc32(check, row, hk_frame_bytes(4, k));
   }
   uint8_t *row = row_of(image, HOOKE_FRAME_CHECK, frame);
   if (row) memcpy(row, &check, sizeof check);

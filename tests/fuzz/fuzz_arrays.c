@@ -70,8 +70,8 @@ static void check_numbers(const struct wanted *wanted, const double *numbers, in
 static void read_array(const struct wanted *wanted, int by_hdf5) {
   double *numbers = NULL;
   int64_t rows = -1, columns = -1;
-  const int32_t status = hooke_array_read(container.path, wanted->dataset, wanted->frame, wanted->has_frame,
-                                          &numbers, &rows, &columns);
+  const int32_t status = hk_array_read(container.path, wanted->dataset, wanted->frame, wanted->has_frame,
+                                       &numbers, &rows, &columns);
   hooke_fuzz_require(status <= HOOKE_OK, "an outcome of a run");
   if (status != HOOKE_OK) {
     hooke_fuzz_require_message();
@@ -87,7 +87,7 @@ static void read_array(const struct wanted *wanted, int by_hdf5) {
   }
   hooke_fuzz_require(sum == sum || sum != sum, "all of them can be read");
   if (by_hdf5) check_numbers(wanted, numbers, rows, columns);
-  hooke_free(numbers);
+  hk_free(numbers);
 }
 
 /* ---- by way of a scene ---- */

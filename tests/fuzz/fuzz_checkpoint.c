@@ -86,7 +86,7 @@ static int32_t stop_half_way(int64_t step, const hooke_state *state, void *ctx) 
 static void remove_folder(void) {
   unlink(own.path);
   unlink(own.previous);
-  hooke_checkpoint_remove(own.next);
+  hk_checkpoint_remove(own.next);
   rmdir(own.folder);
 }
 
@@ -133,7 +133,7 @@ static void check_numbers(const uint8_t *bytes, size_t size) {
   memcpy(found, hooke_state_position(own.state), NUMBERS * sizeof(double));
   memcpy(found + NUMBERS, hooke_state_velocity(own.state), NUMBERS * sizeof(double));
   hooke_fuzz_require(size == WHOLE, "a file of another length");
-  hooke_checkpoint_unpack_numbers(2 * NUMBERS, bytes + HOOKE_CHECKPOINT_HEADER, expected);
+  hk_checkpoint_unpack_numbers(2 * NUMBERS, bytes + HOOKE_CHECKPOINT_HEADER, expected);
   hooke_fuzz_require(memcmp(found, expected, sizeof found) == 0, "the numbers of the file");
   for (int k = 0; k < 2 * NUMBERS; k++)
     hooke_fuzz_require(isfinite(found[k]), "a number that is none");
@@ -198,7 +198,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 
 static void put_check(uint8_t *file, size_t length) {
   if (length <= HOOKE_CHECKPOINT_END) return;
-  const uint32_t check = hooke_crc32(0, file, (int64_t)(length - HOOKE_CHECKPOINT_END));
+  const uint32_t check = hk_crc32(0, file, (int64_t)(length - HOOKE_CHECKPOINT_END));
   for (int k = 0; k < HOOKE_CHECKPOINT_END; k++)
     file[length - HOOKE_CHECKPOINT_END + (size_t)k] = (uint8_t)(check >> 8 * k);
 }

@@ -32,13 +32,13 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *one, size_t one_size, const uint
 }
 
 /* The linker puts the second in place of the first everywhere else. */
-const struct hooke_spring_set *__real_hooke_spring_set(int32_t set);
-const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set);
+const struct hk_spring_set *__real_hk_spring_set(int32_t set);
+const struct hk_spring_set *__wrap_hk_spring_set(int32_t set);
 
 static int32_t first_set;
 
-const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set) {
-  return __real_hooke_spring_set(first_set + set);
+const struct hk_spring_set *__wrap_hk_spring_set(int32_t set) {
+  return __real_hk_spring_set(first_set + set);
 }
 
 /* A number that is none has no sign that means anything. Where none is expected, or anywhere if `lost`, there may be that of
@@ -50,8 +50,8 @@ static void require_same(int64_t count, const double *found, const double *expec
       continue;
     if (left_out && (lost || isnan(expected[k])) && memcmp(found + k, left_out + k, sizeof *found) == 0)
       continue;
-    fprintf(stderr, "%s, loops for %s: number %lld is %a, expected %a\n", what,
-            __wrap_hooke_spring_set(0)->name, (long long)k, found[k], expected[k]);
+    fprintf(stderr, "%s, loops for %s: number %lld is %a, expected %a\n", what, __wrap_hk_spring_set(0)->name,
+            (long long)k, found[k], expected[k]);
     hooke_fuzz_require(0, what);
   }
 }
@@ -125,19 +125,19 @@ static void check_acceleration(const struct small_scene *scene, int first, struc
 
 /* Forces by three threads, which the library does not spend on a scene this small, and by one. */
 static void check_members(const struct small_scene *scene) {
-  static struct hooke_crew *crew;
+  static struct hk_crew *crew;
   const hooke_system *system = scene->system;
   if (system->lanes.count == 0 && system->net.particles == 0) return;
-  if (crew == NULL) crew = hooke_crew_create(3);
+  if (crew == NULL) crew = hk_crew_create(3);
   hooke_fuzz_require(crew != NULL, "a crew");
   double found[2][3 * MOST_PARTICLES];
   for (int k = 0; k < 2; k++) {
-    struct hooke_motion *motion = NULL;
-    hooke_fuzz_require(hooke_motion_create(system, 0, k ? crew : NULL, &motion) == HOOKE_OK, "a motion");
-    hooke_motion_load(system, motion, scene->q, scene->v);
-    hooke_fuzz_require(hooke_motion_forces(system, motion, 0.0) == HOOKE_OK, "forces");
-    hooke_rows_from_components(scene->particles, motion->f, found[k]);
-    hooke_motion_destroy(motion);
+    struct hk_motion *motion = NULL;
+    hooke_fuzz_require(hk_motion_create(system, 0, k ? crew : NULL, &motion) == HOOKE_OK, "a motion");
+    hk_motion_load(system, motion, scene->q, scene->v);
+    hooke_fuzz_require(hk_motion_forces(system, motion, 0.0) == HOOKE_OK, "forces");
+    hk_rows_from_components(scene->particles, motion->f, found[k]);
+    hk_motion_destroy(motion);
   }
   require_same(3 * scene->particles, found[1], found[0], NULL, 0, "forces by three threads");
 }
@@ -408,7 +408,7 @@ static uint64_t hash_of(const uint8_t *data, size_t size) {
 
 static int32_t set_count(void) {
   int32_t count = 0;
-  while (__real_hooke_spring_set(count))
+  while (__real_hk_spring_set(count))
     count++;
   return count;
 }

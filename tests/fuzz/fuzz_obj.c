@@ -12,18 +12,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct hooke_surface;
-struct hooke_surface_fault;
+struct hk_surface;
+struct hk_surface_fault;
 
 /* The first thing that is done with a file of which every line was understood. */
-int32_t __wrap_hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
-                                    struct hooke_surface_fault *fault);
-int32_t __real_hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
-                                    struct hooke_surface_fault *fault);
-int32_t __wrap_hooke_surface_create(const hooke_options *options, struct hooke_surface *surface,
-                                    struct hooke_surface_fault *fault) {
+int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
+                                 struct hk_surface_fault *fault);
+int32_t __real_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
+                                 struct hk_surface_fault *fault);
+int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
+                                 struct hk_surface_fault *fault) {
   hooke_fuzz_is_past_syntax();
-  return __real_hooke_surface_create(options, surface, fault);
+  return __real_hk_surface_create(options, surface, fault);
 }
 
 /* ---- failures ---- */
@@ -107,7 +107,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_options *options = choose_options(data[0], data[1]);
   const char *text = (const char *)data + 2;
   const int64_t length = (int64_t)size - 2;
-  const int32_t status = hooke_mesh_parse(text, length, "mesh.obj", 0.0, options);
+  const int32_t status = hk_mesh_parse(text, length, "mesh.obj", 0.0, options);
   if (status == HOOKE_OK)
     build(options);
   else

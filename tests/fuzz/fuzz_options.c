@@ -145,7 +145,7 @@ static void set_lines(hooke_options *options, char **line, int32_t count) {
       set_one(options, name, value);
   }
   require_copy(options);
-  if (hooke_options_check_required(options) != HOOKE_OK) hooke_fuzz_require_message();
+  if (hk_options_check_required(options) != HOOKE_OK) hooke_fuzz_require_message();
 }
 
 /* ---- numbers and units ---- */
@@ -153,23 +153,22 @@ static void set_lines(hooke_options *options, char **line, int32_t count) {
 /* strtod() of the C locale takes all that is a number here, to the same bits. */
 static void read_number(const char *text) {
   double value = 0, again = 0;
-  if (hooke_number_parse(text, (int64_t)strlen(text), &value) != HOOKE_NUMBER_FINE) return;
+  if (hk_number_parse(text, (int64_t)strlen(text), &value) != HOOKE_NUMBER_FINE) return;
   hooke_fuzz_is_past_syntax();
   char *end, printed[HOOKE_NUMBER_SIZE];
   const double wanted = strtod(text, &end);
   hooke_fuzz_require(*end == '\0' && memcmp(&wanted, &value, sizeof value) == 0,
                      "a number is what strtod() reads");
-  hooke_number_print(value, printed);
-  hooke_fuzz_require(hooke_number_parse(printed, (int64_t)strlen(printed), &again) == HOOKE_NUMBER_FINE &&
+  hk_number_print(value, printed);
+  hooke_fuzz_require(hk_number_parse(printed, (int64_t)strlen(printed), &again) == HOOKE_NUMBER_FINE &&
                          memcmp(&again, &value, sizeof value) == 0,
                      "a number that is printed reads back to the same bits");
 }
 
 static void read_units(const char *text, const char *base) {
   char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  char *read = hooke_unit_read(text, base, word);
-  hooke_fuzz_require(hooke_unit_has_others(base) && strlen(hooke_unit_list(base, list)) > 0,
-                     "there are units");
+  char *read = cli_unit_read(text, base, word);
+  hooke_fuzz_require(cli_unit_has_others(base) && strlen(cli_unit_list(base, list)) > 0, "there are units");
   if (read == NULL)
     hooke_fuzz_require(word[0] != '\0', "a unit that is refused is named");
   else
@@ -183,9 +182,9 @@ static int32_t verb_options(hooke_options **options) {
   return hooke_view_options_create(options);
 }
 
-static const struct hooke_verb_row rows[] = {{"output", 'o', "FILE", "where to"},
-                                             {"force", 'f', NULL, "even so"}};
-static const struct hooke_verb verbs[] = {
+static const struct cli_verb_row rows[] = {{"output", 'o', "FILE", "where to"},
+                                           {"force", 'f', NULL, "even so"}};
+static const struct cli_verb verbs[] = {
     {.name = "run", HOOKE_VERB_ROWS(rows)},
     {.name = "view", .input = "OUT.h5", HOOKE_VERB_ROWS(rows), .options = verb_options},
     {.name = "study", HOOKE_VERB_ROWS(rows), .options = verb_options, .without = "method step"},
@@ -193,7 +192,7 @@ static const struct hooke_verb verbs[] = {
 };
 
 /* What the program prints is formed, and goes nowhere. */
-int hooke_report(const struct hooke_arguments *arguments, int code, const char *format, ...) {
+int hk_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
   char message[4096];
   va_list args;
   va_start(args, format);
@@ -204,35 +203,34 @@ int hooke_report(const struct hooke_arguments *arguments, int code, const char *
   return code;
 }
 
-int hooke_report_status(const struct hooke_arguments *arguments, int32_t status) {
-  return hooke_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
-                      hooke_last_error());
+int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
+  return hk_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
+                   hooke_last_error());
 }
 
-int hooke_report_unknown_method(const struct hooke_arguments *arguments, const char *flag, const char *word,
-                                size_t length) {
-  return hooke_report(arguments, HOOKE_EXIT_USAGE, "--%s %.*s", flag, (int)length, word);
+int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
+                              size_t length) {
+  return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %.*s", flag, (int)length, word);
 }
 
-int hooke_refusal(const struct hooke_arguments *arguments) {
+int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
-const char *hooke_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx),
-                          const void *ctx) {
+const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
   const char *candidate = NULL;
   for (int64_t i = 0; (candidate = next(i, ctx)); i++)
     if (candidate[0] == word[0]) break;
   return candidate;
 }
 
-const char *hooke_describe_operand(const struct hooke_verb *verb) {
+const char *cli_describe_operand(const struct cli_verb *verb) {
   return verb->input ? verb->input : "SCENE";
 }
 
 static void parse_words(uint8_t which, const hooke_options *table, char **line, int32_t count) {
   static char word[MOST_LINES][LINE_SIZE], name[] = "verb", kind[] = "cloth";
-  const struct hooke_verb *verb = &verbs[which % 4];
+  const struct cli_verb *verb = &verbs[which % 4];
   char *argv[MOST_LINES + 3] = {name};
   int argc = 1;
   if (verb->kind_options && which < 128) argv[argc++] = kind;
@@ -241,22 +239,22 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
     if (line[k][0] == '=')
       snprintf(word[k], LINE_SIZE, "%s", line[k] + 1);
     else
-      snprintf(word[k], LINE_SIZE, "--%s%s%s", hooke_arguments_flag(row_name(table, line[k][0]), flag),
+      snprintf(word[k], LINE_SIZE, "--%s%s%s", cli_arguments_flag(row_name(table, line[k][0]), flag),
                line[k][1] ? "=" : "", line[k] + 1);
     argv[argc++] = word[k];
   }
-  struct hooke_arguments arguments;
-  const int answer = hooke_arguments_parse(verb, argc, argv, &arguments);
+  struct cli_arguments arguments;
+  const int answer = cli_arguments_parse(verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE && !arguments.help) {
     hooke_fuzz_is_past_syntax();
     hooke_fuzz_is_accepted();
     hooke_options *run = NULL;
     hooke_fuzz_require(hooke_run_options_create(&run) == HOOKE_OK &&
-                           hooke_arguments_apply(&arguments, run) == HOOKE_OK,
+                           cli_arguments_apply(&arguments, run) == HOOKE_OK,
                        "what was read from the command line can be set");
     hooke_options_destroy(run);
   }
-  hooke_arguments_destroy(&arguments);
+  cli_arguments_destroy(&arguments);
 }
 
 /* ---- one input ---- */

@@ -168,7 +168,7 @@ def locale_complaints(path, text):
     if not path.startswith("src/") or path in ("src/core/print.c", "src/core/number.c"):
         return []
     clean = without_comments(text)
-    return [f"{path}:{clean.count(chr(10), 0, call.start()) + 1}: take hooke_print() for numbers with a fraction"
+    return [f"{path}:{clean.count(chr(10), 0, call.start()) + 1}: take hk_print() for numbers with a fraction"
             for call in PRINTED.finditer(clean) if FRACTION.search(call.group().replace("%%", ""))]
 
 

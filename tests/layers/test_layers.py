@@ -42,7 +42,7 @@ def test_planted_number():
     call = 'snprintf(text, size, "%d of %.3g",\n  k, value);\n'
     assert rules.locale_complaints("src/io/file/text.c", call)
     assert rules.locale_complaints("src/io/file/text.c", call.replace("%.3g", "%s")) == []
-    assert rules.locale_complaints("src/io/file/text.c", "hooke_print" + call[8:]) == []
+    assert rules.locale_complaints("src/io/file/text.c", "hk_print" + call[8:]) == []
 
 
 def test_fences_do_not_leak():

@@ -12,29 +12,29 @@
 /* Two steps in passes, and forces; all that comes of it in `out`, 9 numbers a particle. */
 static int64_t step_with(const hooke_system *system, const double *q, const double *v, int32_t members,
                          double *out) {
-  const struct hooke_move move = {
+  const struct hk_move move = {
       .kind = HOOKE_KICK_THEN_DRIFT, .heavy = 1, .step = 0.01, .gravity = {0.0, -9.81, 0.0}};
-  struct hooke_crew *crew = hooke_crew_create(members);
-  struct hooke_motion *moved = NULL, *still = NULL;
+  struct hk_crew *crew = hk_crew_create(members);
+  struct hk_motion *moved = NULL, *still = NULL;
   const int64_t n = system->particle_count;
   assert_non_null(crew);
-  check_ok(hooke_motion_create(system, 1, crew, &moved));
-  check_ok(hooke_motion_create(system, 0, crew, &still));
-  hooke_motion_load(system, moved, q, v);
+  check_ok(hk_motion_create(system, 1, crew, &moved));
+  check_ok(hk_motion_create(system, 0, crew, &still));
+  hk_motion_load(system, moved, q, v);
   int64_t lost = 0;
   for (int k = 0; k < 2; k++) {
-    hooke_motion_pass(system, moved, &move);
+    hk_motion_pass(system, moved, &move);
     lost += moved->coincident;
   }
-  hooke_motion_store(moved, out, out + 3 * n);
-  hooke_motion_load(system, still, q, v);
-  check_ok(hooke_motion_forces(system, still, 0.0));
+  hk_motion_store(moved, out, out + 3 * n);
+  hk_motion_load(system, still, q, v);
+  check_ok(hk_motion_forces(system, still, 0.0));
   lost += still->coincident;
   for (int a = 0; a < 3; a++)
     memcpy(out + 6 * n + a * n, still->f[a], (size_t)n * sizeof(double));
-  hooke_motion_destroy(moved);
-  hooke_motion_destroy(still);
-  hooke_crew_destroy(crew);
+  hk_motion_destroy(moved);
+  hk_motion_destroy(still);
+  hk_crew_destroy(crew);
   return lost;
 }
 

@@ -37,7 +37,7 @@ static hooke_system *damped_chain(int driven) {
 
 struct watch {
   const hooke_system *system;
-  struct hooke_balance balance;
+  struct hk_balance balance;
   double (*power)(const hooke_system *system, const double *q, const double *v);
   int64_t count;
   double residual[FRAMES + 1];
@@ -46,21 +46,21 @@ struct watch {
 static int32_t on_step(int64_t step, const hooke_state *state, void *ctx) {
   struct watch *watch = ctx;
   (void)step;
-  return hooke_balance_step(&watch->balance, state);
+  return hk_balance_step(&watch->balance, state);
 }
 
 static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct watch *watch = ctx;
   if (step == 0) {
-    check_ok(hooke_balance_begin(&watch->balance, watch->system, state));
+    check_ok(hk_balance_begin(&watch->balance, watch->system, state));
     if (watch->power == NULL) return 0;
     watch->balance.dissipated_power = watch->power;
     watch->balance.power_out =
         watch->power(watch->system, hooke_state_position(state), hooke_state_velocity(state));
     return 0;
   }
-  check_ok(hooke_balance_step(&watch->balance, state));
-  hooke_balance_close(&watch->balance, state);
+  check_ok(hk_balance_step(&watch->balance, state));
+  hk_balance_close(&watch->balance, state);
   watch->residual[watch->count++] = watch->balance.residual;
   return 0;
 }
@@ -81,7 +81,7 @@ static void run(struct watch *watch, const char *method, double step) {
   check_ok(hooke_state_create(watch->system, &state));
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(watch->count, FRAMES);
-  hooke_balance_release(&watch->balance);
+  hk_balance_release(&watch->balance);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_options_destroy(options);
@@ -95,9 +95,9 @@ static int32_t holds(const char *method, int driven,
   double largest, bound, smaller, other;
   run(&coarse, method, 1e-3);
   run(&fine, method, 5e-4);
-  const double floor = hooke_balance_floor(&fine.balance);
-  const int32_t kept = hooke_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
-  hooke_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
+  const double floor = hk_balance_floor(&fine.balance);
+  const int32_t kept = hk_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
+  hk_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
   *ratio = largest / smaller;
   hooke_system_destroy(system);
   return kept;
@@ -157,8 +157,8 @@ static void wrong_work_is_seen(void **unused) {
     coarse.residual[k] += 0.05 * coarse.balance.work;
     fine.residual[k] += 0.05 * fine.balance.work;
   }
-  assert_false(hooke_balance_holds(FRAMES, coarse.residual, fine.residual, hooke_balance_floor(&fine.balance),
-                                   &largest, &bound));
+  assert_false(hk_balance_holds(FRAMES, coarse.residual, fine.residual, hk_balance_floor(&fine.balance),
+                                &largest, &bound));
   check_between(largest, bound, INFINITY);
   hooke_system_destroy(system);
 }

@@ -188,7 +188,7 @@ static void every_length_is_watched(void **state) {
 }
 
 static void put_check_value(struct bytes *bytes) {
-  const uint32_t value = hooke_crc32(0, bytes->at, bytes->count - 4);
+  const uint32_t value = hk_crc32(0, bytes->at, bytes->count - 4);
   for (int k = 0; k < 4; k++)
     bytes->at[bytes->count - 4 + k] = (unsigned char)(value >> 8 * k);
 }

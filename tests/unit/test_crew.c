@@ -14,7 +14,7 @@ enum { MOST = 16, COUNT = 4096 };
 static const int32_t sizes[] = {1, 2, 3, 8, 16};
 
 struct sums {
-  struct hooke_crew *crew;
+  struct hk_crew *crew;
   int32_t rounds, calls[MOST], wrong[MOST];
   int64_t part[MOST], value[COUNT];
 };
@@ -26,23 +26,23 @@ static void add_up(int32_t member, int32_t members, void *ctx) {
   const int64_t expected = (int64_t)COUNT * (COUNT - 1) / 2;
   sums->calls[member]++;
   for (int32_t round = 0; round < sums->rounds; round++) {
-    const int64_t from = hooke_crew_share(COUNT, 8, member, members),
-                  to = hooke_crew_share(COUNT, 8, member + 1, members);
+    const int64_t from = hk_crew_share(COUNT, 8, member, members),
+                  to = hk_crew_share(COUNT, 8, member + 1, members);
     int64_t part = 0;
     for (int64_t k = from; k < to; k++)
       part += sums->value[k];
     sums->part[member] = part;
-    hooke_crew_meet(sums->crew);
+    hk_crew_meet(sums->crew);
     int64_t total = 0;
     for (int32_t m = 0; m < members; m++)
       total += sums->part[m];
     sums->wrong[member] += total != expected + (int64_t)COUNT * round;
-    hooke_crew_meet(sums->crew);
+    hk_crew_meet(sums->crew);
     const int32_t next = (member + 1) % members;
-    for (int64_t k = hooke_crew_share(COUNT, 8, next, members);
-         k < hooke_crew_share(COUNT, 8, next + 1, members); k++)
+    for (int64_t k = hk_crew_share(COUNT, 8, next, members); k < hk_crew_share(COUNT, 8, next + 1, members);
+         k++)
       sums->value[k]++;
-    hooke_crew_meet(sums->crew);
+    hk_crew_meet(sums->crew);
   }
 }
 
@@ -50,14 +50,14 @@ static void test_sums(void **unused) {
   (void)unused;
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
     struct sums *sums = new_block(1, (int64_t)sizeof *sums);
-    sums->crew = hooke_crew_create(sizes[s]);
+    sums->crew = hk_crew_create(sizes[s]);
     assert_non_null(sums->crew);
-    assert_int_equal(hooke_crew_members(sums->crew), sizes[s]);
+    assert_int_equal(hk_crew_members(sums->crew), sizes[s]);
     sums->rounds = sizes[s] <= 3 ? 1000 : 100;
     for (int32_t run = 0; run < 3; run++) {
       for (int64_t k = 0; k < COUNT; k++)
         sums->value[k] = k;
-      hooke_crew_run(sums->crew, add_up, sums);
+      hk_crew_run(sums->crew, add_up, sums);
       for (int32_t m = 0; m < MOST; m++) {
         assert_int_equal(sums->calls[m], m < sizes[s] ? run + 1 : 0);
         assert_int_equal(sums->wrong[m], 0);
@@ -65,13 +65,13 @@ static void test_sums(void **unused) {
       for (int64_t k = 0; k < COUNT; k++)
         assert_int_equal(sums->value[k], k + sums->rounds);
     }
-    hooke_crew_destroy(sums->crew);
+    hk_crew_destroy(sums->crew);
     free(sums);
   }
 }
 
 struct steps {
-  struct hooke_crew *crew;
+  struct hk_crew *crew;
   int64_t done[MOST];
 };
 
@@ -85,14 +85,14 @@ static void count_step(int32_t member, int32_t members, void *ctx) {
 static void test_short_runs(void **unused) {
   (void)unused;
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
-    struct steps steps = {.crew = hooke_crew_create(sizes[s])};
+    struct steps steps = {.crew = hk_crew_create(sizes[s])};
     const int64_t runs = sizes[s] <= 3 ? 5000 : 300;
     for (int64_t k = 1; k <= runs; k++) {
-      hooke_crew_run(steps.crew, count_step, &steps);
+      hk_crew_run(steps.crew, count_step, &steps);
       for (int32_t m = 0; m < sizes[s]; m++)
         assert_int_equal(steps.done[m], k);
     }
-    hooke_crew_destroy(steps.crew);
+    hk_crew_destroy(steps.crew);
   }
 }
 
@@ -110,34 +110,34 @@ static void come_late(int32_t member, int32_t members, void *ctx) {
       for (int32_t m = 0; m < members; m++)
         steps->done[m]++;
     }
-    hooke_crew_meet(steps->crew);
+    hk_crew_meet(steps->crew);
     if (steps->done[member] != late + 1) steps->done[member] = -1000;
-    hooke_crew_meet(steps->crew);
+    hk_crew_meet(steps->crew);
   }
 }
 
 static void test_unequal_work(void **unused) {
   (void)unused;
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
-    struct steps steps = {.crew = hooke_crew_create(sizes[s])};
+    struct steps steps = {.crew = hk_crew_create(sizes[s])};
     for (int32_t run = 0; run < 4; run++) {
       memset(steps.done, 0, sizeof steps.done);
       nap(run * 300); /* the crew sleeps */
-      hooke_crew_run(steps.crew, come_late, &steps);
+      hk_crew_run(steps.crew, come_late, &steps);
       for (int32_t m = 0; m < sizes[s]; m++)
         assert_int_equal(steps.done[m], sizes[s]);
     }
-    hooke_crew_destroy(steps.crew);
+    hk_crew_destroy(steps.crew);
   }
 }
 
 static void test_alone(void **unused) {
   (void)unused;
   struct steps steps = {0};
-  assert_int_equal(hooke_crew_members(NULL), 1);
-  hooke_crew_run(NULL, count_step, &steps);
-  hooke_crew_meet(NULL);
-  hooke_crew_destroy(NULL);
+  assert_int_equal(hk_crew_members(NULL), 1);
+  hk_crew_run(NULL, count_step, &steps);
+  hk_crew_meet(NULL);
+  hk_crew_destroy(NULL);
   assert_int_equal(steps.done[0], 1);
 }
 
@@ -145,11 +145,11 @@ static void test_shares(void **unused) {
   (void)unused;
   for (int64_t count = 0; count < 700; count += 13) {
     for (int32_t members = 1; members <= MOST; members++) {
-      assert_int_equal(hooke_crew_share(count, 64, 0, members), 0);
-      assert_int_equal(hooke_crew_share(count, 64, members, members), count);
+      assert_int_equal(hk_crew_share(count, 64, 0, members), 0);
+      assert_int_equal(hk_crew_share(count, 64, members, members), count);
       for (int32_t m = 0; m < members; m++) {
-        const int64_t from = hooke_crew_share(count, 64, m, members),
-                      to = hooke_crew_share(count, 64, m + 1, members);
+        const int64_t from = hk_crew_share(count, 64, m, members),
+                      to = hk_crew_share(count, 64, m + 1, members);
         assert_true(from <= to && to - from <= 64 * ((count + 63) / 64 / members + 1));
         assert_true(from % 64 == 0 || from == count);
       }
@@ -169,9 +169,9 @@ static void look_at_signals(int32_t member, int32_t members, void *ctx) {
 static void test_signals(void **unused) {
   (void)unused;
   int blocked[3] = {-1, -1, -1};
-  struct hooke_crew *crew = hooke_crew_create(3);
-  hooke_crew_run(crew, look_at_signals, blocked);
-  hooke_crew_destroy(crew);
+  struct hk_crew *crew = hk_crew_create(3);
+  hk_crew_run(crew, look_at_signals, blocked);
+  hk_crew_destroy(crew);
   assert_int_equal(blocked[0], 0);
   assert_int_equal(blocked[1], 1);
   assert_int_equal(blocked[2], 1);

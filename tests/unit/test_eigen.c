@@ -41,13 +41,13 @@ static void test_three_by_three(void **unused) {
     for (int turn = 0; turn <= 20; turn++) {
       double matrix[6];
       rotated(v, 0.37 * turn, matrix);
-      assert_true(fabs(hooke_eigen_largest(matrix) - largest) <= 16.0 * DBL_EPSILON * size);
+      assert_true(fabs(hk_eigen_largest(matrix) - largest) <= 16.0 * DBL_EPSILON * size);
     }
   }
   for (int k = 0; k < 6; k++) {
     double matrix[6] = {3, 2, 1, 0.1, 0.2, 0.3};
     matrix[k] = NAN;
-    assert_true(isnan(hooke_eigen_largest(matrix)));
+    assert_true(isnan(hk_eigen_largest(matrix)));
   }
 }
 
@@ -71,13 +71,13 @@ static void test_chain(void **unused) {
   (void)unused;
   static double matrix[CHAIN * CHAIN], vector[CHAIN * CHAIN], value[CHAIN], diagonal[CHAIN], beside[CHAIN];
   fill_chain(matrix);
-  const int32_t status = hooke_dense_symmetric(CHAIN, matrix, value, NULL);
+  const int32_t status = hk_dense_symmetric(CHAIN, matrix, value, NULL);
   if (status == HOOKE_NOT_BUILT) skip();
   check_ok(status);
   for (int k = 0; k < CHAIN; k++)
     assert_true(fabs(value[k] - chain_value(CHAIN - k)) < 1e-14);
   fill_chain(matrix);
-  check_ok(hooke_dense_symmetric(CHAIN, matrix, value, vector));
+  check_ok(hk_dense_symmetric(CHAIN, matrix, value, vector));
   fill_chain(matrix);
   for (int k = 0; k < CHAIN; k++) {
     double square = 0.0;
@@ -95,8 +95,8 @@ static void test_chain(void **unused) {
     diagonal[k] = 2.0;
     beside[k] = -1.0;
   }
-  check_ok(hooke_dense_tridiagonal(CHAIN, diagonal, beside, &top[0], NULL));
-  check_ok(hooke_dense_tridiagonal(CHAIN, diagonal, beside, &top[1], last));
+  check_ok(hk_dense_tridiagonal(CHAIN, diagonal, beside, &top[0], NULL));
+  check_ok(hk_dense_tridiagonal(CHAIN, diagonal, beside, &top[1], last));
   assert_true(fabs(top[0] - chain_value(CHAIN)) < 1e-14 && fabs(top[1] - top[0]) < 1e-14);
   for (int k = 0; k < CHAIN; k++)
     assert_true(fabs(fabs(last[k]) - fabs(vector[k])) < 1e-13);
@@ -107,11 +107,11 @@ static void test_damped_chain(void **unused) {
   (void)unused;
   static double stiffness[CHAIN * CHAIN], damping[CHAIN * CHAIN];
   const double b = 1.1; /* some modes oscillate, some creep */
-  struct hooke_damped_modes modes;
+  struct hk_damped_modes modes;
   fill_chain(stiffness);
   for (int k = 0; k < CHAIN * CHAIN; k++)
     damping[k] = b * stiffness[k];
-  const int32_t status = hooke_dense_damped(CHAIN, stiffness, damping, &modes);
+  const int32_t status = hk_dense_damped(CHAIN, stiffness, damping, &modes);
   if (status == HOOKE_NOT_BUILT) skip();
   check_ok(status);
   int expected = 0;
@@ -142,7 +142,7 @@ static void test_damped_chain(void **unused) {
       assert_true(hypot(ar, ai) < 1e-12);
     }
   }
-  hooke_damped_modes_release(&modes);
+  hk_damped_modes_release(&modes);
 }
 
 static void test_not_finite(void **unused) {
@@ -150,12 +150,12 @@ static void test_not_finite(void **unused) {
   static const double bad[] = {NAN, INFINITY};
   for (int k = 0; k < 2; k++) {
     double matrix[4] = {1.0, bad[k], bad[k], 1.0}, value[2], unit[4] = {1.0, 0.0, 0.0, 1.0};
-    struct hooke_damped_modes modes;
-    const int32_t status = hooke_dense_symmetric(2, matrix, value, NULL);
+    struct hk_damped_modes modes;
+    const int32_t status = hk_dense_symmetric(2, matrix, value, NULL);
     if (status == HOOKE_NOT_BUILT) skip();
     check_status(status, HOOKE_SOLVER_FAILED);
-    check_status(hooke_dense_damped(2, matrix, unit, &modes), HOOKE_SOLVER_FAILED);
-    check_status(hooke_dense_tridiagonal(2, matrix, matrix + 1, value, NULL), HOOKE_SOLVER_FAILED);
+    check_status(hk_dense_damped(2, matrix, unit, &modes), HOOKE_SOLVER_FAILED);
+    check_status(hk_dense_tridiagonal(2, matrix, matrix + 1, value, NULL), HOOKE_SOLVER_FAILED);
   }
 }
 
@@ -164,7 +164,7 @@ static void test_line(void **unused) {
   (void)unused;
   enum { ROWS = 3 };
   const double d = 0.01;
-  struct hooke_study_row row[ROWS] = {{.method = 0}};
+  struct hk_study_row row[ROWS] = {{.method = 0}};
   hooke_study study = {.method_count = 1,
                        .method = {"verlet"},
                        .reference = {.agreement = 1e-12, .extent = 1.0},
@@ -174,7 +174,7 @@ static void test_line(void **unused) {
     row[k].value = 0.01 * exp2(-k);
     row[k].trial.error = row[k].value * row[k].value * exp(k == 1 ? -2.0 * d : d);
   }
-  hooke_study_fit_order(&study, 0);
+  hk_study_fit_order(&study, 0);
   const double half = 12.706204736174698 * sqrt(3.0) * d / log(2.0);
   assert_true(fabs(study.order[0].order - 2.0) < 1e-12);
   assert_true(fabs(study.order[0].high - 2.0 - half) < 1e-11 * half);
@@ -184,10 +184,10 @@ static void test_line(void **unused) {
 static void test_reach(void **unused) {
   (void)unused;
   const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
-  assert_true(fabs(hooke_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
-  assert_true(fabs(hooke_rk4_reach(-3.0, 0.0) - real) < 2e-15);
+  assert_true(fabs(hk_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
+  assert_true(fabs(hk_rk4_reach(-3.0, 0.0) - real) < 2e-15);
   for (double x = -1.0; x <= 0.0; x += 0.125) {
-    const double y = x + 1.0, reach = hooke_rk4_reach(x, y);
+    const double y = x + 1.0, reach = hk_rk4_reach(x, y);
     const double complex z = reach / hypot(x, y) * (x + y * I);
     assert_true(fabs(cabs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) - 1.0) < 1e-13);
   }

@@ -13,7 +13,7 @@
 struct bench {
   struct random_scene scene;
   hooke_integrator *integrator;
-  struct hooke_reduced reduced;
+  struct hk_reduced reduced;
   int64_t n;
 };
 
@@ -24,14 +24,14 @@ static void set_up(struct random_scene_request request, double alpha, double bet
   double *q = new_doubles(6 * bench->n), *v = q + 3 * bench->n;
   random_scene_shake(&bench->scene, 7, q, v);
   bench->integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
-  hooke_motion_load(system, bench->integrator->motion, q, v);
-  check_ok(hooke_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, &bench->reduced));
-  hooke_reduced_set(&bench->reduced, 0.25, alpha, beta);
+  hk_motion_load(system, bench->integrator->motion, q, v);
+  check_ok(hk_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, &bench->reduced));
+  hk_reduced_set(&bench->reduced, 0.25, alpha, beta);
   free(q);
 }
 
 static void tear_down(struct bench *bench) {
-  hooke_reduced_release(&bench->reduced);
+  hk_reduced_release(&bench->reduced);
   hooke_integrator_destroy(bench->integrator);
   random_scene_destroy(&bench->scene);
 }
@@ -41,12 +41,12 @@ static void multiply_altitude(const struct bench *bench, const double *x, double
   const hooke_system *system = bench->scene.system;
   const int64_t n = bench->n;
   double *q = new_doubles(6 * n), *v = q + 3 * n;
-  hooke_motion_store(bench->integrator->motion, q, v);
+  hk_motion_store(bench->integrator->motion, q, v);
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
-    struct hooke_tautness s;
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    struct hk_tautness s;
     double along = 0.0;
-    if (!hooke_tautness_find(t, q, v, &s) || s.slack) continue;
+    if (!hk_tautness_find(t, q, v, &s) || s.slack) continue;
     for (int j = 0; j < 4; j++) {
       for (int a = 0; a < 3; a++)
         along += s.altitude.weight[j] * s.altitude.u[a] * x[a * n + t->particle[j]];
@@ -64,15 +64,15 @@ static void multiply_altitude(const struct bench *bench, const double *x, double
 /* out = S x over the free particles, spring by spring. */
 static void multiply(const struct bench *bench, const double *x, double *out) {
   const hooke_system *system = bench->scene.system;
-  const struct hooke_motion *m = bench->integrator->motion;
+  const struct hk_motion *m = bench->integrator->motion;
   const double alpha = bench->reduced.alpha, beta = bench->reduced.beta;
   const int64_t n = bench->n;
   for (int64_t k = 0; k < 3 * n; k++)
     out[k] = (system->mass[k % n] + beta * system->drag) * x[k];
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring s = hooke_run_spring(run, k);
+      const struct hk_spring s = hk_run_spring(run, k);
       double u[3], d[3], length = 0.0, rate = 0.0, along = 0.0;
       for (int a = 0; a < 3; a++) {
         u[a] = m->q[a][s.head] - m->q[a][s.tail];
@@ -97,8 +97,8 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
       }
     }
   }
-  struct hooke_triple t;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &t);) {
+  struct hk_triple t;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &t);) {
     for (int a = 0; a < 3; a++) {
       const double *c = x + a * n;
       const double bend = c[t.particle[0]] - 2.0 * c[t.particle[1]] + c[t.particle[2]];
@@ -111,7 +111,7 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
 }
 
 static void needs_factor(void) {
-  if (!hooke_factor_is_built()) skip();
+  if (!hk_factor_is_built()) skip();
 }
 
 static void solves_s(void **unused) {
@@ -135,19 +135,19 @@ static void solves_s(void **unused) {
     for (int64_t j = 0; j < size; j++)
       x[j] = b.scene.system->held[j % b.n] ? 0.0 : random_between(&source, -1.0, 1.0);
     multiply(&b, x, s);
-    check_ok(hooke_reduced_prepare_whole(&b.reduced));
+    check_ok(hk_reduced_prepare_whole(&b.reduced));
     assert_non_null(b.reduced.whole);
     for (int again = 0; again < 2; again++) { /* the second time on what the first has left */
-      assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
-      hooke_factor_gather(b.reduced.whole, s, ordered);
-      hooke_factor_forward(b.reduced.whole, ordered);
-      hooke_factor_backward(b.reduced.whole, ordered);
+      assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
+      hk_factor_gather(b.reduced.whole, s, ordered);
+      hk_factor_forward(b.reduced.whole, ordered);
+      hk_factor_backward(b.reduced.whole, ordered);
       memset(found, 0x7f, (size_t)size * sizeof(double));
-      hooke_factor_spread(b.reduced.whole, ordered, found);
+      hk_factor_spread(b.reduced.whole, ordered, found);
       double worst = largest_difference(size, found, x);
       if (!(worst <= 1e-9)) check_failed("scene %d: error %g", k, worst);
     }
-    assert_true(hooke_factor_memory(b.reduced.whole) > 8 * hooke_factor_numbers(b.reduced.whole));
+    assert_true(hk_factor_memory(b.reduced.whole) > 8 * hk_factor_numbers(b.reduced.whole));
     free(x);
     tear_down(&b);
   }
@@ -160,18 +160,18 @@ static void not_positive(void **unused) {
   struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150, .features = SCENE_DAMPING},
          1e-4, 1e-2, &b);
-  check_ok(hooke_reduced_prepare_whole(&b.reduced));
-  assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+  check_ok(hk_reduced_prepare_whole(&b.reduced));
+  assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
   assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_IN_USE);
   const double bad[] = {NAN, INFINITY, -1.0, 0.0};
   for (int k = 0; k < 4; k++) {
     const double kept = b.reduced.block[17];
     b.reduced.block[17] = bad[k];
-    assert_int_equal(hooke_reduced_factorise(&b.reduced), 0);
+    assert_int_equal(hk_reduced_factorise(&b.reduced), 0);
     assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_READY);
     b.reduced.block[17] = kept;
   }
-  assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
+  assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
   tear_down(&b);
 }
 
@@ -180,14 +180,14 @@ static void sizes(void **unused) {
   (void)unused;
   needs_factor();
   struct bench b;
-  struct hooke_factor *factor = NULL;
+  struct hk_factor *factor = NULL;
   set_up((struct random_scene_request){.seed = 5, .particles = 2, .springs = 1, .rope = 2000}, 1e-4, 1e-2,
          &b);
-  check_ok(hooke_factor_create(b.scene.system, INT64_C(1) << 40, &factor));
-  const int64_t numbers = hooke_factor_numbers(factor);
+  check_ok(hk_factor_create(b.scene.system, INT64_C(1) << 40, &factor));
+  const int64_t numbers = hk_factor_numbers(factor);
   check_between((double)numbers / 2000.0, 9.0, 200.0);
-  hooke_factor_destroy(factor);
-  check_ok(hooke_factor_create(b.scene.system, numbers / 2, &factor));
+  hk_factor_destroy(factor);
+  check_ok(hk_factor_create(b.scene.system, numbers / 2, &factor));
   assert_null(factor);
   tear_down(&b);
 }
@@ -195,10 +195,10 @@ static void sizes(void **unused) {
 /* A build without factors says so by having none. */
 static void not_built(void **unused) {
   (void)unused;
-  if (hooke_factor_is_built()) skip();
+  if (hk_factor_is_built()) skip();
   struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150}, 1e-4, 1e-2, &b);
-  check_ok(hooke_reduced_prepare_whole(&b.reduced));
+  check_ok(hk_reduced_prepare_whole(&b.reduced));
   assert_null(b.reduced.whole);
   assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_NONE);
   tear_down(&b);
@@ -229,13 +229,13 @@ static void implicit_equation(void **unused) {
       bq[j] = system->held[j % n] ? 0.0 : gamma * random_between(&source, -1.0, 1.0);
       bv[j] = system->held[j % n] ? 0.0 : random_between(&source, -1.0, 1.0);
     }
-    hooke_motion_store(b.integrator->motion, q, v);
-    for (int whole = 0; whole <= hooke_factor_is_built(); whole++) {
-      struct hooke_solution solution;
-      if (whole) check_ok(hooke_reduced_prepare_whole(&b.reduced));
-      if (whole) assert_int_equal(hooke_reduced_factorise(&b.reduced), 1);
-      check_ok(hooke_reduced_right(&b.reduced, bq, bv, right));
-      check_ok(hooke_reduced_minimise(&b.reduced, right, weight, 1e-12, 500, z, &solution));
+    hk_motion_store(b.integrator->motion, q, v);
+    for (int whole = 0; whole <= hk_factor_is_built(); whole++) {
+      struct hk_solution solution;
+      if (whole) check_ok(hk_reduced_prepare_whole(&b.reduced));
+      if (whole) assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
+      check_ok(hk_reduced_right(&b.reduced, bq, bv, right));
+      check_ok(hk_reduced_minimise(&b.reduced, right, weight, 1e-12, 500, z, &solution));
       assert_int_equal(solution.converged, 1);
       for (int64_t j = 0; j < size; j++) { /* rows of x y z */
         const int64_t at = j % 3 * n + j / 3;
@@ -275,32 +275,31 @@ static void minimal(void **unused) {
   struct random_source source = {41};
   double *a = new_doubles(SIZE * SIZE), *x = new_doubles(3 * SIZE), *b = x + SIZE, *found = b + SIZE;
   double *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
-  const struct hooke_operator operator= {SIZE, apply, a};
+  const struct hk_operator operator= {SIZE, apply, a};
   for (int k = 0; k < SIZE * SIZE; k++)
     a[k] = random_between(&source, -0.19, 0.19) + (k % (SIZE + 1) == 0 ? 2.0 : 0.0);
   for (int k = 0; k < SIZE; k++)
     x[k] = random_between(&source, -1.0, 1.0);
   apply(a, x, b);
-  struct hooke_solution solution;
-  check_ok(
-      hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution)); /* more than its space */
+  struct hk_solution solution;
+  check_ok(hk_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution)); /* more than its space */
   assert_int_equal(solution.converged, 1);
   assert_true(solution.iterations > HOOKE_MINIMAL_SPACE);
   check_between(largest_difference(SIZE, found, x), 0.0, 1e-11);
-  check_ok(hooke_solve_minimal(&operator, b, 1e-3, 500, scratch, found, &solution));
+  check_ok(hk_solve_minimal(&operator, b, 1e-3, 500, scratch, found, &solution));
   check_between(largest_difference(SIZE, found, x), 1e-6, 1e-2); /* absolute, and no further */
-  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 3, scratch, found, &solution));
+  check_ok(hk_solve_minimal(&operator, b, 1e-12, 3, scratch, found, &solution));
   assert_int_equal(solution.converged, 0);
   assert_int_equal(solution.iterations, 3);
-  check_ok(hooke_solve_minimal(&operator, b, 1e6, 3, scratch, found, &solution));
+  check_ok(hk_solve_minimal(&operator, b, 1e6, 3, scratch, found, &solution));
   assert_int_equal(solution.converged, 1);
   assert_int_equal(solution.iterations, 0);
   b[3] = NAN;
-  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
+  check_ok(hk_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
   assert_int_equal(solution.converged, 0);
   b[3] = 1.0;
   memset(a, 0, SIZE * SIZE * sizeof(double));
-  check_ok(hooke_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
+  check_ok(hk_solve_minimal(&operator, b, 1e-12, 500, scratch, found, &solution));
   assert_int_equal(solution.converged, 0);
   free(a);
   free(x);

@@ -25,12 +25,11 @@ static struct random_scene build(uint64_t seed) {
 
 /* Of M^-1 (a K + b C). */
 static double largest(const hooke_system *system, double a, double b) {
-  struct hooke_linearised lin;
+  struct hk_linearised lin;
   double value = 0.0, *mode = calloc((size_t)(3 * system->particle_count), sizeof *mode);
-  check_ok(hooke_linearised_create(system, system->position, NULL, NULL, &lin));
-  const int32_t status =
-      hooke_top_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
-  hooke_linearised_release(&lin);
+  check_ok(hk_linearised_create(system, system->position, NULL, NULL, &lin));
+  const int32_t status = hk_top_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
+  hk_linearised_release(&lin);
   free(mode);
   if (status == HOOKE_NOT_BUILT) skip();
   check_ok(status);
@@ -45,17 +44,17 @@ static void a_quotient_is_below_the_largest_eigenvalue_and_comes_near(void **unu
     double *still = calloc((size_t)(3 * system->particle_count), sizeof *still);
     for (int with_damping = 0; with_damping <= 1; with_damping++) {
       const double b = with_damping ? 0.02 : 0.0, most = largest(system, 1e-4, b);
-      struct hooke_growing growing;
-      check_ok(hooke_growing_create(system, still, NULL, &growing));
-      double before = hooke_growing_quotient(&growing, system->position, 1e-4, b);
+      struct hk_growing growing;
+      check_ok(hk_growing_create(system, still, NULL, &growing));
+      double before = hk_growing_quotient(&growing, system->position, 1e-4, b);
       for (int turn = 0; turn < 5; turn++) {
-        const double quotient = hooke_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, 1);
+        const double quotient = hk_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, 1);
         check_between(quotient, (1.0 - 1e-9) * before, (1.0 + 1e-9) * most);
         before = quotient;
       }
-      check_between(hooke_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, TURNS),
-                    0.97 * most, (1.0 + 1e-9) * most);
-      hooke_growing_release(&growing);
+      check_between(hk_growing_turn(&growing, system->position, 1e-4, b, INFINITY, -1.0, TURNS), 0.97 * most,
+                    (1.0 + 1e-9) * most);
+      hk_growing_release(&growing);
     }
     free(still);
     random_scene_destroy(&scene);
@@ -73,15 +72,15 @@ static void turns_end(void **unused) {
   struct random_scene scene = build(5);
   const hooke_system *system = scene.system;
   int calls = 3;
-  struct hooke_patience patience = hooke_patience_of(INFINITY, refuse, &calls);
-  struct hooke_growing growing;
+  struct hk_patience patience = hk_patience_of(INFINITY, refuse, &calls);
+  struct hk_growing growing;
   double *still = calloc((size_t)(3 * system->particle_count), sizeof *still);
-  check_ok(hooke_growing_create(system, still, &patience, &growing));
-  hooke_growing_turn(&growing, system->position, 1e-4, 0.0, INFINITY, -1.0, 1000000);
+  check_ok(hk_growing_create(system, still, &patience, &growing));
+  hk_growing_turn(&growing, system->position, 1e-4, 0.0, INFINITY, -1.0, 1000000);
   assert_true(patience.stopped && calls == -1);
-  const double half = 0.5 * hooke_growing_quotient(&growing, system->position, 1e-4, 0.0);
-  assert_true(hooke_growing_turn(&growing, system->position, 1e-4, 0.0, half, -1.0, 1000000) > half);
-  hooke_growing_release(&growing);
+  const double half = 0.5 * hk_growing_quotient(&growing, system->position, 1e-4, 0.0);
+  assert_true(hk_growing_turn(&growing, system->position, 1e-4, 0.0, half, -1.0, 1000000) > half);
+  hk_growing_release(&growing);
   free(still);
   random_scene_destroy(&scene);
 }

@@ -28,7 +28,7 @@ static void handy_steps(void **unused) {
       {NAN, 3e-310, NAN, NAN, 2e-310},  /* below what is normal */
   };
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    const double step = hooke_handy_step(rows[k].step, rows[k].limit, rows[k].every, rows[k].duration);
+    const double step = hk_handy_step(rows[k].step, rows[k].limit, rows[k].every, rows[k].duration);
     if (!(fabs(step - rows[k].expected) <= 1e-12 * rows[k].expected))
       check_failed("row %d: %.17g in place of %.17g", (int)k, step, rows[k].expected);
     assert_true(step <= rows[k].limit);

@@ -95,38 +95,37 @@ static void shift(int64_t low, int64_t count, const int32_t *from, int32_t *to) 
     to[k] = (int32_t)(low + from[k]);
 }
 
-static struct hooke_fields fields_of(const struct world *world) {
+static struct hk_fields fields_of(const struct world *world) {
   double *const *a = world->array;
-  return (struct hooke_fields){{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {a[6], a[7], a[8]}};
+  return (struct hk_fields){{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {a[6], a[7], a[8]}};
 }
 
 /* ---- what the loops make of them ---- */
 
 /* Forces, and all that a tangent gives, of a run whose springs have the last numbers of the window. */
-static void add_springs(struct world *world, const struct hooke_spring_set *set, int32_t shape,
-                        int32_t offset) {
+static void add_springs(struct world *world, const struct hk_spring_set *set, int32_t shape, int32_t offset) {
   int32_t head[COUNT], tail[COUNT];
   const int64_t first_spring = world->low + WINDOW - COUNT;
   fill(world, first_spring);
   shift(world->low, COUNT, drawn.ends[0], head);
   shift(world->low, COUNT, drawn.ends[1], tail);
   const int64_t start = world->low + WINDOW - COUNT - (offset > 0 ? offset : 0);
-  const struct hooke_run run = {.first = first_spring,
-                                .count = COUNT,
-                                .shape = shape,
-                                .start = (int32_t)start,
-                                .offset = offset,
-                                .head = head,
-                                .tail = tail,
-                                .kappa = 20.0,
-                                .gamma = 0.5,
-                                .rest_length = 0.7,
-                                .kappas = drawn.kappas,
-                                .gammas = drawn.gammas,
-                                .rest_lengths = drawn.rest_lengths};
-  const struct hooke_fields fields = fields_of(world);
+  const struct hk_run run = {.first = first_spring,
+                             .count = COUNT,
+                             .shape = shape,
+                             .start = (int32_t)start,
+                             .offset = offset,
+                             .head = head,
+                             .tail = tail,
+                             .kappa = 20.0,
+                             .gamma = 0.5,
+                             .rest_length = 0.7,
+                             .kappas = drawn.kappas,
+                             .gammas = drawn.gammas,
+                             .rest_lengths = drawn.rest_lengths};
+  const struct hk_fields fields = fields_of(world);
   double *const *t = world->array + FIELDS + BLOCKS;
-  const struct hooke_tangent tangent = {{t[0], t[1], t[2]}, {t[3], t[4], t[5]}, t[6]};
+  const struct hk_tangent tangent = {{t[0], t[1], t[2]}, {t[3], t[4], t[5]}, t[6]};
   set->loop[shape](&run, &fields);
   set->tangent->tangent_fill(&run, &fields, 0.3, 0.2, &tangent);
   set->tangent->tangent_product(&run, &tangent, fields.v, fields.f);
@@ -134,36 +133,36 @@ static void add_springs(struct world *world, const struct hooke_spring_set *set,
   set->tangent->tangent_diagonal(&run, &tangent, world->array + FIELDS);
 }
 
-static void add_triples(struct world *world, const struct hooke_spring_set *set, int32_t shape) {
+static void add_triples(struct world *world, const struct hk_spring_set *set, int32_t shape) {
   int32_t particle[3][COUNT];
   fill(world, world->low);
   for (int e = 0; e < 3; e++)
     shift(world->low, COUNT, drawn.ends[e], particle[e]);
-  const struct hooke_bending_run run = {.first = world->low,
-                                        .count = COUNT,
-                                        .shape = shape,
-                                        .start = (int32_t)(world->low + WINDOW - COUNT - 14),
-                                        .offset = 7,
-                                        .particle = {particle[0], particle[1], particle[2]},
-                                        .coefficient = 3.0,
-                                        .coefficients = drawn.kappas};
-  const struct hooke_fields fields = fields_of(world);
+  const struct hk_bending_run run = {.first = world->low,
+                                     .count = COUNT,
+                                     .shape = shape,
+                                     .start = (int32_t)(world->low + WINDOW - COUNT - 14),
+                                     .offset = 7,
+                                     .particle = {particle[0], particle[1], particle[2]},
+                                     .coefficient = 3.0,
+                                     .coefficients = drawn.kappas};
+  const struct hk_fields fields = fields_of(world);
   set->bending[shape](&run, 0.9, fields.q, fields.f);
 }
 
 static void add_tetrahedra(struct world *world) {
-  struct hooke_tetrahedron tetrahedra[COUNT];
+  struct hk_tetrahedron tetrahedra[COUNT];
   fill(world, world->low);
   for (int k = 0; k < COUNT; k++) {
-    tetrahedra[k] = (struct hooke_tetrahedron){
+    tetrahedra[k] = (struct hk_tetrahedron){
         .choice = HOOKE_ALTITUDE_SHORTEST, .side = 1.0, .stiffness = 5.0, .damping = 0.1};
     for (int e = 0; e < 4; e++)
       shift(world->low, 1, &drawn.ends[e][k], &tetrahedra[k].particle[e]);
     for (int a = 0; a < HOOKE_ALTITUDES; a++)
       tetrahedra[k].rest[a] = drawn.rest_lengths[k];
   }
-  const struct hooke_fields fields = fields_of(world);
-  hooke_altitude_add(COUNT, tetrahedra, fields.q, fields.v, fields.f);
+  const struct hk_fields fields = fields_of(world);
+  hk_altitude_add(COUNT, tetrahedra, fields.q, fields.v, fields.f);
 }
 
 /* ---- the same at small numbers ---- */
@@ -180,8 +179,8 @@ static void check_same(const struct world *found, const struct world *expected, 
 }
 
 static void at_edge(struct world *found, struct world *expected) {
-  const struct hooke_spring_set *set;
-  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+  const struct hk_spring_set *set;
+  for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
     for (int32_t shape = 0; shape < HOOKE_RUN_SHAPES; shape++) {
       for (int32_t offset = -5; offset <= 200; offset += 205) {
         const int indexed = shape & HOOKE_RUN_INDEXED;

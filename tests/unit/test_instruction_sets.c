@@ -11,13 +11,13 @@
 #include <stdlib.h>
 
 /* The linker puts the second in place of the first everywhere else. */
-const struct hooke_spring_set *__real_hooke_spring_set(int32_t set);
-const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set);
+const struct hk_spring_set *__real_hk_spring_set(int32_t set);
+const struct hk_spring_set *__wrap_hk_spring_set(int32_t set);
 
 static int32_t first_set;
 
-const struct hooke_spring_set *__wrap_hooke_spring_set(int32_t set) {
-  return __real_hooke_spring_set(first_set + set);
+const struct hk_spring_set *__wrap_hk_spring_set(int32_t set) {
+  return __real_hk_spring_set(first_set + set);
 }
 
 static const struct scene {
@@ -72,7 +72,7 @@ static const struct {
 };
 
 static void check_scene(const struct scene *scene, int k) {
-  for (first_set = 0; __real_hooke_spring_set(first_set) != NULL; first_set++) {
+  for (first_set = 0; __real_hk_spring_set(first_set) != NULL; first_set++) {
     struct random_scene made;
     random_scene_create(scene->request, &made); /* runs take their loops when a system is committed */
     for (size_t m = 0; m < sizeof expected / sizeof expected[0]; m++) {
@@ -80,7 +80,7 @@ static void check_scene(const struct scene *scene, int k) {
         const uint64_t hash = hash_of(made.system, expected[m].method, scene->step, threads);
         if (hash == expected[m].hash[k]) continue;
         check_failed("%s, %s, loops for %s, %d threads: hash %016" PRIx64 ", expected %016" PRIx64,
-                     scene->name, expected[m].method, __wrap_hooke_spring_set(0)->name, (int)threads, hash,
+                     scene->name, expected[m].method, __wrap_hk_spring_set(0)->name, (int)threads, hash,
                      expected[m].hash[k]);
       }
     }

@@ -15,7 +15,7 @@ struct trial {
   double q[3][PARTICLES], v[3][PARTICLES], f[3][PARTICLES];
   int32_t head[LONGEST], tail[LONGEST];
   double kappas[LONGEST], gammas[LONGEST], rest_lengths[LONGEST];
-  struct hooke_run run;
+  struct hk_run run;
 };
 
 static void draw(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
@@ -36,7 +36,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
     trial->gammas[k] = random_between(source, 0.0, 10.0);
     trial->rest_lengths[k] = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0;
   }
-  struct hooke_run *run = &trial->run;
+  struct hk_run *run = &trial->run;
   run->shape = shape;
   run->count = count;
   const int32_t distance =
@@ -56,7 +56,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
 
 /* One spring at a time, as the definition has it. */
 static int64_t plain(const struct trial *trial, double f[3][PARTICLES]) {
-  const struct hooke_run *run = &trial->run;
+  const struct hk_run *run = &trial->run;
   int64_t lost = 0;
   for (int64_t k = 0; k < run->count; k++) {
     const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
@@ -86,12 +86,12 @@ static void compare_sets(struct random_source *source, int32_t shape, int64_t co
   draw(source, shape, count, trial);
   memcpy(expected, trial->f, sizeof expected);
   const int64_t lost = plain(trial, expected);
-  const struct hooke_spring_set *set;
-  for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
+  const struct hk_spring_set *set;
+  for (int32_t k = 0; (set = hk_spring_set(k)) != NULL; k++) {
     memcpy(found, trial->f, sizeof found);
-    const struct hooke_fields fields = {{trial->q[0], trial->q[1], trial->q[2]},
-                                        {trial->v[0], trial->v[1], trial->v[2]},
-                                        {found[0], found[1], found[2]}};
+    const struct hk_fields fields = {{trial->q[0], trial->q[1], trial->q[2]},
+                                     {trial->v[0], trial->v[1], trial->v[2]},
+                                     {found[0], found[1], found[2]}};
     assert_non_null(set->loop[shape]);
     assert_int_equal(set->loop[shape](&trial->run, &fields), lost);
     for (int a = 0; a < 3; a++)
@@ -110,27 +110,27 @@ enum {
 
 /* Springs of some lanes at random, and the rings that they go through. */
 struct lane_trial {
-  struct hooke_lane_pass pass;
+  struct hk_lane_pass pass;
   double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM], material[HOOKE_MOST_LANES][3][LANE_PARTICLES];
   uint8_t present[HOOKE_MOST_LANES][UNITS];
   _Alignas(64) double ring[HOOKE_MOST_LANES][3 * (256 + 3 * HOOKE_LANE_UNIT)];
 };
 
 static void draw_lane(struct random_source *source, int32_t k, int32_t shape, struct lane_trial *trial) {
-  struct hooke_lane_view *lane = &trial->pass.lane[k];
-  *lane = (struct hooke_lane_view){
-      .shape = shape,
-      .present = trial->present[k],
-      .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
-      .mask = 63,
-      .ring = trial->ring[k],
-      .kappa = random_between(source, 1.0, 9.0),
-      .gamma = random_between(source, 0.1, 2.0),
-      .rest_length = random_whole(source, 0, 3) ? random_between(source, 0.1, 2.0) : 0.0,
-      .kappas = trial->material[k][0],
-      .gammas = trial->material[k][1],
-      .rest_lengths = trial->material[k][2],
-      .most = LANE_PARTICLES - HOOKE_LANE_UNIT};
+  struct hk_lane_view *lane = &trial->pass.lane[k];
+  *lane = (struct hk_lane_view){.shape = shape,
+                                .present = trial->present[k],
+                                .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
+                                .mask = 63,
+                                .ring = trial->ring[k],
+                                .kappa = random_between(source, 1.0, 9.0),
+                                .gamma = random_between(source, 0.1, 2.0),
+                                .rest_length =
+                                    random_whole(source, 0, 3) ? random_between(source, 0.1, 2.0) : 0.0,
+                                .kappas = trial->material[k][0],
+                                .gammas = trial->material[k][1],
+                                .rest_lengths = trial->material[k][2],
+                                .most = LANE_PARTICLES - HOOKE_LANE_UNIT};
   while (lane->mask + 1 < lane->offset + HOOKE_RING_SLACK)
     lane->mask = 2 * lane->mask + 1;
   memset(trial->ring[k], 0, sizeof trial->ring[k]);
@@ -146,13 +146,13 @@ static void draw_lane(struct random_source *source, int32_t k, int32_t shape, st
 
 static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
   const int32_t shape = HOOKE_RUN_DAMPED * (int32_t)random_whole(source, 0, 1);
-  struct hooke_lane_pass *pass = &trial->pass;
-  *pass = (struct hooke_lane_pass){.count = (int32_t)random_whole(source, 1, 12),
-                                   .stride = ROOM,
-                                   .q = trial->q[0],
-                                   .v = trial->v[0],
-                                   .f = trial->f[0],
-                                   .w = trial->w};
+  struct hk_lane_pass *pass = &trial->pass;
+  *pass = (struct hk_lane_pass){.count = (int32_t)random_whole(source, 1, 12),
+                                .stride = ROOM,
+                                .q = trial->q[0],
+                                .v = trial->v[0],
+                                .f = trial->f[0],
+                                .w = trial->w};
   for (int p = 0; p < ROOM; p++) {
     const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
     for (int a = 0; a < 3; a++) {
@@ -165,21 +165,21 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
     const int32_t other = 2 * (int32_t)random_whole(source, 0, HOOKE_RUN_SHAPES / 2 - 1);
     draw_lane(source, k, random_whole(source, 0, 1) ? shape : other, trial);
   }
-  pass->move = (struct hooke_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 3),
-                                   .heavy = (int32_t)random_whole(source, 0, 1),
-                                   .step = 0.01,
-                                   .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
-                                   .gravity = {0.0, -9.81, 0.1}};
+  pass->move = (struct hk_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 3),
+                                .heavy = (int32_t)random_whole(source, 0, 1),
+                                .step = 0.01,
+                                .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
+                                .gravity = {0.0, -9.81, 0.1}};
 }
 
 /* The forces by springs one at a time: those that end at a particle, lane by lane, each before the one that begins there. */
 static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
   int64_t lost = 0;
   for (int32_t k = 0; k < trial->pass.count; k++) {
-    const struct hooke_lane_view *lane = &trial->pass.lane[k];
+    const struct hk_lane_view *lane = &trial->pass.lane[k];
     static struct trial one;
-    one.run = (struct hooke_run){
-        .count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
+    one.run =
+        (struct hk_run){.count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
     double b[3][ROOM] = {{0}};
     for (int64_t l = 0; l < LANE_PARTICLES; l++) {
       if (!(trial->present[k][l / 8] >> l % 8 & 1)) continue;
@@ -206,7 +206,7 @@ static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PA
 }
 
 static void move_plainly(struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
-  const struct hooke_move *move = &trial->pass.move;
+  const struct hk_move *move = &trial->pass.move;
   for (int a = 0; a < 3; a++) {
     for (int p = 0; p < LANE_PARTICLES; p++) {
       double *q = &trial->q[a][p], *v = &trial->v[a][p], f = sum[a][p], u = *v;
@@ -228,9 +228,9 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
   memset(sum, 0, sizeof sum);
   const int64_t lost = sum_plainly(expected, sum);
   move_plainly(expected, sum);
-  const struct hooke_spring_set *set;
+  const struct hk_spring_set *set;
   struct lane_trial *found = new_block(1, (int64_t)sizeof *found + 64);
-  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+  for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
     int64_t at = 0, found_lost = 0;
     *found = *trial;
     found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
@@ -272,8 +272,8 @@ static void test_moves_agree(void **unused) {
       value[k][p] = random_between(&source, -1.0, 1.0);
   }
   const double *w = value[0], *f = value[1], h = 0.01, gravity = -9.81;
-  const struct hooke_spring_set *set;
-  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+  const struct hk_spring_set *set;
+  for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
     for (int kick_first = 0; kick_first <= 1; kick_first++) {
       for (int heavy = 0; heavy <= 1; heavy++) {
         for (int p = 0; p < COUNT; p++) {
@@ -305,7 +305,7 @@ static void draw_net(struct random_source *source, int32_t shape, ptrdiff_t coun
                      struct net_trial *net) {
   draw(source, HOOKE_RUN_INDEXED, 1, trial);
   const int32_t material = shape & HOOKE_NET_MIXED;
-  struct hooke_run *run = &trial->run;
+  struct hk_run *run = &trial->run;
   run->count = count;
   run->shape = HOOKE_RUN_INDEXED | (shape & HOOKE_NET_DAMPED ? HOOKE_RUN_DAMPED : 0) |
                (shape & HOOKE_NET_PULL_ONLY ? HOOKE_RUN_PULL_ONLY : 0) | (material ? HOOKE_RUN_MIXED : 0);
@@ -361,7 +361,7 @@ static void check_forces(const struct trial *trial, const struct net_trial *net,
   assert_int_equal(lost, 0);
 }
 
-static void check_sums(const struct hooke_net_loops *loops, struct random_source *source,
+static void check_sums(const struct hk_net_loops *loops, struct random_source *source,
                        struct net_trial *net) {
   enum { MOST_PARTICLES = 2 * HOOKE_NET_BATCH };
   uint16_t degree[MOST_PARTICLES];
@@ -396,22 +396,22 @@ static void test_nets_agree(void **unused) {
   struct trial *trial = new_block(1, (int64_t)sizeof *trial);
   struct net_trial *net = aligned_alloc(64, (sizeof *net + 63) / 64 * 64);
   assert_non_null(net);
-  const struct hooke_spring_set *set;
+  const struct hk_spring_set *set;
   for (int32_t shape = 0; shape < HOOKE_NET_SHAPES; shape++) {
     for (ptrdiff_t count = 1; count <= HOOKE_NET_BATCH; count += count < 20 ? 1 : 9) {
-      for (int32_t k = 0; (set = hooke_spring_set(k)) != NULL; k++) {
+      for (int32_t k = 0; (set = hk_spring_set(k)) != NULL; k++) {
         draw_net(&source, shape, count, trial, net);
         memset(net->on_lower, 0, sizeof net->on_lower);
         memset(net->on_upper, 0, sizeof net->on_upper);
-        const struct hooke_net_springs springs = {.lower = net->lower,
-                                                  .upper = shape & HOOKE_NET_WIDE ? (const void *)net->wide
-                                                                                  : (const void *)net->narrow,
-                                                  .kappa = trial->run.kappa,
-                                                  .gamma = trial->run.gamma,
-                                                  .rest_length = trial->run.rest_length,
-                                                  .kappas = trial->kappas,
-                                                  .gammas = trial->gammas,
-                                                  .rest_lengths = trial->rest_lengths};
+        const struct hk_net_springs springs = {.lower = net->lower,
+                                               .upper = shape & HOOKE_NET_WIDE ? (const void *)net->wide
+                                                                               : (const void *)net->narrow,
+                                               .kappa = trial->run.kappa,
+                                               .gamma = trial->run.gamma,
+                                               .rest_length = trial->run.rest_length,
+                                               .kappas = trial->kappas,
+                                               .gammas = trial->gammas,
+                                               .rest_lengths = trial->rest_lengths};
         const int64_t lost = set->net->fill[shape](&springs, count, net->rows[0], net->rows[0],
                                                    net->on_lower[0], net->on_upper[0]);
         check_forces(trial, net, count, lost);
@@ -454,11 +454,11 @@ static void compare_bending(struct random_source *source, int32_t shape, int64_t
       particle[e][k] = (int32_t)random_whole(source, e * 300, e * 300 + 299);
     coefficient[k] = random_between(source, 0.0, 100.0);
   }
-  struct hooke_bending_run run = {.count = count,
-                                  .shape = shape,
-                                  .particle = {particle[0], particle[1], particle[2]},
-                                  .coefficient = 7.3,
-                                  .coefficients = coefficient};
+  struct hk_bending_run run = {.count = count,
+                               .shape = shape,
+                               .particle = {particle[0], particle[1], particle[2]},
+                               .coefficient = 7.3,
+                               .coefficients = coefficient};
   run.offset = (int32_t)random_whole(source, 1, random_whole(source, 0, 1) ? 3 : (PARTICLES - count) / 2);
   run.start = (int32_t)random_whole(source, 0, PARTICLES - count - 2 * run.offset);
   const double factor = random_whole(source, 0, 1) ? 1.0 : -0.013;
@@ -474,8 +474,8 @@ static void compare_bending(struct random_source *source, int32_t shape, int64_t
       expected[a][p[2]] -= force;
     }
   }
-  const struct hooke_spring_set *set;
-  for (int32_t s = 0; (set = hooke_spring_set(s)) != NULL; s++) {
+  const struct hk_spring_set *set;
+  for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
     memcpy(found, before, sizeof found);
     set->bending[shape](&run, factor, (const double *const[]){x[0], x[1], x[2]},
                         (double *const[]){found[0], found[1], found[2]});
@@ -498,14 +498,14 @@ static void test_bending_agrees(void **unused) {
 static void test_sets_have_names(void **unused) {
   (void)unused;
   int32_t count = 0;
-  while (hooke_spring_set(count) != NULL)
+  while (hk_spring_set(count) != NULL)
     count++;
   assert_true(count >= 1);
-  assert_null(hooke_spring_set(-1));
-  assert_string_equal(hooke_spring_set(count - 1)->name, "baseline");
-  assert_string_equal(hooke_spring_set(0)->name, hooke_kernel_instructions());
+  assert_null(hk_spring_set(-1));
+  assert_string_equal(hk_spring_set(count - 1)->name, "baseline");
+  assert_string_equal(hk_spring_set(0)->name, hk_kernel_instructions());
   for (int32_t k = 0; k < count; k++)
-    print_message("instruction set: %s\n", hooke_spring_set(k)->name);
+    print_message("instruction set: %s\n", hk_spring_set(k)->name);
 }
 
 int main(void) {

@@ -71,13 +71,13 @@ static void fill(struct dense *dense, uint64_t seed, double share, double mirror
   }
 }
 
-typedef int32_t solver(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
-                       double *scratch, double *x, struct hooke_solution *solution);
+typedef int32_t solver(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                       double *scratch, double *x, struct hk_solution *solution);
 
 static int32_t run_solver(solver *solve, struct dense *dense, const double *b, int64_t limit, double *x,
-                          struct hooke_solution *solution) {
+                          struct hk_solution *solution) {
   double *scratch = new_doubles(HOOKE_GENERAL_VECTORS * SIZE);
-  const struct hooke_operator a = {SIZE, apply, dense};
+  const struct hk_operator a = {SIZE, apply, dense};
   const int32_t status = solve(&a, b, 1e-12, limit, scratch, x, solution);
   free(scratch);
   return status;
@@ -91,7 +91,7 @@ static void random_side(uint64_t seed, double *b) {
 
 static void compare(solver *solve, struct dense *dense, uint64_t seed, int64_t most) {
   double b[SIZE], x[SIZE], expected[SIZE];
-  struct hooke_solution solution;
+  struct hk_solution solution;
   random_side(seed, b);
   eliminate(dense, b, expected);
   check_ok(run_solver(solve, dense, b, 1000, x, &solution));
@@ -106,8 +106,8 @@ static void symmetric_and_positive(void **unused) {
   struct dense dense;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     fill(&dense, seed, 1.0, 1.0, 0);
-    compare(hooke_solve_symmetric, &dense, seed, SIZE);
-    compare(hooke_solve_general, &dense, seed, SIZE);
+    compare(hk_solve_symmetric, &dense, seed, SIZE);
+    compare(hk_solve_general, &dense, seed, SIZE);
   }
 }
 
@@ -116,23 +116,23 @@ static void without_symmetry(void **unused) {
   struct dense dense;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     fill(&dense, seed, 8.0, -0.5, 0);
-    compare(hooke_solve_general, &dense, seed, 2 * SIZE);
+    compare(hk_solve_general, &dense, seed, 2 * SIZE);
     fill(&dense, seed, 2.0, -0.5, 7); /* and eigenvalues of either sign */
-    compare(hooke_solve_general, &dense, seed, 4 * SIZE);
+    compare(hk_solve_general, &dense, seed, 4 * SIZE);
   }
 }
 
 /* Nothing to do, and everything done in one step. */
 static void trivial_sides(void **unused) {
   (void)unused;
-  solver *const solvers[] = {hooke_solve_symmetric, hooke_solve_general};
+  solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
   struct dense dense;
   memset(&dense, 0, sizeof dense);
   for (int i = 0; i < SIZE; i++)
     dense.a[i][i] = 4.0;
   for (int s = 0; s < 2; s++) {
     double b[SIZE] = {0.0}, x[SIZE];
-    struct hooke_solution solution;
+    struct hk_solution solution;
     memset(x, 0x55, sizeof x);
     check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
     assert_true(solution.converged && solution.iterations == 0);
@@ -154,10 +154,10 @@ static void descends(void **unused) {
   for (int flip = 1; flip <= 9; flip += 4) {
     struct dense dense;
     double b[SIZE], x[SIZE], along = 0.0;
-    struct hooke_solution solution;
+    struct hk_solution solution;
     fill(&dense, 5, 0.0, 1.0, flip);
     random_side(6, b);
-    check_ok(run_solver(hooke_solve_symmetric, &dense, b, 1000, x, &solution));
+    check_ok(run_solver(hk_solve_symmetric, &dense, b, 1000, x, &solution));
     assert_false(solution.converged);
     for (int k = 0; k < SIZE; k++)
       along += b[k] * x[k];
@@ -167,11 +167,11 @@ static void descends(void **unused) {
 
 static void limits_and_stops(void **unused) {
   (void)unused;
-  solver *const solvers[] = {hooke_solve_symmetric, hooke_solve_general};
+  solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
   for (int s = 0; s < 2; s++) {
     struct dense dense;
     double b[SIZE], x[SIZE];
-    struct hooke_solution solution;
+    struct hk_solution solution;
     fill(&dense, 5, 1.0, 1.0, 0);
     random_side(6, b);
     check_ok(run_solver(solvers[s], &dense, b, 4, x, &solution));

@@ -37,11 +37,11 @@ static hooke_system *oscillators(int64_t count, const double *stiffness, const d
   return system;
 }
 
-static struct hooke_measurement measure(const hooke_system *system, const char *method, double predicted,
-                                        const double *mode, double accuracy) {
-  struct hooke_measurement out;
-  check_ok(hooke_limit_measure(system, system->position, NULL, method, predicted, mode, accuracy, 100.0, NULL,
-                               NULL, &out));
+static struct hk_measurement measure(const hooke_system *system, const char *method, double predicted,
+                                     const double *mode, double accuracy) {
+  struct hk_measurement out;
+  check_ok(hk_limit_measure(system, system->position, NULL, method, predicted, mode, accuracy, 100.0, NULL,
+                            NULL, &out));
   return out;
 }
 
@@ -73,7 +73,7 @@ static void one_oscillator(void **unused) {
       /* from nothing, and from predictions that are wrong by much */
       const double guess[] = {NAN, 1.3 * rows[m].limit / omega, rows[m].limit / omega / 1.3};
       for (int g = 0; g < 3; g++) {
-        const struct hooke_measurement out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
+        const struct hk_measurement out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
         check_close(out.step * omega, rows[m].limit, 2e-3 * rows[m].limit);
         check_between((double)out.steps_run, 100.0, 1e7);
         assert_int_equal(out.never_stable, 0);
@@ -90,9 +90,9 @@ static void undamped_oscillator(void **unused) {
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "verlet", 0.3, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "rk4", 0.4, NULL, 1e-4).step, 2.0 * sqrt(2.0) / 7.0, 1e-4);
-  const struct hooke_measurement never = measure(system, "forward-euler", 0.0, NULL, 1e-3);
+  const struct hk_measurement never = measure(system, "forward-euler", 0.0, NULL, 1e-3);
   assert_true(never.step == 0.0 && never.never_stable);
-  const struct hooke_measurement always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
+  const struct hk_measurement always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
   assert_true(isinf(always.step) && !always.never_stable);
   /* predictions of no step and of every step are put to the test */
   check_close(measure(system, "symplectic-euler", 0.0, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
@@ -155,8 +155,8 @@ static void frozen_system_rests(void **unused) {
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
 
-  struct hooke_frozen frozen;
-  check_ok(hooke_frozen_create(system, position, &frozen));
+  struct hk_frozen frozen;
+  check_ok(hk_frozen_create(system, position, &frozen));
   assert_int_equal(frozen.clamped, 1);
   assert_int_equal(frozen.left_out, 1);
   assert_int_equal(frozen.damped, 0);
@@ -186,10 +186,10 @@ static void frozen_system_rests(void **unused) {
     there[k] = frozen.place[k] + dq[k];
     energy -= dq[k] * product[k];
   }
-  check_close(hooke_frozen_energy(&frozen, there, still), energy, 1e-5 * energy);
-  hooke_frozen_release(&frozen);
+  check_close(hk_frozen_energy(&frozen, there, still), energy, 1e-5 * energy);
+  hk_frozen_release(&frozen);
 
-  const struct hooke_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  const struct hk_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_between(out.step, 0.1, 1.0);
   assert_non_null(strstr(out.note, "coincide"));
   hooke_system_destroy(system);
@@ -223,23 +223,22 @@ static void what_is_refused(void **unused) {
   (void)unused;
   const double stiffness = 49.0, damping = 1.0;
   hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
-  struct hooke_measurement out;
+  struct hk_measurement out;
   const double *q = system->position;
-  check_status(hooke_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
+  check_status(hk_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
-  check_status(hooke_limit_measure(system, q, NULL, "cvode-bdf", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
+  check_status(hk_limit_measure(system, q, NULL, "cvode-bdf", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
   check_message("chooses its steps");
   const double accuracies[] = {0.0, -1e-3, 0.101, NAN};
   for (int k = 0; k < 4; k++) {
-    check_status(
-        hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, accuracies[k], 1.0, NULL, NULL, &out),
-        HOOKE_BAD_VALUE);
+    check_status(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, accuracies[k], 1.0, NULL, NULL, &out),
+                 HOOKE_BAD_VALUE);
     check_message("> 0 and <= 0.1");
   }
-  check_status(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 1.0, refuse, NULL, &out),
+  check_status(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 1.0, refuse, NULL, &out),
                HOOKE_STOPPED);
-  check_ok(hooke_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 0.0, NULL, NULL, &out));
+  check_ok(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 0.0, NULL, NULL, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));
   hooke_system_destroy(system);
@@ -253,7 +252,7 @@ static void damping_of_a_spring_of_no_length(void **unused) {
   hooke_system *system = small_system(2, place, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
   check_ok(hooke_system_commit(system));
-  const struct hooke_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  const struct hk_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_close(out.step, 2.0 / 7.0, 1e-3);
   assert_non_null(strstr(out.note, "damped along their motion"));
   hooke_system_destroy(system);
@@ -280,7 +279,7 @@ static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
 
 static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
                              double predicted, double budget, hooke_progress *progress,
-                             struct hooke_measurement *out) {
+                             struct hk_measurement *out) {
   hooke_options *run = NULL;
   hooke_state *start = NULL;
   check_ok(hooke_run_options_create(&run));
@@ -288,7 +287,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which fits few steps, and has no say here */
   check_ok(hooke_state_create(system, &start));
   const int32_t status =
-      hooke_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
+      hk_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
   check_close(hooke_options_number(run, "every"), 1.0, 0.0);
   hooke_state_destroy(start);
   hooke_options_destroy(run);
@@ -298,7 +297,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
 static void the_scene_itself(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  struct hooke_measurement out;
+  struct hk_measurement out;
   /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
   const double guess[] = {NAN, 0.0, INFINITY, 0.1, 0.3};
   for (int k = 0; k < 5; k++) {
@@ -325,7 +324,7 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
 
 static void scenes_that_no_step_helps(void **unused) {
   (void)unused;
-  struct hooke_measurement out;
+  struct hk_measurement out;
   struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
   hooke_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
   check_ok(measure_scene(diverges, "verlet", 1.0, 0.2, 100.0, NULL, &out));
@@ -339,7 +338,7 @@ static void scenes_that_no_step_helps(void **unused) {
 static void scenes_that_take_too_long(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  struct hooke_measurement out;
+  struct hk_measurement out;
   check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));
@@ -351,9 +350,8 @@ static void scenes_that_take_too_long(void **unused) {
   check_status(measure_scene(system, "no-such", 1.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
   hooke_state *start = NULL;
   check_ok(hooke_state_create(system, &start));
-  check_status(
-      hooke_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
-      HOOKE_BAD_VALUE);
+  check_status(hk_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
+               HOOKE_BAD_VALUE);
   check_message("give the time to run");
   hooke_state_destroy(start);
   hooke_system_destroy(system);
@@ -366,7 +364,7 @@ struct edge {
   int tries;
 };
 
-static int32_t try_edge(void *ctx, double step, enum hooke_trial_end *end) {
+static int32_t try_edge(void *ctx, double step, enum hk_trial_end *end) {
   struct edge *edge = ctx;
   edge->tries++;
   *end = step < edge->at ? HOOKE_TRIAL_HOLDS : HOOKE_TRIAL_FAILS;
@@ -378,21 +376,21 @@ static void bracket_closes_from_both_sides(void **unused) {
   const double edges[] = {1e-5, 0.37, 0.9995, 1.0, 1.0005, 1.4, 2e4};
   for (int k = 0; k < 7; k++) {
     struct edge edge = {edges[k], 0};
-    struct hooke_bracket bracket = {
+    struct hk_bracket bracket = {
         .try_step = try_edge, .ctx = &edge, .accuracy = 1e-3, .least = 1e-9, .most = 1e9, .fails = INFINITY};
-    check_ok(hooke_bracket_search(&bracket, 1.0));
+    check_ok(hk_bracket_search(&bracket, 1.0));
     check_between(bracket.holds, 0.999 * edge.at, edge.at);
     check_between(bracket.fails, edge.at, 1.001 * edge.at);
     check_between(edge.tries, 3, 40);
   }
   struct edge never = {0.0, 0}, always = {INFINITY, 0};
-  struct hooke_bracket low = {
+  struct hk_bracket low = {
       .try_step = try_edge, .ctx = &never, .accuracy = 1e-3, .least = 1e-6, .most = 1e6, .fails = INFINITY};
-  check_ok(hooke_bracket_search(&low, 1.0));
+  check_ok(hk_bracket_search(&low, 1.0));
   assert_true(low.holds == 0.0 && low.fails < 1e-3);
-  struct hooke_bracket high = low;
+  struct hk_bracket high = low;
   high.ctx = &always, high.fails = INFINITY, high.holds = 0.0;
-  check_ok(hooke_bracket_search(&high, 1.0));
+  check_ok(hk_bracket_search(&high, 1.0));
   assert_true(isinf(high.fails) && high.holds > 1e3);
 }
 
@@ -405,9 +403,9 @@ static void shares_are_those_of_the_mode(void **unused) {
   hooke_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
-  struct hooke_blame blame;
+  struct hk_blame blame;
   const double h = 0.1, parts[2] = {h * h * 100.0 + 2.0 * h * 3.0, 0.25 * (h * h * 400.0 + 2.0 * h)};
-  check_ok(hooke_blame_find(system, system->position, mode, h * h, h, &blame));
+  check_ok(hk_blame_find(system, system->position, mode, h * h, h, &blame));
   assert_int_equal(blame.spring_count, 2);
   assert_int_equal(blame.spring[0].spring, 0);
   assert_int_equal(blame.spring[0].second, 1);
@@ -418,10 +416,10 @@ static void shares_are_those_of_the_mode(void **unused) {
   assert_int_equal(blame.particle_count, 2);
   assert_int_equal(blame.particle[0].particle, 1);
   check_close(blame.particle[0].share, 0.8, 1e-14);
-  hooke_blame_release(&blame);
-  check_ok(hooke_blame_find(system, system->position, NULL, 1.0, 0.0, &blame));
+  hk_blame_release(&blame);
+  check_ok(hk_blame_find(system, system->position, NULL, 1.0, 0.0, &blame));
   assert_int_equal(blame.spring_count + blame.particle_count, 0);
-  hooke_blame_release(&blame);
+  hk_blame_release(&blame);
   hooke_system_destroy(system);
 }
 
@@ -435,15 +433,15 @@ static void most_shares_are_kept_in_order(void **unused) {
     memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
   }
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hooke_blame blame;
-  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  struct hk_blame blame;
+  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
   assert_int_equal(blame.spring_count, HOOKE_BLAME_MOST);
   for (int k = 0; k < HOOKE_BLAME_MOST; k++) {
     check_close(blame.spring[k].share, (double)(COUNT - k) / (0.5 * COUNT * (COUNT + 1)), 1e-14);
     check_close(stiffness[blame.spring[k].spring], (double)(COUNT - k), 0.0);
     assert_int_equal(blame.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
   }
-  hooke_blame_release(&blame);
+  hk_blame_release(&blame);
   hooke_system_destroy(system);
 }
 
@@ -456,12 +454,12 @@ static void remedy_is_what_it_costs(void **unused) {
     stiffness[k] = k == 5 ? 4900.0 : 49.0;
   mode[6 * 5 + 3] = 1.0;
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hooke_blame blame;
-  struct hooke_remedy remedy;
-  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  struct hk_blame blame;
+  struct hk_remedy remedy;
+  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
   const int32_t status =
-      hooke_remedy_find(system, system->position, "symplectic-euler", 2.0 / 70.0, &blame, &remedy);
-  hooke_blame_release(&blame);
+      hk_remedy_find(system, system->position, "symplectic-euler", 2.0 / 70.0, &blame, &remedy);
+  hk_blame_release(&blame);
   hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
@@ -484,12 +482,12 @@ static void no_remedy_where_all_are_alike(void **unused) {
     stiffness[k] = 49.0;
   mode[6 * 5 + 3] = 1.0;
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hooke_blame blame;
-  struct hooke_remedy remedy;
+  struct hk_blame blame;
+  struct hk_remedy remedy;
   /* one spring has all of the mode, but without it the next one limits the step as much */
-  check_ok(hooke_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
-  const int32_t status = hooke_remedy_find(system, system->position, "verlet", 2.0 / 7.0, &blame, &remedy);
-  hooke_blame_release(&blame);
+  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
+  const int32_t status = hk_remedy_find(system, system->position, "verlet", 2.0 / 7.0, &blame, &remedy);
+  hk_blame_release(&blame);
   hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);

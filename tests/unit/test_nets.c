@@ -119,7 +119,7 @@ static hooke_system *build(struct random_source *source, struct sheet *sheet, in
 /* What the springs were given is what the system answers, and no more is stored than the law needs. */
 static void check_material(const hooke_system *system, const struct canonical *c, int groups, int material,
                            int64_t side) {
-  const struct hooke_net *net = &system->net;
+  const struct hk_net *net = &system->net;
   const int of_its_own =
       material == OF_ITS_OWN || groups > HOOKE_NET_CLASSES || (material == STRAIN && side == SMALL);
   assert_int_equal(net->kappa != NULL, of_its_own);
@@ -130,7 +130,7 @@ static void check_material(const hooke_system *system, const struct canonical *c
     assert_true(c->kappa[s] > 0.0 && c->rest_length[s] >= 0.05);
 }
 
-static void check_numbering(const struct hooke_net *net, int order) {
+static void check_numbering(const struct hk_net *net, int order) {
   if (order != ALL_IN_NO_ORDER) {
     assert_null(net->order);
     return;

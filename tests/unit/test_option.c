@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct hooke_option_row family_rows[] = {
+static const struct hk_option_row family_rows[] = {
     {.name = "stiffness",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "N",
@@ -24,9 +24,9 @@ static const struct hooke_option_row family_rows[] = {
      .fallback = "0"},
     {.name = "compression", .type = HOOKE_OPTION_FLAG, .fallback = "true"},
 };
-static const struct hooke_option_table family = {"springs", HOOKE_OPTION_ROWS(family_rows)};
+static const struct hk_option_table family = {"springs", HOOKE_OPTION_ROWS(family_rows)};
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     {.name = "step",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "s",
@@ -55,10 +55,10 @@ static const struct hooke_option_row rows[] = {
     {.name = "structural", .type = HOOKE_OPTION_FAMILY, .family = &family},
     {.name = "shear", .type = HOOKE_OPTION_FAMILY, .family = &family},
 };
-static const struct hooke_option_table table = {"thing", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"thing", HOOKE_OPTION_ROWS(rows)};
 
 static int setup(void **state) {
-  return hooke_options_create(&table, (hooke_options **)state);
+  return hk_options_create(&table, (hooke_options **)state);
 }
 
 static int teardown(void **state) {
@@ -68,8 +68,8 @@ static int teardown(void **state) {
 
 /* ---- numbers as text ---- */
 
-static enum hooke_number_result parse(const char *text, double *value) {
-  return hooke_number_parse(text, (int64_t)strlen(text), value);
+static enum hk_number_result parse(const char *text, double *value) {
+  return hk_number_parse(text, (int64_t)strlen(text), value);
 }
 
 static void decimal_numbers_are_read(void **state) {
@@ -121,11 +121,11 @@ static void printed_numbers_read_back(void **state) {
   char text[HOOKE_NUMBER_SIZE];
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
     double value = 0;
-    hooke_number_print(values[k], text);
+    hk_number_print(values[k], text);
     assert_int_equal(parse(text, &value), HOOKE_NUMBER_FINE);
     check_same_bits(1, &value, &values[k]);
   }
-  hooke_number_print(0.1, text);
+  hk_number_print(0.1, text);
   assert_string_equal(text, "0.1");
 }
 
@@ -138,9 +138,9 @@ static void locale_does_not_matter(void **state) {
     found = setlocale(LC_NUMERIC, names[k]);
   double value = 0;
   char text[HOOKE_NUMBER_SIZE];
-  enum hooke_number_result result = parse("-2.5e-1", &value);
-  enum hooke_number_result comma = parse("2,5", &value);
-  hooke_number_print(-0.25, text);
+  enum hk_number_result result = parse("-2.5e-1", &value);
+  enum hk_number_result comma = parse("2,5", &value);
+  hk_number_print(-0.25, text);
   setlocale(LC_NUMERIC, "C");
   assert_int_equal(result, HOOKE_NUMBER_FINE);
   assert_int_equal(comma, HOOKE_NUMBER_JUNK);
@@ -208,12 +208,12 @@ static void words_and_numbers_mix_where_allowed(void **state) {
   check_close(hooke_options_number(o, "pinned"), 3, 0);
   check_ok(hooke_options_set_number(o, "pinned", 7));
   assert_string_equal(hooke_options_text(o, "pinned"), "");
-  check_ok(hooke_options_add_word(o, "pinned", "end"));
-  check_ok(hooke_options_add_word(o, "pinned", "start"));
+  check_ok(hk_options_add_word(o, "pinned", "end"));
+  check_ok(hk_options_add_word(o, "pinned", "start"));
   assert_string_equal(hooke_options_text(o, "pinned"), "end start");
   check_close(hooke_options_number(o, "pinned"), 7, 0);
-  check_status(hooke_options_add_word(o, "pinned", "star"), HOOKE_BAD_VALUE);
-  check_status(hooke_options_add_word(o, "rest_length", "initial"), HOOKE_BAD_VALUE);
+  check_status(hk_options_add_word(o, "pinned", "star"), HOOKE_BAD_VALUE);
+  check_status(hk_options_add_word(o, "rest_length", "initial"), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_numbers(o, "pinned", 0, NULL));
   assert_int_equal(hooke_options_is_set(o, "pinned"), 1);
   assert_int_equal(hooke_options_number_count(o, "pinned"), 0);
@@ -265,7 +265,7 @@ static void refusals_give_value_and_allowed(void **state) {
               "structural: \"strong\" is not allowed; allowed: an object of stiffness, damping, compression");
   refuse_text(o, "structural.stiffness", "1 -2",
               "structural.stiffness[1]: -2 is not allowed; allowed: one or more numbers >= 0 [N]");
-  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+  assert_int_equal(hk_options_has_family(o, "structural"), 0);
 }
 
 static void numbers_are_checked_like_texts(void **state) {
@@ -317,28 +317,28 @@ static void unknown_names_are_answered_with_names(void **state) {
 
 static void a_member_makes_its_family_present(void **state) {
   hooke_options *o = *state;
-  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+  assert_int_equal(hk_options_has_family(o, "structural"), 0);
   check_ok(hooke_options_set_number(o, "structural.stiffness", 50));
-  assert_int_equal(hooke_options_has_family(o, "structural"), 1);
-  assert_int_equal(hooke_options_has_family(o, "shear"), 0);
+  assert_int_equal(hk_options_has_family(o, "structural"), 1);
+  assert_int_equal(hk_options_has_family(o, "shear"), 0);
   check_close(hooke_options_number(o, "structural.compression"), 1, 0);
   check_ok(hooke_options_set_text(o, "shear", ""));
-  assert_int_equal(hooke_options_has_family(o, "shear"), 1);
+  assert_int_equal(hk_options_has_family(o, "shear"), 1);
   check_ok(hooke_options_unset(o, "structural"));
-  assert_int_equal(hooke_options_has_family(o, "structural"), 0);
+  assert_int_equal(hk_options_has_family(o, "structural"), 0);
   assert_int_equal(hooke_options_is_set(o, "structural.stiffness"), 0);
-  assert_int_equal(hooke_options_has_family(o, "shear"), 1);
+  assert_int_equal(hk_options_has_family(o, "shear"), 1);
 }
 
 static void required_members_are_missed_only_where_present(void **state) {
   hooke_options *o = *state;
-  check_ok(hooke_options_check_required(o));
+  check_ok(hk_options_check_required(o));
   check_ok(hooke_options_set_text(o, "shear", ""));
-  check_status(hooke_options_check_required(o), HOOKE_BAD_VALUE);
+  check_status(hk_options_check_required(o), HOOKE_BAD_VALUE);
   assert_string_equal(hooke_last_error(),
                       "shear.stiffness: is required but missing; allowed: one or more numbers >= 0 [N]");
   check_ok(hooke_options_set_number(o, "shear.stiffness", 1));
-  check_ok(hooke_options_check_required(o));
+  check_ok(hk_options_check_required(o));
 }
 
 static void a_copy_is_equal_and_separate(void **state) {
@@ -352,7 +352,7 @@ static void a_copy_is_equal_and_separate(void **state) {
   check_same_bits(3, hooke_options_numbers(copy, "structural.stiffness"), stiffness);
   assert_string_equal(hooke_options_text(copy, "pinned"), "end");
   check_close(hooke_options_number(copy, "pinned"), 4, 0);
-  assert_int_equal(hooke_options_has_family(copy, "structural"), 1);
+  assert_int_equal(hk_options_has_family(copy, "structural"), 1);
   assert_int_equal(hooke_options_is_set(copy, "step"), 0);
   hooke_options_destroy(copy);
 }
@@ -405,18 +405,18 @@ static void the_table_tells_its_numbers(void **state) {
 
 static void a_wrong_default_is_noticed(void **state) {
   (void)state;
-  static const struct hooke_option_row bad_rows[] = {
+  static const struct hk_option_row bad_rows[] = {
       {.name = "step", .type = HOOKE_OPTION_NUMBER, .high = 1, .fallback = "2"}};
-  static const struct hooke_option_table bad = {"bad", HOOKE_OPTION_ROWS(bad_rows)};
+  static const struct hk_option_table bad = {"bad", HOOKE_OPTION_ROWS(bad_rows)};
   hooke_options *options = (hooke_options *)1;
-  check_status(hooke_options_create(&bad, &options), HOOKE_BAD_VALUE);
+  check_status(hk_options_create(&bad, &options), HOOKE_BAD_VALUE);
   assert_null(options);
 }
 
 static void check_shown(const char *text, const char *wanted) {
   char shown[HOOKE_OPTION_SHOWN];
   memset(shown, 'x', sizeof shown);
-  hooke_option_show(text, (int64_t)strlen(text), shown);
+  hk_option_show(text, (int64_t)strlen(text), shown);
   assert_string_equal(shown, wanted);
 }
 

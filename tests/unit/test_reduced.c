@@ -52,14 +52,14 @@ static void check_solution(const hooke_system *system, const double *q, const do
   struct random_source source = {17};
   double *b = new_doubles(size), *x = new_doubles(size);
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
-  struct hooke_reduced reduced;
-  struct hooke_solution solution;
+  struct hk_reduced reduced;
+  struct hk_solution solution;
   for (int64_t k = 0; k < size; k++)
     b[k] = system->held[k % n] ? 0.0 : random_between(&source, -1.0, 1.0);
-  hooke_motion_load(system, integrator->motion, q, v);
-  check_ok(hooke_reduced_create(integrator, alpha == 0.0 && system->force == NULL, &reduced));
-  hooke_reduced_set(&reduced, 0.25, alpha, beta);
-  check_ok(hooke_reduced_solve(&reduced, b, 1e-13, x, &solution));
+  hk_motion_load(system, integrator->motion, q, v);
+  check_ok(hk_reduced_create(integrator, alpha == 0.0 && system->force == NULL, &reduced));
+  hk_reduced_set(&reduced, 0.25, alpha, beta);
+  check_ok(hk_reduced_solve(&reduced, b, 1e-13, x, &solution));
   assert_true(solution.converged);
   const double wrong = defect(system, q, v, alpha, beta, b, x);
   if (!(wrong <= rounding)) check_failed("alpha %g, beta %g: defect %g", alpha, beta, wrong);
@@ -70,7 +70,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
          *expected = found + size;
   double *rows = expected + size;
   if (!reduced.symmetric) {
-    check_ok(hooke_reduced_change(&reduced, b, x, found));
+    check_ok(hk_reduced_change(&reduced, b, x, found));
     rows_of(n, b, dq);
     rows_of(n, x, dv);
     check_ok(hooke_system_derivative_product(system, 0.25, q, v, dq, dv, rows));
@@ -79,7 +79,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
   }
   free(dq);
   free(found);
-  hooke_reduced_release(&reduced);
+  hk_reduced_release(&reduced);
   hooke_integrator_destroy(integrator);
   free(b);
   free(x);

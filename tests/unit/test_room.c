@@ -169,12 +169,12 @@ static void what_is_taken_back_does_not_count(void **unused) {
   check_ok(hooke_options_set_number(options, "structural.stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "bending", 1.0));
   check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
-  const double before = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  const double before = hk_system_needed_bytes(system, (struct hk_more){0});
   assert_int_equal(system->spring_total, 180);
   assert_int_equal(system->triple_total, 160);
   check_ok(hooke_options_set_number(options, "pinned", 100.0));
   check_status(hooke_system_add_part(system, "cloth", "", options, NULL, NULL), HOOKE_BAD_VALUE);
-  check_close(hooke_system_needed_bytes(system, (struct hooke_more){0}), before, 0.0);
+  check_close(hk_system_needed_bytes(system, (struct hk_more){0}), before, 0.0);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
@@ -199,7 +199,7 @@ static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, cons
   for (; *families; families++)
     check_ok(hooke_options_set_number(options, *families, 1e-3));
   check_ok(hooke_system_add_part(system, kind, "", options, NULL, NULL));
-  const double needed = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
   check_ok(hooke_state_create(system, &state));
   check_ok(hooke_run_options_create(&run));
@@ -262,9 +262,9 @@ static void bytes_are_shown_in_three_digits(void **unused) {
   } cases[] = {{0, "0 bytes"},    {999, "999 bytes"},     {1000, "1 kB"},   {4.12e11, "412 GB"},
                {999.6e9, "1 TB"}, {2.5e25, "2.5e+07 EB"}, {1.5e6, "1.5 MB"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
-    assert_string_equal(hooke_show_bytes(cases[k].bytes, shown), cases[k].text);
-  check_ok(hooke_room_require(100.0, 100.0, "it"));
-  check_status(hooke_room_require(100.0, 101.0, "it"), HOOKE_NO_MEMORY);
+    assert_string_equal(hk_show_bytes(cases[k].bytes, shown), cases[k].text);
+  check_ok(hk_room_require(100.0, 100.0, "it"));
+  check_status(hk_room_require(100.0, 101.0, "it"), HOOKE_NO_MEMORY);
   assert_string_equal(
       hooke_last_error(),
       "it needs 101 bytes of memory; there are 100 bytes (the limit that was set); allowed: less "
@@ -277,7 +277,7 @@ static void a_limit_on_the_address_space_counts(void **unused) {
   struct rlimit before;
   const char *which = NULL;
   assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
-  const double all = hooke_room(&which);
+  const double all = hk_room(&which);
   assert_true(all > 1e6);
   if (HOOKE_SANITIZED) return; /* which reserves a great deal of it */
   struct rlimit less = before;
@@ -286,7 +286,7 @@ static void a_limit_on_the_address_space_counts(void **unused) {
   struct rlimit now;
   assert_int_equal(getrlimit(RLIMIT_AS, &now), 0);
   if (now.rlim_cur != less.rlim_cur) return; /* an emulator that keeps none */
-  check_close(hooke_room(&which), (double)less.rlim_cur, 0.0);
+  check_close(hk_room(&which), (double)less.rlim_cur, 0.0);
   assert_string_equal(which, "the limit on the address space");
   assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
 }

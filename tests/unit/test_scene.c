@@ -14,7 +14,7 @@
 
 /* Quotes are written ' in these texts. */
 static char *json(const char *text) {
-  char *copy = hooke_copy_text(text);
+  char *copy = hk_copy_text(text);
   for (char *c = copy; *c; c++)
     if (*c == '\'') *c = '"';
   return copy;
@@ -28,11 +28,11 @@ static void check_place(const char *path, int32_t key, int64_t line, int64_t col
   char *text =
       json("{ 'a': [1, {'b': 'x,}]'} ,\n  [2, 3]],\n\t'\xc3\xa4 k.y': { 'c[0]': null, 'c': [true] } }\n");
   int64_t found_line, found_column;
-  hooke_json_line(text, hooke_json_find(text, (int64_t)strlen(text), path, key), &found_line, &found_column);
+  hk_json_line(text, hk_json_find(text, (int64_t)strlen(text), path, key), &found_line, &found_column);
   if (found_line != line || found_column != column)
     check_failed("%s is at %lld:%lld, not %lld:%lld", path, (long long)found_line, (long long)found_column,
                  (long long)line, (long long)column);
-  hooke_free(text);
+  hk_free(text);
 }
 
 static void paths_are_found(void **state) {
@@ -65,13 +65,12 @@ static void missing_paths_are_found_as_far_as_they_go(void **state) {
 static void check_tokens(const char *quoted, const char *message, int64_t column) {
   char *text = json(quoted);
   const char *at = NULL;
-  check_status(hooke_json_check_tokens(text, (int64_t)strlen(text), &at),
-               message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  check_status(hk_json_check_tokens(text, (int64_t)strlen(text), &at), message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) {
     check_message(message);
     assert_int_equal(at - text + 1, column);
   }
-  hooke_free(text);
+  hk_free(text);
 }
 
 static void numbers_that_would_change_are_refused(void **state) {
@@ -95,14 +94,13 @@ static void numbers_that_would_change_are_refused(void **state) {
   check_tokens("{'a': \xc3\xa4}", "\xc3\xa4 is not JSON", 7);
 }
 
-static int32_t feed_in_pieces(const char *bytes, int64_t length, int64_t piece,
-                              struct hooke_json_guard *guard) {
+static int32_t feed_in_pieces(const char *bytes, int64_t length, int64_t piece, struct hk_json_guard *guard) {
   memset(guard, 0, sizeof *guard);
   for (int64_t k = 0; k < length; k += piece) {
-    int32_t status = hooke_json_guard_feed(guard, bytes + k, length - k < piece ? length - k : piece);
+    int32_t status = hk_json_guard_feed(guard, bytes + k, length - k < piece ? length - k : piece);
     if (status) return status;
   }
-  return hooke_json_guard_end(guard);
+  return hk_json_guard_end(guard);
 }
 
 /* However the text is cut into pieces, the answer and its place are the same. */
@@ -126,7 +124,7 @@ static void the_guard_refuses_hopeless_texts(void **state) {
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
     for (int64_t piece = 1; piece <= 3; piece++) {
-      struct hooke_json_guard guard;
+      struct hk_json_guard guard;
       check_status(feed_in_pieces(cases[k].bytes, cases[k].length, piece, &guard),
                    cases[k].line ? HOOKE_BAD_VALUE : HOOKE_OK);
       if (cases[k].line && (guard.line != cases[k].line || guard.column != cases[k].column))
@@ -137,7 +135,7 @@ static void the_guard_refuses_hopeless_texts(void **state) {
 static void the_guard_counts_brackets_outside_of_texts(void **state) {
   (void)state;
   char deep[64] = "{\"a\":\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\\\"[[[\",";
-  struct hooke_json_guard guard;
+  struct hk_json_guard guard;
   check_ok(feed_in_pieces(deep, (int64_t)strlen(deep), 1, &guard));
   memset(deep + 1, '[', 32);
   check_status(feed_in_pieces(deep, 33, 1, &guard), HOOKE_BAD_VALUE);
@@ -150,7 +148,7 @@ static void the_guard_refuses_empty_brackets_in_arrays(void **state) {
   (void)state;
   static const char *const good[] = {"{\"a\": [], \"b\": {}}", "{\"a\": [{\"b\": []}, [1], \"[\", [\"]\"]]}"};
   static const char *const bad[] = {"{\"a\": [[ \n]]}", "{\"a\": [{}]}", "{\"a\": [1, [2, []"};
-  struct hooke_json_guard guard;
+  struct hk_json_guard guard;
   for (size_t k = 0; k < 2; k++)
     check_ok(feed_in_pieces(good[k], (int64_t)strlen(good[k]), 1, &guard));
   for (size_t k = 0; k < 3; k++) {
@@ -169,14 +167,14 @@ static void touch(const char *folder, const char *name) {
 
 static void check_file(const char *folder, const char *file, const char *message) {
   char *path = NULL;
-  check_status(hooke_scene_find_file(folder, file, &path), message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  check_status(hk_scene_find_file(folder, file, &path), message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) {
     check_message(message);
     assert_null(path);
   } else {
     assert_non_null(path);
   }
-  hooke_free(path);
+  hk_free(path);
 }
 
 static void files_stay_in_the_folder_of_the_scene(void **state) {
@@ -220,7 +218,7 @@ static hooke_scene *parse(const char *quoted) {
   hooke_scene *scene = NULL;
   check_ok(hooke_scene_parse(text, (int64_t)strlen(text), "test.json", NULL, &scene));
   assert_string_equal(hooke_scene_text(scene), text);
-  hooke_free(text);
+  hk_free(text);
   return scene;
 }
 
@@ -356,8 +354,8 @@ static void refuse(const char *quoted, const char *message) {
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
   assert_string_equal(hooke_last_error(), wanted);
   assert_null(scene);
-  hooke_free(text);
-  hooke_free(wanted);
+  hk_free(text);
+  hk_free(wanted);
 }
 
 static void messages_give_file_line_column_and_path(void **state) {
@@ -460,12 +458,12 @@ static void syntax_errors_give_line_and_column(void **state) {
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
   check_message("t.json:3:10: ");
   check_message("allowed: JSON (RFC 8259)");
-  hooke_free(text);
+  hk_free(text);
   text = json("{'hooke': 1,\n 'hooke': 1}");
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
   assert_string_equal(hooke_last_error(),
                       "t.json:2:8: duplicate object key near '\"hooke\"'; allowed: each key once");
-  hooke_free(text);
+  hk_free(text);
 }
 
 /* Commit knows more than the parser; its message still has a place in the text. */
@@ -557,7 +555,7 @@ static void damaged_scenes_are_survived(void **state) {
     text[k] = kept;
   }
   check_between((double)refused, 1000, 2900);
-  hooke_free(text);
+  hk_free(text);
 }
 
 #else

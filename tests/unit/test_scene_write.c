@@ -210,8 +210,8 @@ static void drives_come_back(void **state) {
   for (int64_t d = 0; d < 2; d++) {
     for (double t = -0.5; t < 3.0; t += 0.11) {
       double a[6], b[6];
-      check_ok(hooke_drive_evaluate(&system->drive[d], t, a, a + 3));
-      check_ok(hooke_drive_evaluate(&hooke_scene_system(read)->drive[d], t, b, b + 3));
+      check_ok(hk_drive_evaluate(&system->drive[d], t, a, a + 3));
+      check_ok(hk_drive_evaluate(&hooke_scene_system(read)->drive[d], t, b, b + 3));
       check_same_bits(6, b, a);
     }
   }

@@ -17,7 +17,7 @@ static int by_ends(const void *a, const void *b) {
   return memcmp(a, b, sizeof(struct one));
 }
 
-static struct one one_of(const struct hooke_spring *spring) {
+static struct one one_of(const struct hk_spring *spring) {
   const int ascending = spring->head < spring->tail;
   return (struct one){ascending ? spring->head : spring->tail,
                       ascending ? spring->tail : spring->head,
@@ -34,17 +34,17 @@ static void check_batches(const hooke_system *system) {
   int64_t at = 0, damped = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
+      const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
       wanted[at++] = one_of(&spring);
       damped += spring.gamma != 0.0;
     }
   }
   assert_int_equal(at, count);
   at = 0;
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++) {
-      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
       assert_true(at < count);
       assert_true(batch.damped || spring.gamma == 0.0);
       damped -= spring.gamma != 0.0;
@@ -65,9 +65,9 @@ static void check_sums(const hooke_system *system, const double *q, const double
   long double energy = 0.0L, heat = 0.0L;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(&system->springs.run[r], k);
-      struct hooke_stretch s;
-      hooke_spring_stretch(&spring, q, v, &s);
+      const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
+      struct hk_stretch s;
+      hk_spring_stretch(&spring, q, v, &s);
       energy += 0.5L * s.elastic * (s.length - spring.rest_length);
       heat += ((long double)s.tension - s.elastic) * s.rate;
     }

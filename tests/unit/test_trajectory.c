@@ -104,17 +104,17 @@ static int32_t close_file(struct fixture *f, int32_t outcome) {
 static void check_frame(const char *path, const char *dataset, int64_t frame, const double *expected) {
   double *values;
   int64_t rows, columns;
-  check_ok(hooke_array_read(path, dataset, frame, 1, &values, &rows, &columns));
+  check_ok(hk_array_read(path, dataset, frame, 1, &values, &rows, &columns));
   assert_int_equal(rows, N);
   assert_int_equal(columns, 3);
   check_same_bits(3 * N, values, expected);
-  hooke_free(values);
+  hk_free(values);
 }
 
 static void check_no_frame(const char *path, int64_t frame, const char *message) {
   double *values;
   int64_t rows, columns;
-  check_status(hooke_array_read(path, "/particles/all/position/value", frame, 1, &values, &rows, &columns),
+  check_status(hk_array_read(path, "/particles/all/position/value", frame, 1, &values, &rows, &columns),
                HOOKE_BAD_VALUE);
   check_message(message);
   assert_null(values);
@@ -134,7 +134,7 @@ static void check_file(const struct fixture *f, const char *path, int64_t count)
 static double *column(const char *path, const char *dataset, int64_t count) {
   double *values;
   int64_t rows, columns;
-  check_ok(hooke_array_read(path, dataset, 0, 0, &values, &rows, &columns));
+  check_ok(hk_array_read(path, dataset, 0, 0, &values, &rows, &columns));
   assert_int_equal(rows, count);
   assert_int_equal(columns, 1);
   return values;
@@ -180,20 +180,20 @@ static void all_frames_come_back(void **state) {
   check_same_bits(N, mass, hooke_system_mass(f->system));
   for (int k = 0; k < N; k++)
     check_close(species[k], k == 0 ? 1 : 0, 0.0);
-  hooke_free(time);
-  hooke_free(step);
-  hooke_free(kinetic);
-  hooke_free(mass);
-  hooke_free(species);
+  hk_free(time);
+  hk_free(step);
+  hk_free(kinetic);
+  hk_free(mass);
+  hk_free(species);
 
   double *ends;
   int64_t rows, columns;
-  check_ok(hooke_array_read(f->path, "/connectivity/springs", 0, 0, &ends, &rows, &columns));
+  check_ok(hk_array_read(f->path, "/connectivity/springs", 0, 0, &ends, &rows, &columns));
   assert_int_equal(rows, 6);
   assert_int_equal(columns, 2);
   for (int k = 0; k < 12; k++)
     check_close(ends[k], (k + 1) / 2, 0.0);
-  hooke_free(ends);
+  hk_free(ends);
 }
 
 /* After each frame the bytes on the disk hold exactly the frames so far: nothing waits in memory. */
@@ -223,10 +223,10 @@ static void an_early_end_leaves_no_empty_frames(void **state) {
   copy_file(f->path, f->copy);
   check_ok(close_file(f, HOOKE_STOPPED));
   check_file(f, f->path, 4);
-  hooke_free(column(f->path, "/observables/total_energy/value", 4));
+  hk_free(column(f->path, "/observables/total_energy/value", 4));
   /* before, the planned length was there, and read as the frames that were written */
   check_file(f, f->copy, 4);
-  hooke_free(column(f->copy, "/observables/total_energy/value", FRAMES));
+  hk_free(column(f->copy, "/observables/total_energy/value", FRAMES));
 }
 
 static void a_run_without_a_frame_closes(void **state) {
@@ -335,20 +335,20 @@ static void arrays_are_refused_in_words(void **state) {
   create(f);
   run(f, HOOKE_OK);
   check_ok(close_file(f, HOOKE_OK));
-  check_status(hooke_array_read(f->path, "/particles/all/mass", 0, 1, &values, &rows, &columns),
+  check_status(hk_array_read(f->path, "/particles/all/mass", 0, 1, &values, &rows, &columns),
                HOOKE_BAD_VALUE);
   check_message("has no frames");
-  check_status(hooke_array_read(f->path, "/hooke/status", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
+  check_status(hk_array_read(f->path, "/hooke/status", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
   check_message("/hooke/status");
-  check_status(hooke_array_read(f->path, "/nothing/here", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hk_array_read(f->path, "/nothing/here", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_message("find the dataset /nothing/here");
-  check_status(hooke_array_read(f->path, "/particles", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
+  check_status(hk_array_read(f->path, "/particles", 0, 0, &values, &rows, &columns), HOOKE_BAD_VALUE);
   check_message("/particles is not an array of numbers");
-  check_status(hooke_array_read(f->folder, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
-  check_status(hooke_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hk_array_read(f->folder, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hk_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_message("No such file or directory");
   write_file(f->copy, "this is not HDF5");
-  check_status(hooke_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
+  check_status(hk_array_read(f->copy, "/a", 0, 0, &values, &rows, &columns), HOOKE_IO_FAILED);
   check_message(f->copy);
   assert_null(values);
 }
@@ -386,7 +386,7 @@ static void trajectories_are_not_in_this_build(void **unused) {
   check_status(hooke_trajectory_create("out.h5", system, integrator, NULL, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-  check_status(hooke_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
+  check_status(hk_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
   check_message("HDF5");
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);

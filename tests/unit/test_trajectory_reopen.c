@@ -93,7 +93,7 @@ static hooke_trajectory *create(const struct fixture *f, const char *path) {
 
 static hooke_trajectory *reopen(const struct fixture *f, int64_t kept) {
   hooke_trajectory *trajectory;
-  check_ok(hooke_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory));
+  check_ok(hk_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory));
   return trajectory;
 }
 
@@ -253,8 +253,7 @@ static void check_refused(const struct fixture *f, int64_t kept, const char *mes
   size_t before_size, size;
   hooke_trajectory *trajectory;
   char *before = bytes_of(f->path, &before_size);
-  check_status(hooke_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory),
-               HOOKE_BAD_VALUE);
+  check_status(hk_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory), HOOKE_BAD_VALUE);
   check_message(message);
   assert_null(trajectory);
   char *bytes = bytes_of(f->path, &size);
@@ -308,7 +307,7 @@ static void other_files_are_refused(void **state) {
   fclose(file);
   const char *const path[] = {f->other, "/dev/null", f->folder, "/no/such/file.h5"};
   for (int k = 0; k < 4; k++) {
-    check_status(hooke_trajectory_reopen(path[k], f->system, f->integrator, 0, &trajectory), HOOKE_IO_FAILED);
+    check_status(hk_trajectory_reopen(path[k], f->system, f->integrator, 0, &trajectory), HOOKE_IO_FAILED);
     check_message(path[k]);
     assert_null(trajectory);
   }
@@ -320,7 +319,7 @@ static void without_room_the_short_file_stays(void **state) {
   end_early(f, 6);
   for (int64_t size = 0; size < 30000; size += 1500) {
     limit_files(size);
-    const int32_t status = hooke_trajectory_reopen(f->path, f->system, f->integrator, 6, &trajectory);
+    const int32_t status = hk_trajectory_reopen(f->path, f->system, f->integrator, 6, &trajectory);
     lift_file_limit();
     if (status == HOOKE_OK) {
       assert_true(size > 5000);
@@ -522,7 +521,7 @@ static void it_is_not_in_this_build(void **unused) {
   hooke_system *system = rope(N);
   hooke_integrator *integrator = integrator_of(system, 0.1);
   hooke_trajectory *trajectory;
-  check_status(hooke_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
+  check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_NOT_BUILT);
   check_status(hooke_record_check(NULL, 0), HOOKE_NOT_BUILT);

@@ -32,7 +32,7 @@ static void only_control_characters_are_replaced(void **state) {
     put(point, character);
     snprintf(text, sizeof text, "a%sb", character);
     snprintf(wanted, sizeof wanted, "a%sb", is_control(point) ? "?" : character);
-    hooke_utf8_make_plain(text);
+    hk_utf8_make_plain(text);
     assert_string_equal(text, wanted);
   }
 }
@@ -50,7 +50,7 @@ static void bytes_of_no_character_are_replaced_one_by_one(void **state) {
   for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++) {
     char text[16];
     snprintf(text, sizeof text, "%s", pairs[k][0]);
-    hooke_utf8_make_plain(text);
+    hk_utf8_make_plain(text);
     assert_string_equal(text, pairs[k][1]);
   }
 }

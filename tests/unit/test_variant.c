@@ -11,22 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static hooke_system *make(const hooke_system *from, const struct hooke_variant *variant,
-                          struct hooke_variant_map *map) {
+static hooke_system *make(const hooke_system *from, const struct hk_variant *variant,
+                          struct hk_variant_map *map) {
   hooke_system *made;
-  check_ok(hooke_variant_make(from, variant, &made, map));
+  check_ok(hk_variant_make(from, variant, &made, map));
   return made;
 }
 
-static struct hooke_variant nothing_of(const hooke_system *system) {
-  struct hooke_variant variant;
-  check_ok(hooke_variant_create(system, &variant));
+static struct hk_variant nothing_of(const hooke_system *system) {
+  struct hk_variant variant;
+  check_ok(hk_variant_create(system, &variant));
   return variant;
 }
 
-static void release(struct hooke_variant *variant, struct hooke_variant_map *map, hooke_system *made) {
-  hooke_variant_release(variant);
-  hooke_variant_map_release(map);
+static void release(struct hk_variant *variant, struct hk_variant_map *map, hooke_system *made) {
+  hk_variant_release(variant);
+  hk_variant_map_release(map);
   hooke_system_destroy(made);
 }
 
@@ -57,8 +57,8 @@ static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
                                                       .cloth = {5, 4},
                                                       .rope = 7},
                         &scene);
-    struct hooke_variant variant = nothing_of(scene.system);
-    struct hooke_variant_map map;
+    struct hk_variant variant = nothing_of(scene.system);
+    struct hk_variant_map map;
     hooke_system *made = make(scene.system, &variant, &map);
     const int64_t springs = hooke_system_spring_count(scene.system);
     assert_int_equal(hooke_system_particle_count(made), hooke_system_particle_count(scene.system));
@@ -142,8 +142,8 @@ static void check_sizes(const hooke_system *made, const int64_t size[5]) {
 static void what_is_left_out_is_out(void **state) {
   (void)state;
   hooke_system *system = two_parts(), *made;
-  struct hooke_variant variant = nothing_of(system);
-  struct hooke_variant_map map;
+  struct hk_variant variant = nothing_of(system);
+  struct hk_variant_map map;
   check_sizes(system, (const int64_t[]){2, 8, 7, 58, 48});
   assert_int_equal(hooke_system_force_count(system), 3);
 
@@ -169,7 +169,7 @@ static void what_is_left_out_is_out(void **state) {
   assert_int_equal(map.to[5], -1);
   assert_int_equal(map.to[11], 1);
   double place[3], *q = new_doubles(3 * 36);
-  hooke_variant_place(&map, 5, q, place);
+  hk_variant_place(&map, 5, q, place);
   assert_true(isnan(place[0]));
   free(q);
   release(&variant, &map, made);
@@ -180,8 +180,8 @@ static void what_is_left_out_is_out(void **state) {
 static void single_springs_of_a_family_are_left_out(void **state) {
   (void)state;
   hooke_system *system = two_parts();
-  struct hooke_variant variant = nothing_of(system);
-  struct hooke_variant_map map;
+  struct hk_variant variant = nothing_of(system);
+  struct hk_variant_map map;
   variant.spring[2 + 8] = variant.spring[2 + 8 + 3] = variant.spring[1] = 1;
   hooke_system *made = make(system, &variant, &map);
   check_sizes(made, (const int64_t[]){1, 8, 5, 58, 48});
@@ -204,7 +204,7 @@ static void single_springs_of_a_family_are_left_out(void **state) {
 
 /* Positions of the variant that are an affine function of the material are found again at every particle. */
 static void check_affine(const hooke_system *system, const hooke_system *made,
-                         const struct hooke_variant_map *map) {
+                         const struct hk_variant_map *map) {
   hooke_state *from, *to;
   check_ok(hooke_state_create(system, &from));
   check_ok(hooke_state_create(made, &to));
@@ -218,7 +218,7 @@ static void check_affine(const hooke_system *system, const hooke_system *made,
   for (int64_t p = 0; p < hooke_system_particle_count(system); p++) {
     const double *at = hooke_state_position(from) + 3 * p;
     double place[3];
-    hooke_variant_place(map, p, q, place);
+    hk_variant_place(map, p, q, place);
     check_close(place[0], 1.0 + 2.0 * at[0] - at[2], 1e-14);
     check_close(place[1], at[1] + 0.5 * at[0], 1e-14);
     check_close(place[2], 3.0 * at[2] - at[0], 1e-14);
@@ -246,8 +246,8 @@ static void parts_at_another_resolution_stand_for_the_same_material(void **state
   };
   hooke_system *system = two_parts();
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    struct hooke_variant variant = nothing_of(system);
-    struct hooke_variant_map map;
+    struct hk_variant variant = nothing_of(system);
+    struct hk_variant_map map;
     variant.scale[ROPE] = cases[k].rope;
     variant.scale[CLOTH] = cases[k].cloth;
     hooke_system *made = make(system, &variant, &map);
@@ -270,11 +270,11 @@ static void a_callback_keeps_its_particles(void **state) {
   struct random_scene scene;
   random_scene_create(
       (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
-  struct hooke_variant variant = nothing_of(scene.system);
-  struct hooke_variant_map map;
+  struct hk_variant variant = nothing_of(scene.system);
+  struct hk_variant_map map;
   hooke_system *made = make(scene.system, &variant, &map);
   hooke_system_destroy(made);
-  hooke_variant_map_release(&map);
+  hk_variant_map_release(&map);
 
   hooke_system *open;
   const double at[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0;
@@ -282,15 +282,15 @@ static void a_callback_keeps_its_particles(void **state) {
   check_ok(hooke_system_add_particles(open, 2, at, NULL, 1, &mass, NULL));
   check_ok(hooke_system_set_force(open, no_force, NULL, NULL));
   check_ok(hooke_system_commit(open));
-  struct hooke_variant fewer = nothing_of(open);
+  struct hk_variant fewer = nothing_of(open);
   fewer.particle[0] = 1;
-  check_status(hooke_variant_make(open, &fewer, &made, &map), HOOKE_UNSUITED);
+  check_status(hk_variant_make(open, &fewer, &made, &map), HOOKE_UNSUITED);
   assert_null(made);
   fewer.force = 1; /* without the callback nobody minds */
   made = make(open, &fewer, &map);
   assert_int_equal(hooke_system_particle_count(made), 1);
   release(&fewer, &map, made);
-  hooke_variant_release(&variant);
+  hk_variant_release(&variant);
   hooke_system_destroy(open);
   random_scene_destroy(&scene);
 }
@@ -301,7 +301,7 @@ enum { MOST_SINGLE = 64 };
 
 /* One thing left out. */
 struct single {
-  struct hooke_variant variant;
+  struct hk_variant variant;
   int64_t part;            /* the part that is left out or changed; -1 */
   int64_t of_part;         /* the part that brings what is left out; -1 */
   int64_t group, of_group; /* the group of springs that is left out; that of the spring that is; -1 */
@@ -363,7 +363,7 @@ static int list_singles(const hooke_system *system, struct single *all) {
   next_single(system, all, &count)->variant.compression = 1;
   next_single(system, all, &count)->variant.particle[2] = 1;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
-    const struct hooke_group *group = &system->group[g];
+    const struct hk_group *group = &system->group[g];
     struct single *whole = next_single(system, all, &count);
     whole->variant.group[g] = 1;
     whole->group = g;
@@ -405,32 +405,32 @@ static void variants_within_variants(void **state) {
   hooke_system *system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
-  struct hooke_variant nothing = nothing_of(system);
+  struct hk_variant nothing = nothing_of(system);
   assert_true(system->bending_group_count >= 2 && system->altitude_group_count >= 2 &&
               system->part_count == 2);
   for (int i = 0; i < count; i++) {
     const int refined = all[i].of_part >= 0 && all[i].variant.scale[all[i].of_part] != 1.0;
-    assert_int_equal(hooke_variant_covers(system, &all[i].variant, &nothing), 1);
-    assert_int_equal(hooke_variant_covers(system, &nothing, &all[i].variant), 0);
+    assert_int_equal(hk_variant_covers(system, &all[i].variant, &nothing), 1);
+    assert_int_equal(hk_variant_covers(system, &nothing, &all[i].variant), 0);
     for (int j = 0; j < count; j++) {
       /* a part twice as fine covers not even itself: joined, it would be four times as fine */
       const int expected = (i == j && !refined) || is_within(all, i, j);
-      if (hooke_variant_covers(system, &all[i].variant, &all[j].variant) != expected)
+      if (hk_variant_covers(system, &all[i].variant, &all[j].variant) != expected)
         check_failed("variants %d and %d of %d: not %d", i, j, count, expected);
-      struct hooke_variant both = nothing_of(system);
-      hooke_variant_join(system, &both, &all[i].variant);
-      hooke_variant_join(system, &both, &all[j].variant);
+      struct hk_variant both = nothing_of(system);
+      hk_variant_join(system, &both, &all[i].variant);
+      hk_variant_join(system, &both, &all[j].variant);
       for (int k = 0; k < count; k++) {
-        const int either = hooke_variant_covers(system, &all[i].variant, &all[k].variant) ||
-                           hooke_variant_covers(system, &all[j].variant, &all[k].variant);
-        assert_int_equal(hooke_variant_covers(system, &both, &all[k].variant), either);
+        const int either = hk_variant_covers(system, &all[i].variant, &all[k].variant) ||
+                           hk_variant_covers(system, &all[j].variant, &all[k].variant);
+        assert_int_equal(hk_variant_covers(system, &both, &all[k].variant), either);
       }
-      hooke_variant_release(&both);
+      hk_variant_release(&both);
     }
   }
   for (int i = 0; i < count; i++)
-    hooke_variant_release(&all[i].variant);
-  hooke_variant_release(&nothing);
+    hk_variant_release(&all[i].variant);
+  hk_variant_release(&nothing);
   hooke_system_destroy(system);
 }
 

@@ -15,18 +15,18 @@ struct what {
 };
 
 static hooke_system *without(const hooke_system *system, struct what what) {
-  struct hooke_variant variant;
-  struct hooke_variant_map map;
+  struct hk_variant variant;
+  struct hk_variant_map map;
   hooke_system *made;
-  check_ok(hooke_variant_create(system, &variant));
+  check_ok(hk_variant_create(system, &variant));
   variant.gravity = what.gravity;
   variant.drag = what.drag;
   variant.force = what.force;
   variant.damping = what.damping;
   if (what.group >= 0) variant.group[what.group] = 1;
-  check_ok(hooke_variant_make(system, &variant, &made, &map));
-  hooke_variant_map_release(&map);
-  hooke_variant_release(&variant);
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
   return made;
 }
 
@@ -52,7 +52,7 @@ static void check_same_loops(const hooke_system *found, const hooke_system *expe
   assert_memory_equal(found->force_row, expected->force_row,
                       (size_t)expected->force_row_count * sizeof *found->force_row);
   for (int64_t r = 0; r < expected->springs.run_count; r++) {
-    const struct hooke_run *a = &found->springs.run[r], *b = &expected->springs.run[r];
+    const struct hk_run *a = &found->springs.run[r], *b = &expected->springs.run[r];
     assert_true(a->loop == b->loop && a->first == b->first && a->count == b->count && a->shape == b->shape);
   }
   check_groups(found, expected, -1);
@@ -117,8 +117,8 @@ static void one_is_left_out(void **unused) {
     hooke_system_destroy(made);
   }
   hooke_system *undamped = without(scene.system, (struct what){.damping = 1, .group = -1});
-  assert_true(hooke_springs_are_damped(&scene.system->springs));
-  assert_false(hooke_springs_are_damped(&undamped->springs));
+  assert_true(hk_springs_are_damped(&scene.system->springs));
+  assert_false(hk_springs_are_damped(&undamped->springs));
   hooke_system_destroy(undamped);
   assert_in_range(scene.system->group_count, 2, 16);
   for (int64_t g = 0; g < scene.system->group_count; g++) {

@@ -20,7 +20,7 @@ static void draw(struct random_source *source, int64_t count, double *x) {
 }
 
 /* What each loop makes of x and y, one after the other, and sums at the end. */
-static void run_loops(const struct hooke_vector_set *v, int64_t n, const double *x, const double *y,
+static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x, const double *y,
                       double *out) {
   v->linear_sum(n, 0.3, x, -1.7, y, out);
   v->scale(n, 1.1, x, out + n);
@@ -48,9 +48,9 @@ static void vectors(void **unused) {
   for (int64_t n = 0; n < LONGEST; n += n < 70 ? 1 : 33) {
     draw(&source, n, x);
     draw(&source, n, y);
-    run_loops(hooke_spring_set(0)->vector, n, x, y, first);
-    for (int32_t k = 1; hooke_spring_set(k); k++) {
-      run_loops(hooke_spring_set(k)->vector, n, x, y, other);
+    run_loops(hk_spring_set(0)->vector, n, x, y, first);
+    for (int32_t k = 1; hk_spring_set(k); k++) {
+      run_loops(hk_spring_set(k)->vector, n, x, y, other);
       check_same_bits(LOOPS * n + 4, other, first);
     }
     double dot = 0.0, squares = 0.0, most = 0.0;
@@ -87,7 +87,7 @@ static void vectors(void **unused) {
 enum { MOST_COLUMNS = 24, MOST_ROWS = 3 * MOST_COLUMNS };
 
 struct example {
-  struct hooke_triangle triangle;
+  struct hk_triangle triangle;
   int64_t begin[MOST_COLUMNS + 1];
   int32_t row[MOST_COLUMNS * MOST_COLUMNS];
   double block[9 * MOST_COLUMNS * MOST_COLUMNS + HOOKE_TRIANGLE_SPARE], corner[6 * MOST_COLUMNS];
@@ -124,7 +124,7 @@ static void draw_triangle(struct random_source *source, int columns, struct exam
 }
 
 /* Solutions forward and backward, `rows` each and what is spare. */
-static void run_triangle(const struct hooke_triangle_set *set, const struct example *x, const double *right,
+static void run_triangle(const struct hk_triangle_set *set, const struct example *x, const double *right,
                          double *out) {
   const int64_t rows = 3 * x->triangle.count;
   for (int way = 0; way < 2; way++) {
@@ -163,10 +163,10 @@ static void triangles(void **unused) {
     draw(&source, 3 * columns, right);
     memset(first, 0, sizeof first);
     memset(other, 0, sizeof other);
-    run_triangle(hooke_spring_set(0)->triangle, x, right, first);
+    run_triangle(hk_spring_set(0)->triangle, x, right, first);
     check_triangle(x, right, first);
-    for (int32_t k = 1; hooke_spring_set(k); k++) {
-      run_triangle(hooke_spring_set(k)->triangle, x, right, other);
+    for (int32_t k = 1; hk_spring_set(k); k++) {
+      run_triangle(hk_spring_set(k)->triangle, x, right, other);
       check_same_bits(SIZE, other, first);
     }
   }

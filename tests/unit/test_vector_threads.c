@@ -19,7 +19,7 @@ static void run_by(const hooke_system *system, struct run run, double *state) {
   hooke_integrator *integrator = start_run(system, run);
   hooke_state *found = start_state(system);
   /* a crew of one would prove nothing */
-  assert_true(run.threads <= 1 || hooke_crew_members(integrator->crew) > 1);
+  assert_true(run.threads <= 1 || hk_crew_members(integrator->crew) > 1);
   check_ok(hooke_integrator_run(integrator, found));
   memcpy(state, hooke_state_position(found), (size_t)size * sizeof(double));
   memcpy(state + size, hooke_state_velocity(found), (size_t)size * sizeof(double));

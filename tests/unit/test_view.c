@@ -12,13 +12,13 @@
 #include <unistd.h>
 
 static void check_text(const char *bytes, const char *expected) {
-  struct hooke_text text = {.bytes = NULL};
+  struct hk_text text = {.bytes = NULL};
   const int64_t count = (int64_t)strlen(bytes);
-  hooke_base64_add(&text, (const uint8_t *)bytes, count);
-  assert_int_equal(text.length, hooke_base64_length(count));
+  hk_base64_add(&text, (const uint8_t *)bytes, count);
+  assert_int_equal(text.length, hk_base64_length(count));
   assert_int_equal(text.length, strlen(expected));
   if (text.length > 0) assert_memory_equal(text.bytes, expected, (size_t)text.length);
-  hooke_text_release(&text);
+  hk_text_release(&text);
 }
 
 /* The examples of RFC 4648, and bytes from the end of the alphabet. */
@@ -39,14 +39,14 @@ static void long_text(void **unused) {
   (void)unused;
   enum { LONG = 10000 };
   uint8_t *bytes = new_block(LONG, 1);
-  struct hooke_text text = {.bytes = NULL};
+  struct hk_text text = {.bytes = NULL};
   memset(bytes, 0xaa, LONG);
-  hooke_base64_add(&text, bytes, LONG);
-  assert_int_equal(text.length, hooke_base64_length(LONG));
+  hk_base64_add(&text, bytes, LONG);
+  assert_int_equal(text.length, hk_base64_length(LONG));
   for (int64_t k = 0; k + 4 < text.length; k++)
     assert_int_equal(text.bytes[k], 'q'); /* 101010 */
   assert_memory_equal(text.bytes + text.length - 4, "qg==", 4);
-  hooke_text_release(&text);
+  hk_text_release(&text);
   free(bytes);
 }
 
@@ -118,7 +118,7 @@ static void close_view(hooke_view *view, hooke_record *record) {
   hooke_record_close(record);
 }
 
-static double coordinate(const uint8_t *bytes, const struct hooke_view_box *box, int k) {
+static double coordinate(const uint8_t *bytes, const struct hk_view_box *box, int k) {
   const double share = (bytes[2 * k] + 256.0 * bytes[2 * k + 1]) / 65535.0;
   return (1.0 - share) * box->low[k % 3] + share * box->high[k % 3];
 }
@@ -129,12 +129,12 @@ static void a_frame_is_packed(void **state) {
   const double far[] = {7.0, -1e-300, 1e308};
   for (int k = 0; k < 3; k++) {
     hooke_record *record;
-    struct hooke_view_box box;
+    struct hk_view_box box;
     uint8_t bytes[6 * PARTICLES + 3];
     write_file(f, far[k], 1e-3);
     hooke_view *view = open_view(f, 0, &record);
-    assert_int_equal(hooke_view_frame_bytes(view), sizeof bytes);
-    check_ok(hooke_view_pack(view, 0, bytes, &box));
+    assert_int_equal(hk_view_frame_bytes(view), sizeof bytes);
+    check_ok(hk_view_pack(view, 0, bytes, &box));
     const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far[k]};
     for (int i = 0; i < 3 * PARTICLES; i++)
       check_close(coordinate(bytes, &box, i), q[i],
@@ -156,9 +156,9 @@ static void frames_are_thinned(void **state) {
     hooke_view *view = open_view(f, most[k], &record);
     const int64_t count = (int64_t)hooke_view_number(view, "frames");
     check_between((double)count, 2, most[k]);
-    assert_int_equal(hooke_view_frame(view, 0), 0);
-    assert_int_equal(hooke_view_frame(view, count - 1), 100);
-    assert_true(hooke_view_frame(view, count - 2) < 100);
+    assert_int_equal(hk_view_frame(view, 0), 0);
+    assert_int_equal(hk_view_frame(view, count - 1), 100);
+    assert_true(hk_view_frame(view, count - 2) < 100);
     if (most[k] > 100) assert_int_equal(count, 101);
     if (most[k] == 51) assert_int_equal(count, 51);
     close_view(view, record);

@@ -60,21 +60,21 @@ static void every_form_is_read(void **unused) {
                {"period:2.y", "s", 0.5},
                {"period:kinetic", "s", 0.5}};
   hooke_system *system = scene();
-  struct hooke_watched_list list = {.system = system};
+  struct hk_watched_list list = {.system = system};
   double *v = new_doubles(3 * system->particle_count);
   v[7] = 1.0;
   for (size_t k = 0; k < COUNT(forms); k++) {
-    check_ok(hooke_watched_read(&list, "watch", forms[k].text));
+    check_ok(hk_watched_read(&list, "watch", forms[k].text));
     assert_int_equal(list.count, (int64_t)k + 1);
-    const struct hooke_watched *item = &list.item[k];
-    assert_string_equal(hooke_watched_unit(item), forms[k].unit);
-    check_close(hooke_watched_value(item, system, system->position, v), forms[k].value, 1e-9);
-    assert_int_equal(hooke_watched_find(&list, forms[k].text), (int64_t)k);
+    const struct hk_watched *item = &list.item[k];
+    assert_string_equal(hk_watched_unit(item), forms[k].unit);
+    check_close(hk_watched_value(item, system, system->position, v), forms[k].value, 1e-9);
+    assert_int_equal(hk_watched_find(&list, forms[k].text), (int64_t)k);
   }
   /* in a list, with blanks, and again */
-  check_ok(hooke_watched_read(&list, "watch", "1.y, energy ,1.y"));
+  check_ok(hk_watched_read(&list, "watch", "1.y, energy ,1.y"));
   assert_int_equal(list.count, (int64_t)COUNT(forms) + 1);
-  hooke_watched_release(&list);
+  hk_watched_release(&list);
   free(v);
   hooke_system_destroy(system);
 }
@@ -111,21 +111,21 @@ static void what_is_nothing_is_refused(void **unused) {
              {":0.length", "allowed: rods, tie, line.stretch"},
              {"tie:0.strain", "allowed: length, tension"}};
   hooke_system *system = scene();
-  struct hooke_watched_list list = {.system = system};
-  check_ok(hooke_watched_read(&list, "watch", "0.x"));
+  struct hk_watched_list list = {.system = system};
+  check_ok(hk_watched_read(&list, "watch", "0.x"));
   for (size_t k = 0; k < COUNT(bad); k++) {
-    check_status(hooke_watched_read(&list, "watch", bad[k].text), HOOKE_BAD_VALUE);
+    check_status(hk_watched_read(&list, "watch", bad[k].text), HOOKE_BAD_VALUE);
     check_message(bad[k].message);
     check_message("watch");
   }
   char *endless = new_block(4000, 1);
   memset(endless, '1', 3998);
-  check_status(hooke_watched_read(&list, "watch", endless), HOOKE_BAD_VALUE);
-  check_status(hooke_watched_read(&list, "probe", "1.x,energy,nobody"), HOOKE_BAD_VALUE);
+  check_status(hk_watched_read(&list, "watch", endless), HOOKE_BAD_VALUE);
+  check_status(hk_watched_read(&list, "probe", "1.x,energy,nobody"), HOOKE_BAD_VALUE);
   check_message("probe");
   assert_int_equal(list.count, 1);
   free(endless);
-  hooke_watched_release(&list);
+  hk_watched_release(&list);
   hooke_system_destroy(system);
 }
 
@@ -144,10 +144,10 @@ static void springs_that_are_left_out_are_said(void **unused) {
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  struct hooke_watched_list list = {.system = system};
-  check_status(hooke_watched_read(&list, "watch", "some:0.length"), HOOKE_BAD_VALUE);
+  struct hk_watched_list list = {.system = system};
+  check_status(hk_watched_read(&list, "watch", "some:0.length"), HOOKE_BAD_VALUE);
   check_message("neither stiffness nor damping");
-  hooke_watched_release(&list);
+  hk_watched_release(&list);
   hooke_system_destroy(system);
 }
 
@@ -165,9 +165,9 @@ static hooke_system *one_spring(struct springs law) {
 
 static double tension(const hooke_system *system, double r, double rate) {
   const double q[] = {0, 0, 0, r, 0, 0}, v[] = {0, 0, 0, rate, 0, 0};
-  struct hooke_watched watched = {.kind = HOOKE_WATCHED_TENSION,
-                                  .spring = hooke_run_spring(&system->springs.run[0], 0)};
-  return hooke_watched_value(&watched, system, q, v);
+  struct hk_watched watched = {.kind = HOOKE_WATCHED_TENSION,
+                               .spring = hk_run_spring(&system->springs.run[0], 0)};
+  return hk_watched_value(&watched, system, q, v);
 }
 
 static double energy(const hooke_system *system, double r) {
@@ -219,18 +219,18 @@ static void periods_are_known(void **unused) {
     rising[f] = time[f];
     coarse[f] = sin(2.0 * PI * time[f] / 0.13);
   }
-  check_close(hooke_watched_period(FRAMES, time, value), period, 2e-6);
+  check_close(hk_watched_period(FRAMES, time, value), period, 2e-6);
   /* ripples on it are no periods */
-  check_close(hooke_watched_period(FRAMES, time, noisy), period, 0.02);
-  assert_true(isnan(hooke_watched_period(FRAMES, time, flat)));
-  assert_true(isnan(hooke_watched_period(FRAMES, time, rising)));
+  check_close(hk_watched_period(FRAMES, time, noisy), period, 0.02);
+  assert_true(isnan(hk_watched_period(FRAMES, time, flat)));
+  assert_true(isnan(hk_watched_period(FRAMES, time, rising)));
   /* seen 2.6 times a period only */
-  assert_true(isnan(hooke_watched_period(FRAMES, time, coarse)));
+  assert_true(isnan(hk_watched_period(FRAMES, time, coarse)));
   /* too short for two passages */
-  assert_true(isnan(hooke_watched_period(30, time, value)));
-  assert_true(isnan(hooke_watched_period(1, time, value)));
+  assert_true(isnan(hk_watched_period(30, time, value)));
+  assert_true(isnan(hk_watched_period(1, time, value)));
   value[50] = NAN;
-  assert_true(isnan(hooke_watched_period(FRAMES, time, value)));
+  assert_true(isnan(hk_watched_period(FRAMES, time, value)));
 }
 
 int main(void) {

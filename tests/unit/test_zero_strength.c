@@ -171,19 +171,19 @@ static void check_same_forces(const hooke_system *found, const hooke_system *exp
   assert_memory_equal(&found->drag, &expected->drag, sizeof found->drag);
 }
 
-static void check_same_runs(const struct hooke_springs *found, const struct hooke_springs *expected) {
+static void check_same_runs(const struct hk_springs *found, const struct hk_springs *expected) {
   assert_int_equal(found->count, expected->count);
   assert_int_equal(found->run_count, expected->run_count);
   assert_int_equal(found->indexed_count, expected->indexed_count);
   assert_int_equal(found->mixed_count, expected->mixed_count);
   for (int64_t r = 0; r < expected->run_count; r++) {
-    const struct hooke_run *a = &found->run[r], *b = &expected->run[r];
+    const struct hk_run *a = &found->run[r], *b = &expected->run[r];
     assert_true(a->loop == b->loop);
     assert_int_equal(a->shape, b->shape);
     assert_int_equal(a->first, b->first);
     assert_int_equal(a->count, b->count);
     for (int64_t k = 0; k < b->count; k++) {
-      const struct hooke_spring x = hooke_run_spring(a, k), y = hooke_run_spring(b, k);
+      const struct hk_spring x = hk_run_spring(a, k), y = hk_run_spring(b, k);
       const double material[] = {x.kappa, x.gamma, x.rest_length},
                    wanted[] = {y.kappa, y.gamma, y.rest_length};
       assert_true(x.head == y.head && x.tail == y.tail);
@@ -195,7 +195,7 @@ static void check_same_runs(const struct hooke_springs *found, const struct hook
 static void check_same_lanes(const hooke_system *found, const hooke_system *expected) {
   assert_int_equal(found->lanes.count, expected->lanes.count);
   for (int32_t k = 0; k < expected->lanes.count; k++) {
-    const struct hooke_lane *a = &found->lanes.lane[k], *b = &expected->lanes.lane[k];
+    const struct hk_lane *a = &found->lanes.lane[k], *b = &expected->lanes.lane[k];
     assert_true(a->offset == b->offset && a->first == b->first && a->last == b->last);
     assert_int_equal(a->shape, b->shape);
     const int64_t units = expected->particle_count / HOOKE_LANE_UNIT + 1;

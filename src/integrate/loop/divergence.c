@@ -26,7 +26,7 @@ static int has_energy_bound(const hooke_integrator *it) {
   return it->system && it->system->force == NULL && it->system->drive_count == 0;
 }
 
-int32_t hooke_all_finite(int64_t count, const double *value) {
+int32_t hk_all_finite(int64_t count, const double *value) {
   /* 0 * value is 0 or not a number, and one of those stays in the sum */
   double sum = 0.0;
   for (int64_t k = 0; k < count; k++)
@@ -41,16 +41,16 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->held[p] ? 0.0 : system->mass[p];
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++)
       stiffness += batch.kappa[k];
   }
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
     stiffness += 16.0 * triple.coefficient;
   for (int64_t k = 0; k < system->altitudes.count; k++)
-    stiffness += 4.0 * hooke_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
+    stiffness += 4.0 * hk_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {
@@ -62,17 +62,17 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
 }
 
-int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   if (has_energy_bound(it)) {
     const double kinetic = hooke_system_kinetic_energy(it->system, state->v);
-    const double elastic = hooke_elastic_energy(it->system, state->q);
+    const double elastic = hk_elastic_energy(it->system, state->q);
     it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
     it->gravity_swing = 0.0;
     it->scale0 = kinetic + elastic + least_energy(it, state);
     it->energy0 = kinetic + elastic;
   }
-  hooke_recent_begin(&it->recent, state);
+  hk_recent_begin(&it->recent, state);
   it->good_time = *state->t;
   return HOOKE_OK;
 }
@@ -80,7 +80,7 @@ int32_t hooke_divergence_begin(hooke_integrator *it, const hooke_state *state) {
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
   const double gravity = hooke_system_gravity_energy(it->system, state->q), risen = gravity - it->gravity0;
   const double rest =
-      hooke_system_kinetic_energy(it->system, state->v) + hooke_elastic_energy(it->system, state->q);
+      hooke_system_kinetic_energy(it->system, state->v) + hk_elastic_energy(it->system, state->q);
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits to spare for the others */
@@ -88,7 +88,7 @@ static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, dou
          (rest - it->energy0) + risen <= RISE * (it->scale0 + it->gravity_swing) + DBL_MIN;
 }
 
-void hooke_divergence_follow(hooke_integrator *it, const hooke_state *state) {
+void hk_divergence_follow(hooke_integrator *it, const hooke_state *state) {
   double energy;
   if (has_energy_bound(it)) energy_is_bounded(it, state, &energy);
 }
@@ -97,50 +97,50 @@ static const char *advice(const hooke_integrator *it) {
   return it->method->adaptive ? "tighter tolerances" : "a smaller step";
 }
 
-int32_t hooke_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
+int32_t hk_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
   if (it->recent.room > 0) return it->method->store(it, t, state);
-  hooke_motion_exchange(it->motion, state->q, state->v);
+  hk_motion_exchange(it->motion, state->q, state->v);
   return HOOKE_OK;
 }
 
 static void put_back(hooke_integrator *it, hooke_state *state) {
   if (it->recent.room > 0) {
-    hooke_state_copy(hooke_recent_state(&it->recent, 0, NULL), state);
+    hooke_state_copy(hk_recent_state(&it->recent, 0, NULL), state);
     return;
   }
-  hooke_motion_exchange(it->motion, state->q, state->v);
+  hk_motion_exchange(it->motion, state->q, state->v);
   *state->t = it->good_time;
 }
 
 static int32_t pass(hooke_integrator *it, const hooke_state *state) {
-  hooke_recent_keep(&it->recent, state, it->k);
+  hk_recent_keep(&it->recent, state, it->k);
   it->good_time = *state->t;
-  if (it->recent.room == 0) hooke_motion_load(it->system, it->motion, state->q, state->v);
+  if (it->recent.room == 0) hk_motion_load(it->system, it->motion, state->q, state->v);
   if (it->checker.look == NULL) return HOOKE_OK;
   it->stop_value = it->checker.look(it, state, it->checker.own);
   if (it->stop_value == 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "a warning callback returned %d at t = %.6g s", (int)it->stop_value,
-                    *state->t);
+  return hk_fail(HOOKE_STOPPED, NULL, "a warning callback returned %d at t = %.6g s", (int)it->stop_value,
+                 *state->t);
 }
 
-int32_t hooke_divergence_check(hooke_integrator *it, hooke_state *state, int32_t with_energy) {
+int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t with_energy) {
   double energy = NAN;
   const double t = *state->t;
   const int finite =
-      hooke_all_finite(state->size, state->q) && (!state->has_v || hooke_all_finite(state->size, state->v));
+      hk_all_finite(state->size, state->q) && (!state->has_v || hk_all_finite(state->size, state->v));
   if (finite && (!with_energy || !has_energy_bound(it) || energy_is_bounded(it, state, &energy))) {
     return pass(it, state);
   }
   it->diverged_at = t;
   put_back(it, state);
   if (!finite) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_DIVERGED, NULL,
         "the run diverged: a position or velocity is not finite at t = %.6g s; the state kept is that of "
         "t = %.6g s; try %s",
         t, *state->t, advice(it));
   }
-  return hooke_fail(
+  return hk_fail(
       HOOKE_DIVERGED, NULL,
       "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "
       "had; the state kept is that of t = %.6g s; try %s",

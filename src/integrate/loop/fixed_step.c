@@ -12,97 +12,96 @@ static int32_t keep_stop_value(hooke_integrator *it, int32_t status) {
   return status;
 }
 
-int32_t hooke_integrator_forces(hooke_integrator *it, double t) {
-  return hooke_integrator_forces_without(it, t, NULL);
+int32_t hk_integrator_forces(hooke_integrator *it, double t) {
+  return hk_integrator_forces_without(it, t, NULL);
 }
 
-int32_t hooke_integrator_forces_without(hooke_integrator *it, double t,
-                                        const struct hooke_force_row *left_out) {
+int32_t hk_integrator_forces_without(hooke_integrator *it, double t, const struct hk_force_row *left_out) {
   it->count.force_evaluations++;
-  return keep_stop_value(it, hooke_motion_forces_without(it->system, it->motion, t, left_out));
+  return keep_stop_value(it, hk_motion_forces_without(it->system, it->motion, t, left_out));
 }
 
 struct sharing {
   hooke_integrator *integrator;
-  hooke_particle_work *work;
+  hk_particle_work *work;
   void *ctx;
 };
 
 static void work_on_share(int32_t member, int32_t members, void *ctx) {
   const struct sharing *sharing = ctx;
   const hooke_system *system = sharing->integrator->system;
-  const int64_t n = system->particle_count, first = hooke_crew_share(n, HOOKE_TILE, member, members),
-                last = hooke_crew_share(n, HOOKE_TILE, member + 1, members);
+  const int64_t n = system->particle_count, first = hk_crew_share(n, HOOKE_TILE, member, members),
+                last = hk_crew_share(n, HOOKE_TILE, member + 1, members);
   for (int64_t s = 0; s < system->span_count; s++) {
-    const struct hooke_span span = system->span[s];
+    const struct hk_span span = system->span[s];
     const int64_t from = span.from > first ? span.from : first,
                   end = span.from + span.count < last ? span.from + span.count : last;
     if (from < end) sharing->work(sharing->integrator, from, end - from, sharing->ctx);
   }
 }
 
-void hooke_integrator_each(hooke_integrator *it, hooke_particle_work *work, void *ctx) {
-  hooke_crew_run(it->motion->crew, work_on_share, &(struct sharing){it, work, ctx});
+void hk_integrator_each(hooke_integrator *it, hk_particle_work *work, void *ctx) {
+  hk_crew_run(it->motion->crew, work_on_share, &(struct sharing){it, work, ctx});
 }
 
 static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  hooke_step_loop *loop = hooke_step_loop_of(*(const int32_t *)ctx);
+  hk_step_loop *loop = hk_step_loop_of(*(const int32_t *)ctx);
   const hooke_system *system = it->system;
-  const struct hooke_motion *m = it->motion;
+  const struct hk_motion *m = it->motion;
   for (int a = 0; a < 3; a++) {
     loop(count, it->schedule.step, system->inverse_mass + from, m->f[a] + from,
          system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
   }
 }
 
-int32_t hooke_integrator_move(hooke_integrator *it, int32_t kind) {
+int32_t hk_integrator_move(hooke_integrator *it, int32_t kind) {
   const hooke_system *system = it->system;
   if (it->motion->f[0] == NULL) {
-    struct hooke_move how = {kind, system->has_gravity, it->schedule.step, system->drag, {0.0}};
+    struct hk_move how = {kind, system->has_gravity, it->schedule.step, system->drag, {0.0}};
     memcpy(how.gravity, system->gravity, sizeof how.gravity);
     it->count.force_evaluations++;
-    hooke_motion_pass(system, it->motion, &how);
+    hk_motion_pass(system, it->motion, &how);
     return HOOKE_OK;
   }
-  const int32_t status = hooke_integrator_forces(it, it->t);
-  if (status == HOOKE_OK) hooke_integrator_each(it, move, &kind);
+  const int32_t status = hk_integrator_forces(it, it->t);
+  if (status == HOOKE_OK) hk_integrator_each(it, move, &kind);
   return status;
 }
 
-double hooke_integrator_next_time(const hooke_integrator *it) {
+double hk_integrator_next_time(const hooke_integrator *it) {
   return it->t0 + (double)(it->k + 1) * it->schedule.step;
 }
 
-int32_t hooke_integrator_drive(hooke_integrator *it, double t) {
+int32_t hk_integrator_drive(hooke_integrator *it, double t) {
   if (it->system == NULL || it->system->drive_count == 0) return HOOKE_OK;
-  return keep_stop_value(it, hooke_motion_drive(it->system, it->motion, t));
+  return keep_stop_value(it, hk_motion_drive(it->system, it->motion, t));
 }
 
-int32_t hooke_integrator_hold(hooke_integrator *it, double t) {
-  const int32_t status = hooke_integrator_drive(it, t);
-  if (status == HOOKE_OK) hooke_motion_hold(it->system, it->motion);
+int32_t hk_integrator_hold(hooke_integrator *it, double t) {
+  const int32_t status = hk_integrator_drive(it, t);
+  if (status == HOOKE_OK) hk_motion_hold(it->system, it->motion);
   return status;
 }
 
-int32_t hooke_integrator_rate(hooke_integrator *it, double t, const double *x, double *slope) {
+int32_t hk_integrator_rate(hooke_integrator *it, double t, const double *x, double *slope) {
   it->count.force_evaluations++;
   const int32_t value = it->rate(it->size, t, x, slope, it->rate_ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.6g s", (int)value, t);
+  return hk_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.6g s", (int)value, t);
 }
 
-int32_t hooke_fixed_begin(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_fixed_begin(hooke_integrator *it, const hooke_state *state) {
   if (it->motion)
-    hooke_motion_load(it->system, it->motion, state->q, state->v);
+    hk_motion_load(it->system, it->motion, state->q, state->v);
   else
     memcpy(it->x, state->q, (size_t)it->size * sizeof(double));
   return HOOKE_OK;
 }
 
-int32_t hooke_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
+int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
   if (it->motion)
-    hooke_motion_store(it->motion, state->q, state->v);
+    hk_motion_store(it->motion, state->q, state->v);
   else
     memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
   *state->t = t;

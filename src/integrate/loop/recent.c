@@ -9,48 +9,48 @@ static int64_t state_bytes(int64_t size, int32_t has_v) {
   return (1 + (has_v ? 2 : 1) * size) * (int64_t)sizeof(double);
 }
 
-int32_t hooke_recent_create(int64_t size, int32_t has_v, int32_t least, struct hooke_recent *recent) {
+int32_t hk_recent_create(int64_t size, int32_t has_v, int32_t least, struct hk_recent *recent) {
   const int64_t fit = MOST_BYTES / state_bytes(size, has_v);
-  *recent = (struct hooke_recent){.room = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
-                                          : fit > 2               ? (int32_t)(fit - 1)
-                                                                  : least};
-  int32_t status = fit >= 2 ? hooke_state_create_sized(size, has_v, &recent->room_of_first) : HOOKE_OK;
+  *recent = (struct hk_recent){.room = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
+                                       : fit > 2               ? (int32_t)(fit - 1)
+                                                               : least};
+  int32_t status = fit >= 2 ? hk_state_create_sized(size, has_v, &recent->room_of_first) : HOOKE_OK;
   for (int32_t k = 0; k < recent->room && status == HOOKE_OK; k++)
-    status = hooke_state_create_sized(size, has_v, &recent->state[k]);
-  if (status != HOOKE_OK) hooke_recent_release(recent);
+    status = hk_state_create_sized(size, has_v, &recent->state[k]);
+  if (status != HOOKE_OK) hk_recent_release(recent);
   return status;
 }
 
-int32_t hooke_recent_make_room(int64_t size, int32_t has_v, struct hooke_recent *recent) {
-  const int32_t status = hooke_state_create_sized(size, has_v, &recent->state[0]);
+int32_t hk_recent_make_room(int64_t size, int32_t has_v, struct hk_recent *recent) {
+  const int32_t status = hk_state_create_sized(size, has_v, &recent->state[0]);
   if (status == HOOKE_OK) recent->room = 1;
   return status;
 }
 
-void hooke_recent_release(struct hooke_recent *recent) {
+void hk_recent_release(struct hk_recent *recent) {
   for (int32_t k = 0; k < HOOKE_MOST_RECENT; k++)
     hooke_state_destroy(recent->state[k]);
   hooke_state_destroy(recent->room_of_first);
   memset(recent, 0, sizeof *recent);
 }
 
-int64_t hooke_recent_memory(const struct hooke_recent *recent) {
+int64_t hk_recent_memory(const struct hk_recent *recent) {
   const hooke_state *one = recent->state[0];
   return one ? (recent->room + (recent->room_of_first != NULL)) * state_bytes(one->size, one->has_v) : 0;
 }
 
-void hooke_recent_set_first(struct hooke_recent *recent, const hooke_state *first) {
+void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first) {
   recent->first = first ? recent->room_of_first : NULL;
   if (recent->first) hooke_state_copy(first, recent->first);
 }
 
-void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state) {
+void hk_recent_begin(struct hk_recent *recent, const hooke_state *state) {
   recent->count = 0;
-  hooke_recent_set_first(recent, state);
-  hooke_recent_keep(recent, state, 0);
+  hk_recent_set_first(recent, state);
+  hk_recent_keep(recent, state, 0);
 }
 
-void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, int64_t step) {
+void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step) {
   const int32_t again = recent->count > 0 && recent->step[recent->newest] == step;
   if (!again) {
     const int32_t room = recent->room > 0 ? recent->room : 1;
@@ -61,7 +61,7 @@ void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, in
   recent->step[recent->newest] = step;
 }
 
-const hooke_state *hooke_recent_state(const struct hooke_recent *recent, int64_t place, int64_t *step) {
+const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t place, int64_t *step) {
   if (place < 0 || place >= recent->count) return NULL;
   const int32_t at = recent->newest >= place ? recent->newest - (int32_t)place
                                              : recent->newest - (int32_t)place + recent->room;

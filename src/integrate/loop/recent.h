@@ -7,7 +7,7 @@
 enum { HOOKE_MOST_RECENT = 8 };
 
 /* Used as a ring, so that keeping one more costs one copy, as keeping the last one alone would. */
-struct hooke_recent {
+struct hk_recent {
   hooke_state *state[HOOKE_MOST_RECENT];
   int64_t step[HOOKE_MOST_RECENT]; /* steps since the run began */
   hooke_state *first; /* the run began with; NULL where it is not known, or there is no room for it */
@@ -16,20 +16,20 @@ struct hooke_recent {
 };
 
 /* Room for at least `least` (0 or 1) states of `size` numbers in q. HOOKE_NO_MEMORY. */
-int32_t hooke_recent_create(int64_t size, int32_t has_v, int32_t least, struct hooke_recent *recent);
+int32_t hk_recent_create(int64_t size, int32_t has_v, int32_t least, struct hk_recent *recent);
 /* Without room there is no copy of the one state that counts as kept: this makes room for one, without its numbers. */
-int32_t hooke_recent_make_room(int64_t size, int32_t has_v, struct hooke_recent *recent);
-void hooke_recent_release(struct hooke_recent *recent);
-int64_t hooke_recent_memory(const struct hooke_recent *recent);
+int32_t hk_recent_make_room(int64_t size, int32_t has_v, struct hk_recent *recent);
+void hk_recent_release(struct hk_recent *recent);
+int64_t hk_recent_memory(const struct hk_recent *recent);
 
 /* Forgets all, and begins with `state`. */
-void hooke_recent_begin(struct hooke_recent *recent, const hooke_state *state);
+void hk_recent_begin(struct hk_recent *recent, const hooke_state *state);
 /* The state that the run began with, for a run that goes on from elsewhere; NULL: it is not known. */
-void hooke_recent_set_first(struct hooke_recent *recent, const hooke_state *first);
+void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first);
 /* A second state after the same step takes the place of the first. */
-void hooke_recent_keep(struct hooke_recent *recent, const hooke_state *state, int64_t step);
+void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step);
 
 /* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none, or no room. */
-const hooke_state *hooke_recent_state(const struct hooke_recent *recent, int64_t place, int64_t *step);
+const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t place, int64_t *step);
 
 #endif

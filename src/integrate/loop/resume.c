@@ -6,28 +6,27 @@
 #include <math.h>
 #include <string.h>
 
-struct hooke_standing hooke_integrator_standing(const hooke_integrator *it) {
-  return (struct hooke_standing){.t0 = it->t0,
-                                 .t = it->t,
-                                 .k = it->k,
-                                 .frames = it->frames,
-                                 .energy0 = it->energy0,
-                                 .scale0 = it->scale0,
-                                 .gravity0 = it->gravity0,
-                                 .gravity_swing = it->gravity_swing,
-                                 .count = it->count,
-                                 .wall_seconds = it->wall_seconds};
+struct hk_standing hk_integrator_standing(const hooke_integrator *it) {
+  return (struct hk_standing){.t0 = it->t0,
+                              .t = it->t,
+                              .k = it->k,
+                              .frames = it->frames,
+                              .energy0 = it->energy0,
+                              .scale0 = it->scale0,
+                              .gravity0 = it->gravity0,
+                              .gravity_swing = it->gravity_swing,
+                              .count = it->count,
+                              .wall_seconds = it->wall_seconds};
 }
 
-int32_t hooke_integrator_stand(hooke_integrator *it, const struct hooke_standing *standing,
-                               hooke_state *state) {
-  const struct hooke_standing s = *standing, before = hooke_integrator_standing(it);
+int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *standing, hooke_state *state) {
+  const struct hk_standing s = *standing, before = hk_integrator_standing(it);
   it->count = s.count; /* a method goes on counting from here */
   it->wall_seconds = s.wall_seconds;
-  struct hooke_recent *recent = &it->recent;
+  struct hk_recent *recent = &it->recent;
   hooke_state *const first = recent->first, *const room = recent->room_of_first;
   recent->room_of_first = NULL; /* a beginning is not the first one here */
-  const int32_t status = hooke_run_begin(it, state);
+  const int32_t status = hk_run_begin(it, state);
   recent->room_of_first = room;
   recent->first = first;
   if (status != HOOKE_OK) {
@@ -43,59 +42,59 @@ int32_t hooke_integrator_stand(hooke_integrator *it, const struct hooke_standing
   it->gravity0 = s.gravity0;
   it->gravity_swing = s.gravity_swing;
   if (!it->method->adaptive || isnan(it->schedule.checkpoint)) return HOOKE_OK;
-  it->point = hooke_run_first_after(it->t0, it->schedule.checkpoint, it->t);
-  it->restart.standing = hooke_integrator_standing(it);
+  it->point = hk_run_first_after(it->t0, it->schedule.checkpoint, it->t);
+  it->restart.standing = hk_integrator_standing(it);
   return HOOKE_OK;
 }
 
-int32_t hooke_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const hooke_state *first,
-                                        hooke_state *state) {
+int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const hooke_state *first,
+                                     hooke_state *state) {
   const int64_t k = it->method->adaptive ? 0 : frame * it->schedule.frame_steps;
-  struct hooke_standing standing = hooke_integrator_standing(it); /* with the energies at the first frame */
+  struct hk_standing standing = hk_integrator_standing(it); /* with the energies at the first frame */
   standing.t0 = *first->t;
   standing.t = *state->t;
   standing.k = standing.count.steps = k;
   standing.frames = frame + 1;
   const double t = standing.t0 + (double)k * it->schedule.step;
   if (frame > 0 && memcmp(&t, &standing.t, sizeof t) != 0)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "frame %lld is not at the time of this run's, %.17g s",
-                      (long long)frame, t);
-  const int32_t status = hooke_integrator_stand(it, &standing, state);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "frame %lld is not at the time of this run's, %.17g s",
+                   (long long)frame, t);
+  const int32_t status = hk_integrator_stand(it, &standing, state);
   if (status != HOOKE_OK) return status;
-  hooke_recent_set_first(&it->recent, first);
+  hk_recent_set_first(&it->recent, first);
   it->placed = 1;
   return HOOKE_OK;
 }
 
-int32_t hooke_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
-                               hooke_state *state) {
-  struct hooke_standing standing = hooke_integrator_standing(from);
+int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
+                            hooke_state *state) {
+  struct hk_standing standing = hk_integrator_standing(from);
   standing.k = step;
   standing.frames = 0;
   standing.count = to->count;
   standing.wall_seconds = to->wall_seconds;
-  return hooke_integrator_stand(to, &standing, state);
+  return hk_integrator_stand(to, &standing, state);
 }
 
-int32_t hooke_integrator_run_on(hooke_integrator *it, const hooke_state *first, hooke_state *state) {
-  int32_t status = hooke_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hooke_run_check_state(it, first);
-  if (status == HOOKE_OK) status = hooke_run_check_duration(it);
+int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hooke_state *state) {
+  int32_t status = hk_run_check_state(it, state);
+  if (status == HOOKE_OK) status = hk_run_check_state(it, first);
+  if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status != HOOKE_OK) return status;
   hooke_state *start = NULL;
-  status = hooke_state_create_sized(first->size, first->has_v, &start);
+  status = hk_state_create_sized(first->size, first->has_v, &start);
   if (status == HOOKE_OK) status = hooke_state_copy(first, start);
-  if (status == HOOKE_OK) status = hooke_run_begin(it, start);
+  if (status == HOOKE_OK) status = hk_run_begin(it, start);
   if (status == HOOKE_OK) {
     const int fixed = !it->method->adaptive;
     const int64_t step = fixed ? (int64_t)llround((*state->t - *start->t) / it->schedule.step) : 0;
     const hooke_integrator begun = *it;
-    status = hooke_integrator_place(it, &begun, step, state);
-    hooke_recent_set_first(&it->recent, start);
+    status = hk_integrator_place(it, &begun, step, state);
+    hk_recent_set_first(&it->recent, start);
   }
   hooke_state_destroy(start);
-  if (status == HOOKE_OK) status = hooke_run_to_end(it, state);
-  return hooke_run_end(it, state, status);
+  if (status == HOOKE_OK) status = hk_run_to_end(it, state);
+  return hk_run_end(it, state, status);
 }
 
 /* At the place of a checkpoint, or where a fixed-step run was stopped. */
@@ -111,19 +110,19 @@ static int is_frame_missing(const hooke_integrator *it) {
 }
 
 int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
-  int32_t status = hooke_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hooke_run_check_duration(it);
+  int32_t status = hk_run_check_state(it, state);
+  if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status == HOOKE_OK && !can_go_on(it, state)) {
-    status = hooke_fail(
-        HOOKE_BAD_CALL, NULL,
-        "there is no run to go on with: neither was a checkpoint read, nor a run with a fixed step "
-        "stopped at this state");
+    status =
+        hk_fail(HOOKE_BAD_CALL, NULL,
+                "there is no run to go on with: neither was a checkpoint read, nor a run with a fixed step "
+                "stopped at this state");
   }
   if (status != HOOKE_OK) return status;
-  const struct hooke_standing standing = hooke_integrator_standing(it);
-  status = hooke_integrator_stand(it, &standing, state);
-  if (status == HOOKE_OK && it->k == 0 && it->frames == 0) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK && is_frame_missing(it)) status = hooke_run_report(it, state);
-  if (status == HOOKE_OK) status = hooke_run_to_end(it, state);
-  return hooke_run_end(it, state, status);
+  const struct hk_standing standing = hk_integrator_standing(it);
+  status = hk_integrator_stand(it, &standing, state);
+  if (status == HOOKE_OK && it->k == 0 && it->frames == 0) status = hk_divergence_check(it, state, 1);
+  if (status == HOOKE_OK && is_frame_missing(it)) status = hk_run_report(it, state);
+  if (status == HOOKE_OK) status = hk_run_to_end(it, state);
+  return hk_run_end(it, state, status);
 }

@@ -12,93 +12,92 @@
 static const double LOOK = 1e-3; /* [s] between two looks at the clock */
 static const int64_t MOST_STRIDE = 1 << 20;
 
-int32_t hooke_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  if (state->size == it->size && state->has_v == (it->system != NULL)) return hooke_crew_renew(it->crew);
-  return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                    (long long)state->size, (long long)it->size);
+int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state) {
+  if (state->size == it->size && state->has_v == (it->system != NULL)) return hk_crew_renew(it->crew);
+  return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
+                 (long long)state->size, (long long)it->size);
 }
 
-int32_t hooke_run_place_driven(hooke_integrator *it, hooke_state *state) {
+int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
   if (it->system == NULL || it->system->drive_count == 0) return HOOKE_OK;
-  hooke_motion_load(it->system, it->motion, state->q, state->v);
-  const int32_t status = hooke_integrator_hold(it, *state->t);
-  if (status == HOOKE_OK) hooke_motion_store(it->motion, state->q, state->v);
+  hk_motion_load(it->system, it->motion, state->q, state->v);
+  const int32_t status = hk_integrator_hold(it, *state->t);
+  if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
 
 static int32_t check_numbers(const hooke_integrator *it, const hooke_state *state) {
   const int64_t count = (state->has_v ? 2 : 1) * state->size;
   if (!isfinite(*state->t))
-    return hooke_fail(HOOKE_BAD_VALUE, "time", "%g is not allowed; a run starts at a finite number",
-                      *state->t);
+    return hk_fail(HOOKE_BAD_VALUE, "time", "%g is not allowed; a run starts at a finite number", *state->t);
   for (int64_t k = 0; k < count; k++) {
     if (isfinite(state->q[k])) continue;
     const long long at = (long long)(k % state->size);
-    hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
-    if (it->system == NULL) return hooke_fail_within(HOOKE_BAD_VALUE, "x[%lld]", at);
-    return hooke_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", k < state->size ? "position" : "velocity",
-                             at / 3, at % 3);
+    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
+    if (it->system == NULL) return hk_fail_within(HOOKE_BAD_VALUE, "x[%lld]", at);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", k < state->size ? "position" : "velocity",
+                          at / 3, at % 3);
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_run_begin(hooke_integrator *it, hooke_state *state) {
+int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
   it->k = it->frames = 0;
   it->begun = it->placed = 0;
   it->point = 1;
   it->stop_value = 0;
-  int32_t status = hooke_run_place_driven(it, state);
+  int32_t status = hk_run_place_driven(it, state);
   if (status == HOOKE_OK) status = check_numbers(it, state);
-  if (status == HOOKE_OK) status = hooke_divergence_begin(it, state);
+  if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
   if (status == HOOKE_OK) status = it->method->begin(it, state);
-  if (status == HOOKE_OK) status = hooke_run_keep_restart(it, state);
+  if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   it->begun = status == HOOKE_OK;
   return status;
 }
 
-int32_t hooke_run_observe(hooke_integrator *it, const struct hooke_watch *watch, const hooke_state *state) {
+int32_t hk_run_observe(hooke_integrator *it, const struct hk_watch *watch, const hooke_state *state) {
   if (watch->observer == NULL) return HOOKE_OK;
   const int32_t value = watch->observer(it->k, state, watch->ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hooke_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.6g s", (int)value, *state->t);
+  return hk_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.6g s", (int)value, *state->t);
 }
 
-int32_t hooke_run_report(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_run_report(hooke_integrator *it, const hooke_state *state) {
   it->frames++;
-  return hooke_run_observe(it, &it->on_frame, state);
+  return hk_run_observe(it, &it->on_frame, state);
 }
 
-int32_t hooke_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
-  const int32_t status = checked ? hooke_divergence_store(it, t, state) : it->method->store(it, t, state);
+int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
+  const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* nobody has the last good state any more */
   *state->t = t;
   return status;
 }
 
 static int32_t tell(hooke_integrator *it) {
-  const struct hooke_teller *teller = &it->teller;
+  const struct hk_teller *teller = &it->teller;
   const double share = (it->t - it->t0) / it->schedule.duration; /* NaN without a duration */
   const int32_t value = teller->progress(share > 0.0 ? fmin(share, 1.0) : 0.0, it->method->name, teller->ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.17g s", it->t);
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.17g s", it->t);
 }
 
-int32_t hooke_integrator_tell(hooke_integrator *it) {
-  struct hooke_teller *teller = &it->teller;
+int32_t hk_integrator_tell(hooke_integrator *it) {
+  struct hk_teller *teller = &it->teller;
   if (teller->progress == NULL) return HOOKE_OK;
-  const double now = hooke_clock_seconds();
+  const double now = hk_clock_seconds();
   if (now - teller->told < fmax(LOOK, teller->every)) return HOOKE_OK;
   teller->told = now;
   return tell(it);
 }
 
-int32_t hooke_run_tell(hooke_integrator *it, int64_t steps) {
-  struct hooke_teller *teller = &it->teller;
+int32_t hk_run_tell(hooke_integrator *it, int64_t steps) {
+  struct hk_teller *teller = &it->teller;
   if (teller->progress == NULL || (teller->left -= steps) > 0) return HOOKE_OK;
-  const double now = hooke_clock_seconds(), since = now - teller->looked;
+  const double now = hk_clock_seconds(), since = now - teller->looked;
   if (since < 0.5 * LOOK && teller->stride < MOST_STRIDE) teller->stride *= 2;
   if (since > 2.0 * LOOK && teller->stride > 1) teller->stride /= 2;
   teller->left = teller->stride;
@@ -112,18 +111,18 @@ int32_t hooke_run_tell(hooke_integrator *it, int64_t steps) {
  * last whole step: drives are asked for the end of a step before anything moves. */
 static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
-  const double begun = hooke_clock_seconds();
+  const double begun = hk_clock_seconds();
   for (int64_t s = 0; s < count && status == HOOKE_OK; s++) {
-    const double next = hooke_integrator_next_time(it);
-    status = hooke_integrator_drive(it, next);
+    const double next = hk_integrator_next_time(it);
+    status = hk_integrator_drive(it, next);
     if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
-    if (it->system && it->system->held_count > 0) hooke_motion_hold(it->system, it->motion);
+    if (it->system && it->system->held_count > 0) hk_motion_hold(it->system, it->motion);
     it->t = next;
     it->k++;
     it->count.steps++;
   }
-  it->wall_seconds += hooke_clock_seconds() - begun;
+  it->wall_seconds += hk_clock_seconds() - begun;
   return status;
 }
 
@@ -132,7 +131,7 @@ static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
   while (count > 0 && status == HOOKE_OK) {
     const int64_t left = it->teller.progress ? it->teller.left : count, steps = left < count ? left : count;
     status = take_untold_steps(it, steps);
-    if (status == HOOKE_OK) status = hooke_run_tell(it, steps);
+    if (status == HOOKE_OK) status = hk_run_tell(it, steps);
     count -= steps;
   }
   return status;
@@ -157,52 +156,52 @@ static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last,
     const int point = point_steps && it->k % point_steps == 0 && it->k < last;
     const int thorough = frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
     const int checked = status == HOOKE_OK && (thorough || point || it->k == last);
-    const int32_t stored = hooke_run_store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
+    const int32_t stored = hk_run_store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
     if (status == HOOKE_OK) status = stored;
-    if (checked && status == HOOKE_OK) status = hooke_divergence_check(it, state, thorough);
+    if (checked && status == HOOKE_OK) status = hk_divergence_check(it, state, thorough);
     if (status == HOOKE_OK && it->on_step.observer && it->k % it->on_step.stride == 0) {
-      status = hooke_run_observe(it, &it->on_step, state);
+      status = hk_run_observe(it, &it->on_step, state);
     }
-    if (status == HOOKE_OK && frame) status = hooke_run_report(it, state);
-    if (status == HOOKE_OK && point) status = hooke_run_observe(it, &it->on_checkpoint, state);
+    if (status == HOOKE_OK && frame) status = hk_run_report(it, state);
+    if (status == HOOKE_OK && point) status = hk_run_observe(it, &it->on_checkpoint, state);
   }
   return status;
 }
 
 /* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. */
-int32_t hooke_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
+int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   it->outcome = status;
   snprintf(it->message, sizeof it->message, "%s", status == HOOKE_OK ? "" : hooke_last_error());
   const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
-  if (reached && hooke_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
-    hooke_recent_keep(&it->recent, state, it->k);
+  if (reached && hk_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
+    hk_recent_keep(&it->recent, state, it->k);
   if (status == HOOKE_DIVERGED && it->recent.room == 0 &&
-      hooke_recent_make_room(it->size, 1, &it->recent) == HOOKE_OK)
+      hk_recent_make_room(it->size, 1, &it->recent) == HOOKE_OK)
     hooke_state_copy(state, it->recent.state[0]);
   return status;
 }
 
-int32_t hooke_run_check_duration(const hooke_integrator *it) {
+int32_t hk_run_check_duration(const hooke_integrator *it) {
   if (it->schedule.frames > 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
 }
 
-int32_t hooke_run_to_end(hooke_integrator *it, hooke_state *state) {
-  const struct hooke_schedule *s = &it->schedule;
+int32_t hk_run_to_end(hooke_integrator *it, hooke_state *state) {
+  const struct hk_schedule *s = &it->schedule;
   if (!it->method->adaptive) return run_fixed(it, state, s->steps, s->frame_steps);
-  return hooke_run_adaptive(it, state);
+  return hk_run_adaptive(it, state);
 }
 
 int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
-  int32_t status = hooke_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hooke_run_check_duration(it);
+  int32_t status = hk_run_check_state(it, state);
+  if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status != HOOKE_OK) return status;
-  status = hooke_run_begin(it, state);
-  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
+  status = hk_run_begin(it, state);
+  if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
   if (status == HOOKE_OK) it->restart.standing.frames = 1;
-  if (status == HOOKE_OK) status = hooke_run_report(it, state);
-  if (status == HOOKE_OK) status = hooke_run_to_end(it, state);
-  return hooke_run_end(it, state, status);
+  if (status == HOOKE_OK) status = hk_run_report(it, state);
+  if (status == HOOKE_OK) status = hk_run_to_end(it, state);
+  return hk_run_end(it, state, status);
 }
 
 /* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
@@ -210,25 +209,25 @@ static int goes_on(const hooke_integrator *it, const hooke_state *state) {
   if (it->k == 0 || (it->outcome != HOOKE_OK && it->outcome != HOOKE_STOPPED)) return 0;
   if (it->recent.room == 0 && it->recent.count > 0)
     return memcmp(&it->good_time, state->t, sizeof(double)) == 0 &&
-           hooke_motion_is_at(it->motion, state->q, state->v);
+           hk_motion_is_at(it->motion, state->q, state->v);
   const size_t bytes = (size_t)(1 + (state->has_v ? 2 : 1) * state->size) * sizeof(double);
-  const hooke_state *last = hooke_recent_state(&it->recent, 0, NULL);
+  const hooke_state *last = hk_recent_state(&it->recent, 0, NULL);
   return last && memcmp(last->t, state->t, bytes) == 0;
 }
 
 int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
-  int32_t status = hooke_run_check_state(it, state);
+  int32_t status = hk_run_check_state(it, state);
   if (status == HOOKE_OK && steps < 0) {
-    status = hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
+    status = hk_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
   }
   if (status != HOOKE_OK) return status;
-  if (!goes_on(it, state)) status = hooke_run_begin(it, state);
+  if (!goes_on(it, state)) status = hk_run_begin(it, state);
   it->placed = 0;
   if (status == HOOKE_OK && steps > HOOKE_MOST_STEPS - it->k)
-    return hooke_fail(HOOKE_BAD_VALUE, "steps", "%lld after %lld are too many; allowed: %lld in all",
-                      (long long)steps, (long long)it->k, (long long)HOOKE_MOST_STEPS);
+    return hk_fail(HOOKE_BAD_VALUE, "steps", "%lld after %lld are too many; allowed: %lld in all",
+                   (long long)steps, (long long)it->k, (long long)HOOKE_MOST_STEPS);
   if (status == HOOKE_OK)
-    status = it->method->adaptive ? hooke_run_internal_steps(it, state, steps)
+    status = it->method->adaptive ? hk_run_internal_steps(it, state, steps)
                                   : run_fixed(it, state, it->k + steps, 0);
-  return hooke_run_end(it, state, status);
+  return hk_run_end(it, state, status);
 }

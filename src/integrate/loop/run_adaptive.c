@@ -11,7 +11,7 @@
 #include <float.h>
 #include <math.h>
 
-int64_t hooke_run_first_after(double t0, double every, double t) {
+int64_t hk_run_first_after(double t0, double every, double t) {
   int64_t low = 0, high = HOOKE_MOST_STEPS;
   while (high - low > 1) {
     const int64_t middle = low + (high - low) / 2;
@@ -34,36 +34,36 @@ static double next_point(const hooke_integrator *it) {
   return starts_anew(it) ? it->t0 + (double)it->point * it->schedule.checkpoint : INFINITY;
 }
 
-int32_t hooke_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
-  struct hooke_restart *restart = &it->restart;
+int32_t hk_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
+  struct hk_restart *restart = &it->restart;
   if (!starts_anew(it)) return HOOKE_OK;
   if (restart->state == NULL) {
-    const int32_t status = hooke_state_create_sized(state->size, state->has_v, &restart->state);
+    const int32_t status = hk_state_create_sized(state->size, state->has_v, &restart->state);
     if (status != HOOKE_OK) return status;
   }
-  restart->standing = hooke_integrator_standing(it);
+  restart->standing = hk_integrator_standing(it);
   return hooke_state_copy(state, restart->state);
 }
 
 /* The step has come to the checkpoint at time t, or past it: the solution there is where the method starts anew. */
 static int32_t start_anew(hooke_integrator *it, double t, hooke_state *state) {
-  int32_t status = hooke_run_store(it, t, state, 0);
-  if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK) status = hooke_run_place_driven(it, state);
+  int32_t status = hk_run_store(it, t, state, 0);
+  if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
+  if (status == HOOKE_OK) status = hk_run_place_driven(it, state);
   if (status != HOOKE_OK) return status;
   it->t = t;
-  it->point = hooke_run_first_after(it->t0, it->schedule.checkpoint, t);
+  it->point = hk_run_first_after(it->t0, it->schedule.checkpoint, t);
   status = it->method->begin(it, state);
-  return status == HOOKE_OK ? hooke_run_keep_restart(it, state) : status;
+  return status == HOOKE_OK ? hk_run_keep_restart(it, state) : status;
 }
 
 /* ---- steps ---- */
 
 /* One internal step; if it fails, the state is the one before it. */
 static int32_t take_step(hooke_integrator *it, hooke_state *state) {
-  const double begun = hooke_clock_seconds();
+  const double begun = hk_clock_seconds();
   const int32_t status = it->method->step(it);
-  it->wall_seconds += hooke_clock_seconds() - begun;
+  it->wall_seconds += hk_clock_seconds() - begun;
   if (status == HOOKE_OK)
     it->k++;
   else if (it->k > 0)
@@ -76,20 +76,20 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state) {
   int32_t status = HOOKE_OK;
   const int watched = it->on_step.observer && it->k % it->on_step.stride == 0;
   const int checked = it->k % HOOKE_CHECK_STEPS == 0;
-  if (watched || checked) status = hooke_run_store(it, it->t, state, 0);
-  if (status == HOOKE_OK && checked) status = hooke_divergence_check(it, state, 1);
-  if (status == HOOKE_OK && watched) status = hooke_run_observe(it, &it->on_step, state);
+  if (watched || checked) status = hk_run_store(it, it->t, state, 0);
+  if (status == HOOKE_OK && checked) status = hk_divergence_check(it, state, 1);
+  if (status == HOOKE_OK && watched) status = hk_run_observe(it, &it->on_step, state);
   return status;
 }
 
 /* Progress; where that stops, the state is that of the step. */
 static int32_t tell_step(hooke_integrator *it, hooke_state *state) {
-  const int32_t status = hooke_run_tell(it, 1);
-  const int32_t stored = status == HOOKE_OK ? HOOKE_OK : hooke_run_store(it, it->t, state, 0);
+  const int32_t status = hk_run_tell(it, 1);
+  const int32_t stored = status == HOOKE_OK ? HOOKE_OK : hk_run_store(it, it->t, state, 0);
   return stored == HOOKE_OK ? status : stored;
 }
 
-int32_t hooke_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
+int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
   int32_t status = HOOKE_OK;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
     const double point = it->goal = next_point(it);
@@ -97,17 +97,17 @@ int32_t hooke_run_internal_steps(hooke_integrator *it, hooke_state *state, int64
     const int anew = status == HOOKE_OK && it->t >= point;
     if (anew) status = start_anew(it, point, state);
     if (status == HOOKE_OK) status = report_step(it, state);
-    if (status == HOOKE_OK && anew) status = hooke_run_observe(it, &it->on_checkpoint, state);
+    if (status == HOOKE_OK && anew) status = hk_run_observe(it, &it->on_checkpoint, state);
     if (status == HOOKE_OK) status = tell_step(it, state);
   }
-  if (status == HOOKE_OK) status = hooke_run_store(it, it->t, state, 0);
-  return status == HOOKE_OK ? hooke_divergence_check(it, state, it->thorough) : status;
+  if (status == HOOKE_OK) status = hk_run_store(it, it->t, state, 0);
+  return status == HOOKE_OK ? hk_divergence_check(it, state, it->thorough) : status;
 }
 
 /* ---- a whole run ---- */
 
 static double frame_time(const hooke_integrator *it, int64_t frame, double end) {
-  const struct hooke_schedule *schedule = &it->schedule;
+  const struct hk_schedule *schedule = &it->schedule;
   return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
 }
 
@@ -117,32 +117,32 @@ static int32_t report_frames(hooke_integrator *it, hooke_state *state, double t,
   while (status == HOOKE_OK && it->frames < it->schedule.frames) {
     const double at = frame_time(it, it->frames, end);
     if (at > t) break;
-    status = hooke_run_store(it, at, state, 0);
-    if (status == HOOKE_OK) status = hooke_divergence_check(it, state, 1);
-    if (status == HOOKE_OK) status = hooke_run_report(it, state);
+    status = hk_run_store(it, at, state, 0);
+    if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
+    if (status == HOOKE_OK) status = hk_run_report(it, state);
   }
   return status;
 }
 
 static int32_t refuse_duration(const hooke_integrator *it) {
-  return hooke_fail(HOOKE_BAD_VALUE, "duration",
-                    "%.6g s does not change the time t = %.6g s; take a longer one, or a fixed-step method",
-                    it->schedule.duration, it->t0);
+  return hk_fail(HOOKE_BAD_VALUE, "duration",
+                 "%.6g s does not change the time t = %.6g s; take a longer one, or a fixed-step method",
+                 it->schedule.duration, it->t0);
 }
 
 static int32_t check_schedule(const hooke_integrator *it, double end) {
   const double resolved = 8.0 * DBL_EPSILON * fmax(fabs(it->t0), fabs(end));
   if (!(end > it->t0)) return refuse_duration(it);
   if (!starts_anew(it) || it->schedule.checkpoint >= resolved) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "checkpoint",
-                    "%.17g s hardly changes the time, which goes from %.17g to %.17g s; take a longer one",
-                    it->schedule.checkpoint, it->t0, end);
+  return hk_fail(HOOKE_BAD_VALUE, "checkpoint",
+                 "%.17g s hardly changes the time, which goes from %.17g to %.17g s; take a longer one",
+                 it->schedule.checkpoint, it->t0, end);
 }
 
 static int32_t refuse_more_steps(hooke_integrator *it, int64_t limit, hooke_state *state) {
-  const int32_t status = hooke_run_store(it, it->t, state, 0);
+  const int32_t status = hk_run_store(it, it->t, state, 0);
   if (status != HOOKE_OK) return status;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_STEP_LIMIT, NULL,
       "the run used up max_steps = %lld at t = %.6g s; give it more steps, or try looser tolerances",
       (long long)limit, it->t);
@@ -162,18 +162,18 @@ static int32_t go_on(hooke_integrator *it, hooke_state *state, double end) {
   const int anew = status == HOOKE_OK && it->t >= point;
   if (anew) status = start_anew(it, point, state);
   if (status == HOOKE_OK && it->t < end) status = report_step(it, state);
-  return status == HOOKE_OK && anew ? hooke_run_observe(it, &it->on_checkpoint, state) : status;
+  return status == HOOKE_OK && anew ? hk_run_observe(it, &it->on_checkpoint, state) : status;
 }
 
-int32_t hooke_run_adaptive(hooke_integrator *it, hooke_state *state) {
+int32_t hk_run_adaptive(hooke_integrator *it, hooke_state *state) {
   const double end = it->t0 + it->schedule.duration;
-  const int64_t limit = step_limit(it), next = hooke_run_first_after(it->t0, it->schedule.every, it->t);
+  const int64_t limit = step_limit(it), next = hk_run_first_after(it->t0, it->schedule.every, it->t);
   int32_t status = check_schedule(it, end);
   if (it->frames < next) it->frames = next < it->schedule.frames ? next : it->schedule.frames;
   while (it->t < end && status == HOOKE_OK) {
     status = it->k < limit ? go_on(it, state, end) : refuse_more_steps(it, limit, state);
     if (status == HOOKE_OK && it->t < end) status = tell_step(it, state);
   }
-  if (status == HOOKE_OK) status = hooke_run_store(it, end, state, 0);
-  return status == HOOKE_OK ? hooke_divergence_check(it, state, 1) : status;
+  if (status == HOOKE_OK) status = hk_run_store(it, end, state, 0);
+  return status == HOOKE_OK ? hk_divergence_check(it, state, 1) : status;
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const struct hooke_option_row run_rows[] = {
+static const struct hk_option_row run_rows[] = {
     {.name = "method",
      .type = HOOKE_OPTION_TEXT,
      .fallback = "symplectic-euler",
@@ -97,14 +97,14 @@ static const struct hooke_option_row run_rows[] = {
      .doc = "most threads that may be used, as far as the scene is worth them; results do not depend on it"},
 };
 
-static const struct hooke_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};
+static const struct hk_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};
 
 int32_t hooke_run_options_create(hooke_options **options) {
-  return hooke_options_create(&run_table, options);
+  return hk_options_create(&run_table, options);
 }
 
-int32_t hooke_run_options_require(const hooke_options *options, const char *place) {
-  return hooke_options_require(options, &run_table, place, "hooke_run_options_create()");
+int32_t hk_run_options_require(const hooke_options *options, const char *place) {
+  return hk_options_require(options, &run_table, place, "hooke_run_options_create()");
 }
 
 /* ---- schedule ---- */
@@ -132,27 +132,26 @@ static double fitting_step(double value, double other, double step, int larger) 
 /* With every digit: the steps are there to be typed. */
 static int32_t refuse_step(const char *name, double value, double other, double step) {
   if (!(value / step < (double)HOOKE_MOST_STEPS))
-    return hooke_fail(HOOKE_BAD_VALUE, name,
-                      "%.17g s takes too many steps of %.17g s; allowed: fewer than %lld", value, step,
-                      (long long)HOOKE_MOST_STEPS);
+    return hk_fail(HOOKE_BAD_VALUE, name, "%.17g s takes too many steps of %.17g s; allowed: fewer than %lld",
+                   value, step, (long long)HOOKE_MOST_STEPS);
   const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
   char given[2][HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
-  hooke_number_print(value, given[0]);
-  hooke_number_print(step, given[1]);
-  hooke_number_print(isnan(below) ? above : below, low);
-  hooke_number_print(isnan(above) ? below : above, high);
+  hk_number_print(value, given[0]);
+  hk_number_print(step, given[1]);
+  hk_number_print(isnan(below) ? above : below, low);
+  hk_number_print(isnan(above) ? below : above, high);
   const int32_t none = isnan(above) && isnan(below), one = none || strcmp(low, high) == 0;
-  return hooke_fail(HOOKE_BAD_VALUE, name, "%s s is not a whole multiple of step %s s; %s%s%s%s", given[0],
-                    given[1],
-                    none  ? "no step near it fits"
-                    : one ? "the nearest step that fits is "
-                          : "the nearest steps that fit are ",
-                    none ? "" : low, one ? "" : " and ", one ? "" : high);
+  return hk_fail(HOOKE_BAD_VALUE, name, "%s s is not a whole multiple of step %s s; %s%s%s%s", given[0],
+                 given[1],
+                 none  ? "no step near it fits"
+                 : one ? "the nearest step that fits is "
+                       : "the nearest steps that fit are ",
+                 none ? "" : low, one ? "" : " and ", one ? "" : high);
 }
 
-static int32_t read_fixed(struct hooke_schedule *s, double step) {
+static int32_t read_fixed(struct hk_schedule *s, double step) {
   if (isnan(step)) {
-    return hooke_fail(HOOKE_BAD_VALUE, "step", "is missing; this method needs a step > 0 [s]");
+    return hk_fail(HOOKE_BAD_VALUE, "step", "is missing; this method needs a step > 0 [s]");
   }
   if (!isnan(s->duration) && !is_multiple(s->duration, step, &s->steps)) {
     return refuse_step("duration", s->duration, s->every, step);
@@ -163,13 +162,12 @@ static int32_t read_fixed(struct hooke_schedule *s, double step) {
   return HOOKE_OK;
 }
 
-int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *options,
-                            struct hooke_schedule *s) {
+int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options, struct hk_schedule *s) {
   const double step = hooke_options_number(options, "step");
-  *s = (struct hooke_schedule){.step = step,
-                               .duration = hooke_options_number(options, "duration"),
-                               .every = hooke_options_number(options, "every"),
-                               .checkpoint = hooke_options_number(options, "checkpoint")};
+  *s = (struct hk_schedule){.step = step,
+                            .duration = hooke_options_number(options, "duration"),
+                            .every = hooke_options_number(options, "every"),
+                            .checkpoint = hooke_options_number(options, "checkpoint")};
   s->every_given = !isnan(s->every);
   if (!method->adaptive) {
     const int32_t status = read_fixed(s, step);
@@ -186,8 +184,7 @@ int32_t hooke_schedule_read(const struct hooke_method *method, hooke_options *op
   }
   const double frames = method->adaptive ? floor(s->duration / s->every * (1.0 + 1e-9)) : 0.0;
   if (frames > 9e15) {
-    return hooke_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every,
-                      frames);
+    return hk_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every, frames);
   }
   /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1 on */
   s->frames = 1 + (method->adaptive ? (int64_t)frames : s->steps / s->frame_steps);

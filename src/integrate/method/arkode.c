@@ -18,9 +18,9 @@ static const ARKODE_DIRKTableID tables[] = {ARKODE_ESDIRK325L2SA_5_2_3, ARKODE_E
                                             ARKODE_ESDIRK547L2SA2_7_4_5};
 
 static void destroy(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   if (own->memory) ARKStepFree(&own->memory);
-  hooke_sundials_release(it);
+  hk_sundials_release(it);
 }
 
 static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
@@ -29,18 +29,18 @@ static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
   return ARKStepGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &start, &ctx);
 }
 
-static int attach_solver(hooke_integrator *it, struct hooke_sundials *own) {
+static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
   int flag = ARKStepSetLinearSolver(own->memory, own->linear, NULL);
-  if (flag == ARK_SUCCESS) flag = ARKStepSetEpsLin(own->memory, hooke_sundials_linear_share(it));
-  if (flag != ARK_SUCCESS || it->rate || hooke_sundials_linear_is_own(it)) return flag;
-  return ARKStepSetJacTimes(own->memory, hooke_sundials_product_setup, hooke_sundials_product);
+  if (flag == ARK_SUCCESS) flag = ARKStepSetEpsLin(own->memory, hk_sundials_linear_share(it));
+  if (flag != ARK_SUCCESS || it->rate || hk_sundials_linear_is_own(it)) return flag;
+  return ARKStepSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 
-static int set_up(hooke_integrator *it, struct hooke_sundials *own, int order) {
-  own->memory = ARKStepCreate(NULL, hooke_sundials_slope, 0.0, own->y, own->context);
+static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
+  own->memory = ARKStepCreate(NULL, hk_sundials_slope, 0.0, own->y, own->context);
   if (own->memory == NULL) return ARK_MEM_FAIL;
-  int flag = ARKStepSetErrHandlerFn(own->memory, hooke_sundials_message, own);
+  int flag = ARKStepSetErrHandlerFn(own->memory, hk_sundials_message, own);
   if (flag == ARK_SUCCESS) flag = ARKStepSetUserData(own->memory, it);
   if (flag == ARK_SUCCESS) {
     flag = ARKStepSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
@@ -58,54 +58,53 @@ static int set_up(hooke_integrator *it, struct hooke_sundials *own, int order) {
 
 static int32_t create(hooke_integrator *it) {
   int order;
-  int32_t status = hooke_sundials_order(it, LOWEST_ORDER, HIGHEST_ORDER, &order);
-  if (status == HOOKE_OK) status = hooke_sundials_create(it, 1, VECTORS);
+  int32_t status = hk_sundials_order(it, LOWEST_ORDER, HIGHEST_ORDER, &order);
+  if (status == HOOKE_OK) status = hk_sundials_create(it, 1, VECTORS);
   if (status != HOOKE_OK) return status;
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  return hooke_sundials_created(it, "ARKODE", flag == ARK_SUCCESS, flag == ARK_MEM_FAIL);
+  return hk_sundials_created(it, "ARKODE", flag == ARK_SUCCESS, flag == ARK_MEM_FAIL);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  const int32_t status = hooke_sundials_renew(it);
+  const int32_t status = hk_sundials_renew(it);
   if (status != HOOKE_OK) return status;
-  const struct hooke_sundials *own = it->own;
-  hooke_sundials_load(it, state);
-  if (ARKStepReInit(own->memory, NULL, hooke_sundials_slope, *state->t, own->y) == ARK_SUCCESS)
-    return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "ARKODE could not start at t = %.6g s: %s", *state->t,
-                    own->message);
+  const struct hk_sundials *own = it->own;
+  hk_sundials_load(it, state);
+  if (ARKStepReInit(own->memory, NULL, hk_sundials_slope, *state->t, own->y) == ARK_SUCCESS) return HOOKE_OK;
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "ARKODE could not start at t = %.6g s: %s", *state->t,
+                 own->message);
 }
 
 static void read_counts(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   long steps = 0, failures = 0, iterations = 0, convergence = 0, linear = 0;
   ARKStepGetNumSteps(own->memory, &steps);
   ARKStepGetNumErrTestFails(own->memory, &failures);
   ARKStepGetNonlinSolvStats(own->memory, &iterations, &convergence);
   ARKStepGetNumLinIters(own->memory, &linear);
-  hooke_sundials_count(it, (struct hooke_counts){.steps = steps,
-                                                 .error_test_failures = failures,
-                                                 .nonlinear_iterations = iterations,
-                                                 .nonlinear_failures = convergence,
-                                                 .linear_iterations = linear});
+  hk_sundials_count(it, (struct hk_counts){.steps = steps,
+                                           .error_test_failures = failures,
+                                           .nonlinear_iterations = iterations,
+                                           .nonlinear_failures = convergence,
+                                           .linear_iterations = linear});
 }
 
 /* Steps end at the goal, where the run loop wants the solution: ARKODE's interpolants have a larger error than its
  * steps. */
 static int32_t step(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   realtype reached = it->t;
   int flag = ARKStepSetStopTime(own->memory, fmin(it->goal, DBL_MAX));
   if (flag == ARK_SUCCESS)
-    flag = ARKStepEvolve(own->memory, hooke_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
+    flag = ARKStepEvolve(own->memory, hk_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
   read_counts(it);
-  return hooke_sundials_advance(it, "ARKODE", flag, reached);
+  return hk_sundials_advance(it, "ARKODE", flag, reached);
 }
 
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
-  struct hooke_sundials *own = it->own;
-  return hooke_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
+  struct hk_sundials *own = it->own;
+  return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
 #define ROW_OF_ARKODE                                                                                        \
@@ -117,7 +116,7 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
 
 #endif
 
-const struct hooke_method hooke_arkode_esdirk = {
+const struct hk_method hk_arkode_esdirk = {
     .name = "arkode-esdirk",
     .summary = "SUNDIALS ARKODE, error-controlled, implicit Runge-Kutta, orders 3 to 5; to check a reference",
     .needs = "SUNDIALS",

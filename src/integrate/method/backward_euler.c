@@ -23,32 +23,32 @@ enum { MOST_ITERATIONS = 200, LONGEST_PAUSE = 16, MEMORY = 8 };
 
 struct backward_euler {
   int32_t one_iteration;
-  struct hooke_reduced reduced;
+  struct hk_reduced reduced;
   double *start; /* q and v at the start of the step, 6 components of n */
   double *v, *change, *right,
       *moved; /* the guess, the correction, F or a right-hand side, scratch; 3n each */
 };
 
 static int32_t create(hooke_integrator *it) {
-  struct backward_euler *own = hooke_new(1, sizeof *own);
+  struct backward_euler *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
   own->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
-  own->start = hooke_new(6 * it->size, sizeof(double));
+  own->start = hk_new(6 * it->size, sizeof(double));
   if (own->start == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += 6 * it->size * (int64_t)sizeof(double);
   own->v = own->start + 2 * it->size;
   own->change = own->v + it->size;
   own->right = own->change + it->size;
   own->moved = own->right + it->size;
-  return hooke_reduced_create(it, HOOKE_REDUCED_GENERAL, &own->reduced);
+  return hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {
   struct backward_euler *own = it->own;
-  hooke_reduced_release(&own->reduced);
-  hooke_free(own->start);
-  hooke_free(own);
+  hk_reduced_release(&own->reduced);
+  hk_free(own->start);
+  hk_free(own);
   it->own = NULL;
 }
 
@@ -62,7 +62,7 @@ static double largest(int64_t count, const double *x) {
 /* The motion at velocity v (3n): q + h v, held particles at the end of the step. */
 static void place(hooke_integrator *it, const double *v) {
   const struct backward_euler *own = it->own;
-  struct hooke_motion *m = it->motion;
+  struct hk_motion *m = it->motion;
   const double h = it->schedule.step;
   for (int a = 0; a < 3; a++) {
     const double *old = own->start + a * m->n;
@@ -71,16 +71,16 @@ static void place(hooke_integrator *it, const double *v) {
       m->q[a][p] = old[p] + h * m->v[a][p];
     }
   }
-  if (it->system->held_count > 0) hooke_motion_hold(it->system, m);
+  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
 }
 
 /* right = -F at the motion's place, and its square F.M^-1 F. */
 static int32_t find_residual(hooke_integrator *it, double *square) {
   struct backward_euler *own = it->own;
   const hooke_system *system = it->system;
-  const struct hooke_motion *m = it->motion;
+  const struct hk_motion *m = it->motion;
   const double h = it->schedule.step;
-  const int32_t status = hooke_integrator_forces(it, hooke_integrator_next_time(it));
+  const int32_t status = hk_integrator_forces(it, hk_integrator_next_time(it));
   double sum = 0.0;
   for (int a = 0; a < 3; a++) {
     const double *old = own->start + (3 + a) * m->n, g = h * system->gravity[a];
@@ -113,28 +113,28 @@ static void find_moved(const hooke_integrator *it, double *dq, double *dv) {
 static int32_t linearise(hooke_integrator *it) {
   struct backward_euler *own = it->own;
   const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
-  const double h = it->schedule.step, t = hooke_integrator_next_time(it);
+  struct hk_motion *m = it->motion;
+  const double h = it->schedule.step, t = hk_integrator_next_time(it);
   const int64_t n = m->n;
   const double *old = own->start + 3 * n;
   place(it, old);
   find_moved(it, own->v, own->change);
-  hooke_motion_restore(m, own->start);
-  int32_t status = hooke_integrator_forces(it, t);
+  hk_motion_restore(m, own->start);
+  int32_t status = hk_integrator_forces(it, t);
   if (status != HOOKE_OK) return status;
   it->count.nonlinear_iterations++;
-  hooke_reduced_set(&own->reduced, t, h * h, h);
-  status = hooke_reduced_change(&own->reduced, own->v, own->change, own->moved);
+  hk_reduced_set(&own->reduced, t, h * h, h);
+  status = hk_reduced_change(&own->reduced, own->v, own->change, own->moved);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < 3 * n; k++) {
     const int64_t p = k % n;
     const double weight = system->has_gravity ? system->mass[p] * system->gravity[k / n] : 0.0;
     own->right[k] = h * ((m->f[k / n][p] + own->moved[k]) + weight);
   }
-  struct hooke_solution solution;
-  status = hooke_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
+  struct hk_solution solution;
+  status = hk_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
   if (status == HOOKE_OK && own->one_iteration && solution.residual > FAR_ENOUGH)
-    status = hooke_reduced_fail(&own->reduced, &solution);
+    status = hk_reduced_fail(&own->reduced, &solution);
   for (int64_t k = 0; k < 3 * n; k++)
     own->v[k] = old[k] + own->change[k];
   return status;
@@ -142,7 +142,7 @@ static int32_t linearise(hooke_integrator *it) {
 
 static int is_last_correction(const hooke_integrator *it) {
   const struct backward_euler *own = it->own;
-  const struct hooke_motion *m = it->motion;
+  const struct hk_motion *m = it->motion;
   const double h = it->schedule.step;
   double change = 0.0, speed = 0.0, extent = 0.0;
   for (int a = 0; a < 3; a++) {
@@ -167,7 +167,7 @@ static int32_t try_share(hooke_integrator *it, double share, double *square) {
 
 static double downhill(const hooke_integrator *it) {
   const struct backward_euler *own = it->own;
-  return hooke_dot(it->size, own->right, own->change);
+  return hk_dot(it->size, own->right, own->change);
 }
 
 /* Moves the guess along Newton's correction until F.M^-1 F is below `allowed`, the worst of the last few (Grippo,
@@ -203,9 +203,9 @@ static int32_t search(hooke_integrator *it, int newton, double least, double all
 static int32_t newton_step(hooke_integrator *it, double allowed, double *square, int *found, int *last) {
   struct backward_euler *own = it->own;
   const double h = it->schedule.step;
-  struct hooke_solution solution;
-  hooke_reduced_set(&own->reduced, hooke_integrator_next_time(it), h * h, h);
-  const int32_t status = hooke_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
+  struct hk_solution solution;
+  hk_reduced_set(&own->reduced, hk_integrator_next_time(it), h * h, h);
+  const int32_t status = hk_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
   *found = *last = 0;
   /* a correction with numbers that are none leads nowhere */
   if (status != HOOKE_OK || solution.residual > FAR_ENOUGH || !(downhill(it) >= 0.0)) return status;
@@ -223,15 +223,15 @@ static int32_t safe_step(hooke_integrator *it, double *square, int *found) {
   place(it, own->v);
   const int32_t status = find_residual(it, square);
   if (status != HOOKE_OK) return status;
-  hooke_reduced_set(&own->reduced, hooke_integrator_next_time(it), h * h, h);
-  const int32_t solved = hooke_reduced_descend(&own->reduced, own->right, SAFE_RESIDUAL, own->change);
+  hk_reduced_set(&own->reduced, hk_integrator_next_time(it), h * h, h);
+  const int32_t solved = hk_reduced_descend(&own->reduced, own->right, SAFE_RESIDUAL, own->change);
   if (solved != HOOKE_OK) return solved;
   return search(it, 0, LEAST_SAFE_SHARE, INFINITY, square, found);
 }
 
 static int32_t give_up(const hooke_integrator *it, int iterations, double first, double square,
                        const char *why) {
-  return hooke_fail(
+  return hk_fail(
       HOOKE_SOLVER_FAILED, NULL,
       "backward-euler found no solution for the step from t = %.6g s: after %d Newton iterations %s "
       "(residual %.3g, at first %.3g, in units of momentum over root mass); take a smaller step, or "
@@ -286,9 +286,9 @@ static int32_t converge(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   struct backward_euler *own = it->own;
-  const struct hooke_counts before = it->count;
-  hooke_motion_save(it->motion, own->start);
-  hooke_reduced_drop_factor(&own->reduced); /* a step hangs on its start alone */
+  const struct hk_counts before = it->count;
+  hk_motion_save(it->motion, own->start);
+  hk_reduced_drop_factor(&own->reduced); /* a step hangs on its start alone */
   int32_t status = linearise(it);
   if (status == HOOKE_OK && !own->one_iteration) status = converge(it);
   if (status == HOOKE_OK) {
@@ -297,11 +297,11 @@ static int32_t step(hooke_integrator *it) {
   }
   if (status == HOOKE_SOLVER_FAILED) it->count.nonlinear_failures++;
   if (status == HOOKE_STOPPED) it->count = before; /* whoever goes on takes the step again */
-  hooke_motion_restore(it->motion, own->start);
+  hk_motion_restore(it->motion, own->start);
   return status;
 }
 
-const struct hooke_method hooke_backward_euler = {
+const struct hk_method hk_backward_euler = {
     .name = "backward-euler",
     .summary = "fixed step, order 1, implicit; stable at every step, damps everything",
     .built = 1,
@@ -310,6 +310,6 @@ const struct hooke_method hooke_backward_euler = {
     .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
     .destroy = destroy,
-    .begin = hooke_fixed_begin,
+    .begin = hk_fixed_begin,
     .step = step,
-    .store = hooke_fixed_store};
+    .store = hk_fixed_store};

@@ -14,14 +14,14 @@
 enum { LOW_ORDER = 2, BDF_ORDER = 5, ADAMS_ORDER = 12 };
 
 static int is_bdf(const hooke_integrator *it) {
-  return it->method == &hooke_cvode_bdf;
+  return it->method == &hk_cvode_bdf;
 }
 
 static void destroy(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   if (own->memory) CVodeFree(&own->memory);
-  hooke_order_choice_release(own->choice);
-  hooke_sundials_release(it);
+  hk_order_choice_release(own->choice);
+  hk_sundials_release(it);
 }
 
 static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
@@ -31,23 +31,23 @@ static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
   return CVodeGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &scale, &first, &ctx);
 }
 
-static int attach_solver(hooke_integrator *it, struct hooke_sundials *own) {
+static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   if (!is_bdf(it)) {
     own->nonlinear = SUNNonlinSol_FixedPoint(own->y, 0, own->context);
     return own->nonlinear ? CVodeSetNonlinearSolver(own->memory, own->nonlinear) : CV_MEM_FAIL;
   }
   own->where = where;
   int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
-  if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, hooke_sundials_linear_share(it));
-  if (flag != CV_SUCCESS || it->rate || hooke_sundials_linear_is_own(it)) return flag;
-  return CVodeSetJacTimes(own->memory, hooke_sundials_product_setup, hooke_sundials_product);
+  if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, hk_sundials_linear_share(it));
+  if (flag != CV_SUCCESS || it->rate || hk_sundials_linear_is_own(it)) return flag;
+  return CVodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 
-static int set_up(hooke_integrator *it, struct hooke_sundials *own, int order) {
+static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   own->memory = CVodeCreate(is_bdf(it) ? CV_BDF : CV_ADAMS, own->context);
   if (own->memory == NULL) return CV_MEM_FAIL;
-  int flag = CVodeSetErrHandlerFn(own->memory, hooke_sundials_message, own);
-  if (flag == CV_SUCCESS) flag = CVodeInit(own->memory, hooke_sundials_slope, 0.0, own->y);
+  int flag = CVodeSetErrHandlerFn(own->memory, hk_sundials_message, own);
+  if (flag == CV_SUCCESS) flag = CVodeInit(own->memory, hk_sundials_slope, 0.0, own->y);
   if (flag == CV_SUCCESS) flag = CVodeSetUserData(own->memory, it);
   if (flag == CV_SUCCESS) {
     flag = CVodeSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
@@ -59,47 +59,47 @@ static int set_up(hooke_integrator *it, struct hooke_sundials *own, int order) {
 static int32_t create(hooke_integrator *it) {
   const int highest = is_bdf(it) ? BDF_ORDER : ADAMS_ORDER;
   int order;
-  int32_t status = hooke_sundials_order(it, 1, highest, &order);
+  int32_t status = hk_sundials_order(it, 1, highest, &order);
   /* counted as far as a run of middling order touches its history */
-  if (status == HOOKE_OK) status = hooke_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
-  if (status == HOOKE_OK && is_bdf(it)) status = hooke_order_choice_create(it);
+  if (status == HOOKE_OK) status = hk_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
+  if (status == HOOKE_OK && is_bdf(it)) status = hk_order_choice_create(it);
   if (status != HOOKE_OK) return status;
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  return hooke_sundials_created(it, "CVODE", flag == CV_SUCCESS, flag == CV_MEM_FAIL);
+  return hk_sundials_created(it, "CVODE", flag == CV_SUCCESS, flag == CV_MEM_FAIL);
 }
 
 static int32_t start(hooke_integrator *it, double t) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   int flag = CVodeReInit(own->memory, t, own->y);
   if (flag == CV_SUCCESS && own->choice)
     flag = CVodeSetMaxOrd(own->memory, own->choice->low ? LOW_ORDER : BDF_ORDER);
   if (flag == CV_SUCCESS) return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.6g s: %s", t, own->message);
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE could not start at t = %.6g s: %s", t, own->message);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  const int32_t status = hooke_sundials_renew(it);
+  const int32_t status = hk_sundials_renew(it);
   if (status != HOOKE_OK) return status;
-  const struct hooke_sundials *own = it->own;
-  hooke_sundials_load(it, state);
-  if (own->choice) hooke_order_choice_begin(own->choice, *state->t);
+  const struct hk_sundials *own = it->own;
+  hk_sundials_load(it, state);
+  if (own->choice) hk_order_choice_begin(own->choice, *state->t);
   return start(it, *state->t);
 }
 
 /* CVODE writes over its history if the highest order falls below the present one, so it starts again. */
 static int32_t choose_order(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   const int32_t low = own->choice->low;
   if (CVodeGetDky(own->memory, it->t, 0, own->y) != CV_SUCCESS) return HOOKE_OK;
-  const int32_t status = hooke_order_choice_look(it, N_VGetArrayPointer(own->y));
+  const int32_t status = hk_order_choice_look(it, N_VGetArrayPointer(own->y));
   if (status != HOOKE_OK || own->choice->low == low) return status;
   own->before = it->count;
   return start(it, it->t);
 }
 
 static void read_counts(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   long steps = 0, evaluations, setups, failures = 0, iterations = 0, convergence = 0, linear = 0;
   int order, next_order;
   realtype first, last, next, now;
@@ -107,31 +107,31 @@ static void read_counts(hooke_integrator *it) {
                           &last, &next, &now);
   CVodeGetNonlinSolvStats(own->memory, &iterations, &convergence);
   if (own->linear) CVodeGetNumLinIters(own->memory, &linear);
-  hooke_sundials_count(it, (struct hooke_counts){.steps = steps,
-                                                 .error_test_failures = failures,
-                                                 .nonlinear_iterations = iterations,
-                                                 .nonlinear_failures = convergence,
-                                                 .linear_iterations = linear});
+  hk_sundials_count(it, (struct hk_counts){.steps = steps,
+                                           .error_test_failures = failures,
+                                           .nonlinear_iterations = iterations,
+                                           .nonlinear_failures = convergence,
+                                           .linear_iterations = linear});
 }
 
 static int32_t step(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
-  if (own->choice && it->k > 0 && hooke_order_choice_is_due(own->choice, it->t)) {
+  struct hk_sundials *own = it->own;
+  if (own->choice && it->k > 0 && hk_order_choice_is_due(own->choice, it->t)) {
     const int32_t status = choose_order(it);
     if (status != HOOKE_OK) return status;
   }
   realtype reached = it->t;
-  const int flag = CVode(own->memory, hooke_sundials_towards(it), own->y, &reached, CV_ONE_STEP);
+  const int flag = CVode(own->memory, hk_sundials_towards(it), own->y, &reached, CV_ONE_STEP);
   read_counts(it);
-  return hooke_sundials_advance(it, "CVODE", flag, reached);
+  return hk_sundials_advance(it, "CVODE", flag, reached);
 }
 
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   if (CVodeGetDky(own->memory, t, 0, own->y) != CV_SUCCESS) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.6g s: %s", t, own->message);
+    return hk_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.6g s: %s", t, own->message);
   }
-  return hooke_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
+  return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
 #define ROW_OF_CVODE                                                                                         \
@@ -144,12 +144,12 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
 
 #endif
 
-const struct hooke_method hooke_cvode_bdf = {
+const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",
     .summary = "SUNDIALS CVODE, error-controlled, implicit, orders 1 to 5; for strong damping",
     ROW_OF_CVODE};
 
-const struct hooke_method hooke_cvode_adams = {
+const struct hk_method hk_cvode_adams = {
     .name = "cvode-adams",
     .summary = "SUNDIALS CVODE, error-controlled, explicit in effect, orders 1 to 12; for weak damping",
     ROW_OF_CVODE};

@@ -26,37 +26,37 @@ static const double LOOSE_RTOL = 1e-6, LONG = 2.0, SHORT = 1.0;
 /* Cosine of 86.03 degrees: Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section V.2. */
 static const double DAMPING_OF_ORDER_3 = 0.0692;
 
-int32_t hooke_order_choice_create(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+int32_t hk_order_choice_create(hooke_integrator *it) {
+  struct hk_sundials *own = it->own;
   if (it->rate || own->unknowns.free_count == 0 || !isnan(hooke_options_number(it->options, "max_order")) ||
       hooke_options_number(it->options, "rtol") < LOOSE_RTOL)
     return HOOKE_OK;
-  own->choice = hooke_new(1, sizeof *own->choice);
+  own->choice = hk_new(1, sizeof *own->choice);
   if (own->choice == NULL) return HOOKE_NO_MEMORY;
-  own->choice->scratch = hooke_new(2 * own->unknowns.size, sizeof(double));
+  own->choice->scratch = hk_new(2 * own->unknowns.size, sizeof(double));
   it->own_memory += 2 * own->unknowns.size * (int64_t)sizeof(double);
   return own->choice->scratch ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-void hooke_order_choice_release(struct hooke_order_choice *choice) {
+void hk_order_choice_release(struct hk_order_choice *choice) {
   if (choice == NULL) return;
-  hooke_free(choice->scratch);
-  hooke_free(choice);
+  hk_free(choice->scratch);
+  hk_free(choice);
 }
 
-void hooke_order_choice_begin(struct hooke_order_choice *c, double t) {
-  *c = (struct hooke_order_choice){.window_begun = t, .quiet_next = QUIET, .scratch = c->scratch};
+void hk_order_choice_begin(struct hk_order_choice *c, double t) {
+  *c = (struct hk_order_choice){.window_begun = t, .quiet_next = QUIET, .scratch = c->scratch};
 }
 
 /* ---- the fastest modes ---- */
 
 /* Both over the unknowns that are velocities; x and p are its scratch. */
-static double product_of(const hooke_integrator *it, const struct hooke_unknowns *u, const double *x,
+static double product_of(const hooke_integrator *it, const struct hk_unknowns *u, const double *x,
                          const double *p) {
   double sum = 0.0;
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
-      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *mass = it->system->mass + s->particle;
       const int64_t from = a * u->free_count + s->place;
       for (int64_t j = 0; j < s->count; j++)
@@ -69,20 +69,20 @@ static double product_of(const hooke_integrator *it, const struct hooke_unknowns
 /* Power iterations with the derivative of the forces by the positions, from numbers that prefer no direction; then the
  * damping of what they have come to. A few are enough: it is the mean over the fastest modes that counts. Frequency 0
  * where nothing is stiff. */
-static int32_t find_fastest_modes(hooke_integrator *it, struct hooke_order_choice *c, const double *y) {
-  const struct hooke_unknowns *u = &((const struct hooke_sundials *)it->own)->unknowns;
+static int32_t find_fastest_modes(hooke_integrator *it, struct hk_order_choice *c, const double *y) {
+  const struct hk_unknowns *u = &((const struct hk_sundials *)it->own)->unknowns;
   const int64_t half = u->size / 2;
   c->frequency = c->damping = 0.0;
   double *x = c->scratch, *p = x + u->size, squared = 0.0;
   uint64_t number = 1;
-  if (hooke_unknowns_linearise(it, u, it->t, y) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+  if (hk_unknowns_linearise(it, u, it->t, y) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
   for (int64_t k = 0; k < half; k++) {
     number = number * 6364136223846793005u + 1442695040888963407u; /* Knuth's MMIX */
     x[k] = (double)(number >> 40) / 8388608.0 - 1.0;
     x[half + k] = 0.0;
   }
   for (int i = 0; i < ITERATIONS; i++) {
-    if (hooke_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+    if (hk_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
     const double size = product_of(it, u, x, x), grown = product_of(it, u, p + half, p + half);
     squared = sqrt(grown / size);
     if (!(squared > 0.0) || !isfinite(squared)) return HOOKE_OK;
@@ -93,7 +93,7 @@ static int32_t find_fastest_modes(hooke_integrator *it, struct hooke_order_choic
     x[half + k] = x[k];
     x[k] = 0.0;
   }
-  if (hooke_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
+  if (hk_unknowns_product(it, u, it->t, x, p) != HOOKE_SLOPE_FINE) return HOOKE_STOPPED;
   const double rate = -product_of(it, u, x + half, p + half) / product_of(it, u, x + half, x + half);
   if (!isfinite(rate)) return HOOKE_OK;
   c->frequency = sqrt(squared);
@@ -103,7 +103,7 @@ static int32_t find_fastest_modes(hooke_integrator *it, struct hooke_order_choic
 
 /* ---- the choice ---- */
 
-int32_t hooke_order_choice_is_due(struct hooke_order_choice *c, double t) {
+int32_t hk_order_choice_is_due(struct hk_order_choice *c, double t) {
   c->steps++;
   if (++c->window_steps < (c->low ? LOW_WINDOW : WINDOW)) return 0;
   if (c->steps >= (c->low ? LOW_START : c->quiet_until)) return 1;
@@ -112,15 +112,15 @@ int32_t hooke_order_choice_is_due(struct hooke_order_choice *c, double t) {
   return 0;
 }
 
-static void change(struct hooke_order_choice *c, int32_t low) {
+static void change(struct hk_order_choice *c, int32_t low) {
   c->low = low;
   c->steps = c->looks = c->short_windows = 0;
   c->quiet_until = low ? 0 : c->quiet_next;
   if (!low && c->quiet_next < INT64_MAX / 8) c->quiet_next *= 4;
 }
 
-int32_t hooke_order_choice_look(hooke_integrator *it, const double *y) {
-  struct hooke_order_choice *c = ((struct hooke_sundials *)it->own)->choice;
+int32_t hk_order_choice_look(hooke_integrator *it, const double *y) {
+  struct hk_order_choice *c = ((struct hk_sundials *)it->own)->choice;
   const double step = (it->t - c->window_begun) / (double)c->window_steps;
   c->window_steps = 0;
   c->window_begun = it->t;
@@ -141,5 +141,5 @@ int32_t hooke_order_choice_look(hooke_integrator *it, const double *y) {
 }
 
 #else
-typedef int hooke_cvode_order_is_not_built;
+typedef int hk_cvode_order_is_not_built;
 #endif

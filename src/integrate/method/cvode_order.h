@@ -4,7 +4,7 @@
 
 #include "integrate/solve/sundials_problem.h"
 
-struct hooke_order_choice {
+struct hk_order_choice {
   int32_t low;           /* 1: order 2 is the highest for now */
   int64_t steps, looks;  /* since the order was last chosen: steps, windows of steps that were looked at */
   int64_t window_steps;  /* steps in the window that is filling, and the time at which it began */
@@ -18,15 +18,15 @@ struct hooke_order_choice {
 
 /* Makes own->choice if there is anything to choose: the options leave max_order open and rtol is not tight.
  * HOOKE_NO_MEMORY. */
-int32_t hooke_order_choice_create(hooke_integrator *integrator);
-void hooke_order_choice_release(struct hooke_order_choice *choice);
+int32_t hk_order_choice_create(hooke_integrator *integrator);
+void hk_order_choice_release(struct hk_order_choice *choice);
 
 /* Starts anew at time t with orders up to 5. */
-void hooke_order_choice_begin(struct hooke_order_choice *choice, double t);
+void hk_order_choice_begin(struct hk_order_choice *choice, double t);
 /* Counts a step that reached time t: 1 if it is time to look. */
-int32_t hooke_order_choice_is_due(struct hooke_order_choice *choice, double t);
+int32_t hk_order_choice_is_due(struct hk_order_choice *choice, double t);
 /* Looks, with the solution y at the integrator's time; where that changes `low` the solver is to start again from there.
  * HOOKE_STOPPED by a callback. */
-int32_t hooke_order_choice_look(hooke_integrator *integrator, const double *y);
+int32_t hk_order_choice_look(hooke_integrator *integrator, const double *y);
 
 #endif

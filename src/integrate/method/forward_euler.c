@@ -4,23 +4,23 @@
 #include "kernel/step_loops.h"
 
 static int32_t step_rate(hooke_integrator *it) {
-  const int32_t status = hooke_integrator_rate(it, it->t, it->x, it->slope);
-  if (status == HOOKE_OK) hooke_advance(it->size, it->schedule.step, it->slope, it->x);
+  const int32_t status = hk_integrator_rate(it, it->t, it->x, it->slope);
+  if (status == HOOKE_OK) hk_advance(it->size, it->schedule.step, it->slope, it->x);
   return status;
 }
 
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
-  return hooke_integrator_move(it, HOOKE_DRIFT_THEN_KICK);
+  return hk_integrator_move(it, HOOKE_DRIFT_THEN_KICK);
 }
 
-const struct hooke_method hooke_forward_euler = {.name = "forward-euler",
-                                                 .summary = "fixed step, order 1; unstable without damping",
-                                                 .built = 1,
-                                                 .order = 1,
-                                                 .first_order = 1,
-                                                 .second_order = 1,
-                                                 .by_tiles = 1,
-                                                 .begin = hooke_fixed_begin,
-                                                 .step = step,
-                                                 .store = hooke_fixed_store};
+const struct hk_method hk_forward_euler = {.name = "forward-euler",
+                                           .summary = "fixed step, order 1; unstable without damping",
+                                           .built = 1,
+                                           .order = 1,
+                                           .first_order = 1,
+                                           .second_order = 1,
+                                           .by_tiles = 1,
+                                           .begin = hk_fixed_begin,
+                                           .step = step,
+                                           .store = hk_fixed_store};

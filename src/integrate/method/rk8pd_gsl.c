@@ -19,8 +19,8 @@
 
 enum { ARRAYS_OF_GSL = 16 }; /* 13 stages, 2 states, the tolerances */
 
-struct hooke_rk8pd {
-  struct hooke_unknowns unknowns;
+struct hk_rk8pd {
+  struct hk_unknowns unknowns;
   gsl_odeiv2_system system;
   gsl_odeiv2_step *stepper;
   gsl_odeiv2_control *control;
@@ -31,62 +31,62 @@ struct hooke_rk8pd {
 
 static int slope(double t, const double *y, double *to, void *ctx) {
   hooke_integrator *it = ctx;
-  const struct hooke_rk8pd *own = it->own;
-  const int answer = hooke_unknowns_slope(it, &own->unknowns, t, y, to);
+  const struct hk_rk8pd *own = it->own;
+  const int answer = hk_unknowns_slope(it, &own->unknowns, t, y, to);
   return answer == HOOKE_SLOPE_FINE ? GSL_SUCCESS : GSL_FAILURE;
 }
 
 static void destroy(hooke_integrator *it) {
-  struct hooke_rk8pd *own = it->own;
+  struct hk_rk8pd *own = it->own;
   if (own->stepper) gsl_odeiv2_step_free(own->stepper);
   if (own->control) gsl_odeiv2_control_free(own->control);
-  hooke_unknowns_release(&own->unknowns);
-  hooke_free(own->y);
-  hooke_free(own);
+  hk_unknowns_release(&own->unknowns);
+  hk_free(own->y);
+  hk_free(own);
   it->own = NULL;
 }
 
-static int32_t create_gsl(struct hooke_rk8pd *own) {
+static int32_t create_gsl(struct hk_rk8pd *own) {
   const size_t size = own->system.dimension;
-  void *room = hooke_new((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double));
+  void *room = hk_new((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
-  hooke_free(room);
+  hk_free(room);
   own->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
   own->control = gsl_odeiv2_control_scaled_new(1.0, own->rtol, 1.0, 0.0, own->tolerance, size);
   if (own->stepper && own->control) return HOOKE_OK;
-  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for rk8pd on %lld numbers", (long long)size);
+  return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for rk8pd on %lld numbers", (long long)size);
 }
 
 static int32_t create(hooke_integrator *it) {
-  struct hooke_rk8pd *own = hooke_new(1, sizeof *own);
+  struct hk_rk8pd *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  const int32_t status = hooke_unknowns_create(it, 0, &own->unknowns);
+  const int32_t status = hk_unknowns_create(it, 0, &own->unknowns);
   if (status != HOOKE_OK) return status;
   const int64_t size = own->unknowns.size;
   double **const arrays[] = {&own->y,          &own->before, &own->slope,
                              &own->next_slope, &own->error,  &own->tolerance};
   const int64_t count = sizeof arrays / sizeof arrays[0];
-  double *block = hooke_new(count * size, sizeof(double));
+  double *block = hk_new(count * size, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++)
     *arrays[k] = block + k * size;
   it->own_memory += (count + ARRAYS_OF_GSL) * size * (int64_t)sizeof(double);
   own->rtol = hooke_options_number(it->options, "rtol");
-  hooke_unknowns_tolerance(it, &own->unknowns, own->tolerance);
+  hk_unknowns_tolerance(it, &own->unknowns, own->tolerance);
   own->system = (gsl_odeiv2_system){.function = slope, .dimension = (size_t)size, .params = it};
   return create_gsl(own);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  struct hooke_rk8pd *own = it->own;
-  hooke_unknowns_load(it, &own->unknowns, state, own->y);
+  struct hk_rk8pd *own = it->own;
+  hk_unknowns_load(it, &own->unknowns, state, own->y);
   own->step = 0.0;
   return HOOKE_OK;
 }
 
 /* Largest |value| in units of what one step may leave as error. */
-static double weighed(const struct hooke_rk8pd *own, const double *value) {
+static double weighed(const struct hk_rk8pd *own, const double *value) {
   double most = 0.0;
   for (int64_t k = 0; k < own->unknowns.size; k++)
     most = fmax(most, fabs(value[k]) / (own->tolerance[k] + own->rtol * fabs(own->y[k])));
@@ -95,12 +95,12 @@ static double weighed(const struct hooke_rk8pd *own, const double *value) {
 
 /* The slope at the start, and a first step of one per cent of the time in which y would change by itself (Hairer,
  * Norsett and Wanner 1993, section II.4). */
-static int32_t start(hooke_integrator *it, struct hooke_rk8pd *own) {
-  const int answer = hooke_unknowns_slope(it, &own->unknowns, it->t, own->y, own->slope);
+static int32_t start(hooke_integrator *it, struct hk_rk8pd *own) {
+  const int answer = hk_unknowns_slope(it, &own->unknowns, it->t, own->y, own->slope);
   if (answer == HOOKE_SLOPE_STOPPED) return HOOKE_STOPPED;
   if (answer == HOOKE_SLOPE_NOT_FINITE) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "rk8pd cannot start at t = %.6g s: a force is not finite",
-                      it->t);
+    return hk_fail(HOOKE_SOLVER_FAILED, NULL, "rk8pd cannot start at t = %.6g s: a force is not finite",
+                   it->t);
   }
   const double size = weighed(own, own->y), rate = weighed(own, own->slope);
   own->step = size > 1e-5 && rate > 1e-5 ? 0.01 * size / rate : 1e-6;
@@ -108,7 +108,7 @@ static int32_t start(hooke_integrator *it, struct hooke_rk8pd *own) {
 }
 
 /* One attempt at a step of h to time `end`: 1 if it holds, 0 if it is undone; own->step is the next to try. */
-static int32_t attempt(hooke_integrator *it, struct hooke_rk8pd *own, double h, double end) {
+static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, double end) {
   const size_t bytes = own->system.dimension * sizeof(double);
   memcpy(own->before, own->y, bytes);
   own->step = h;
@@ -132,7 +132,7 @@ static int32_t attempt(hooke_integrator *it, struct hooke_rk8pd *own, double h, 
 /* Steps end at the goal, where the run loop wants the solution: nothing is interpolated. Two equal steps to it rather
  * than a long and a short one. */
 static int32_t step(hooke_integrator *it) {
-  struct hooke_rk8pd *own = it->own;
+  struct hk_rk8pd *own = it->own;
   if (own->step == 0.0) {
     const int32_t status = start(it, own);
     if (status != HOOKE_OK) return status;
@@ -142,11 +142,10 @@ static int32_t step(hooke_integrator *it) {
     const int32_t reaches = own->step >= left;
     const double h = reaches ? left : fmin(own->step, 0.5 * left), end = reaches ? it->goal : it->t + h;
     if (!(end > it->t)) {
-      return hooke_fail(
-          HOOKE_SOLVER_FAILED, NULL,
-          "rk8pd gave up at t = %.6g s: its step would be %.3g s, too small to change the time; "
-          "loosen rtol and atol, or look for a force that is not finite",
-          it->t, own->step);
+      return hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                     "rk8pd gave up at t = %.6g s: its step would be %.3g s, too small to change the time; "
+                     "loosen rtol and atol, or look for a force that is not finite",
+                     it->t, own->step);
     }
     if (attempt(it, own, h, end)) return HOOKE_OK;
     if (it->stop_value != 0) return HOOKE_STOPPED;
@@ -154,8 +153,8 @@ static int32_t step(hooke_integrator *it) {
 }
 
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
-  const struct hooke_rk8pd *own = it->own;
-  return hooke_unknowns_store(it, &own->unknowns, t, own->y, state);
+  const struct hk_rk8pd *own = it->own;
+  return hk_unknowns_store(it, &own->unknowns, t, own->y, state);
 }
 
 #define ROW_OF_RK8PD                                                                                         \
@@ -167,7 +166,7 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
 
 #endif
 
-const struct hooke_method hooke_rk8pd = {
+const struct hk_method hk_rk8pd = {
     .name = "rk8pd",
     .summary = "GSL, error-controlled, explicit Runge-Kutta, order 8; to check a reference",
     .needs = "GSL",

@@ -3,16 +3,15 @@
 #include "integrate/integrator.h"
 
 static int32_t step(hooke_integrator *it) {
-  return hooke_integrator_move(it, HOOKE_KICK_THEN_DRIFT);
+  return hk_integrator_move(it, HOOKE_KICK_THEN_DRIFT);
 }
 
-const struct hooke_method hooke_symplectic_euler = {.name = "symplectic-euler",
-                                                    .summary =
-                                                        "fixed step, order 1; keeps undamped motion bounded",
-                                                    .built = 1,
-                                                    .order = 1,
-                                                    .second_order = 1,
-                                                    .by_tiles = 1,
-                                                    .begin = hooke_fixed_begin,
-                                                    .step = step,
-                                                    .store = hooke_fixed_store};
+const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",
+                                              .summary = "fixed step, order 1; keeps undamped motion bounded",
+                                              .built = 1,
+                                              .order = 1,
+                                              .second_order = 1,
+                                              .by_tiles = 1,
+                                              .begin = hk_fixed_begin,
+                                              .step = step,
+                                              .store = hk_fixed_store};

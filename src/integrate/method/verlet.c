@@ -18,41 +18,41 @@ static const double RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t damped, callback;
-  int32_t kept; /* motion->f is the force of the springs at q, to which only drag is missing */
-  struct hooke_reduced reduced; /* damped */
-  double *start;                /* damped or callback: q and v at the start of the step */
-  double *right, *change;       /* damped: 3n each */
+  int32_t kept;              /* motion->f is the force of the springs at q, to which only drag is missing */
+  struct hk_reduced reduced; /* damped */
+  double *start;             /* damped or callback: q and v at the start of the step */
+  double *right, *change;    /* damped: 3n each */
 };
 
 static int32_t create(hooke_integrator *it) {
-  struct verlet *own = hooke_new(1, sizeof *own);
+  struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->damped = hooke_springs_are_damped(&it->system->springs) || it->system->altitudes.damped;
+  own->damped = hk_springs_are_damped(&it->system->springs) || it->system->altitudes.damped;
   own->callback = it->system->force != NULL;
   if (!own->damped && !own->callback) return HOOKE_OK;
   const int64_t numbers = (own->damped ? 4 : 2) * it->size;
-  own->start = hooke_new(numbers, sizeof(double));
+  own->start = hk_new(numbers, sizeof(double));
   if (own->start == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   if (!own->damped) return HOOKE_OK;
   own->right = own->start + 2 * it->size;
   own->change = own->right + it->size;
-  return hooke_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
+  return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {
   struct verlet *own = it->own;
-  hooke_reduced_release(&own->reduced);
-  hooke_free(own->start);
-  hooke_free(own);
+  hk_reduced_release(&own->reduced);
+  hk_free(own->start);
+  hk_free(own);
   it->own = NULL;
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   struct verlet *own = it->own;
   own->kept = 0;
-  return hooke_fixed_begin(it, state);
+  return hk_fixed_begin(it, state);
 }
 
 static const double *gravity(const hooke_system *system, int axis) {
@@ -63,19 +63,19 @@ static const double *gravity(const hooke_system *system, int axis) {
  * has left, and drag: the same sum to the bit. */
 static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
-  if (own->damped || own->callback) return hooke_integrator_forces(it, it->t);
-  const int32_t status = own->kept ? HOOKE_OK : hooke_integrator_forces_without(it, it->t, &hooke_force_drag);
+  if (own->damped || own->callback) return hk_integrator_forces(it, it->t);
+  const int32_t status = own->kept ? HOOKE_OK : hk_integrator_forces_without(it, it->t, &hk_force_drag);
   if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as the run counted it that came here */
   own->kept = 0;
   if (status != HOOKE_OK || it->system->drag == 0.0) return status;
-  return hooke_force_drag.add(it->system, it->motion, it->t);
+  return hk_force_drag.add(it->system, it->motion, it->t);
 }
 
 /* The second kick of damped springs. */
 static int32_t solve(hooke_integrator *it) {
   struct verlet *own = it->own;
   const hooke_system *system = it->system;
-  const struct hooke_motion *m = it->motion;
+  const struct hk_motion *m = it->motion;
   const double half = it->schedule.step / 2.0;
   for (int a = 0; a < 3; a++) {
     double *right = own->right + a * m->n;
@@ -83,10 +83,10 @@ static int32_t solve(hooke_integrator *it) {
       right[p] =
           half * (system->has_gravity ? m->f[a][p] + system->mass[p] * system->gravity[a] : m->f[a][p]);
   }
-  hooke_reduced_set(&own->reduced, hooke_integrator_next_time(it), 0.0, half);
-  struct hooke_solution solution;
-  int32_t status = hooke_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
-  if (status == HOOKE_OK && !solution.converged) status = hooke_reduced_fail(&own->reduced, &solution);
+  hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, half);
+  struct hk_solution solution;
+  int32_t status = hk_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
+  if (status == HOOKE_OK && !solution.converged) status = hk_reduced_fail(&own->reduced, &solution);
   for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
     for (int64_t p = 0; p < m->n; p++)
       m->v[a][p] += own->change[a * m->n + p];
@@ -97,25 +97,25 @@ static int32_t solve(hooke_integrator *it) {
 static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   (void)ctx;
   const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
+  struct hk_motion *m = it->motion;
   const double half = it->schedule.step / 2.0, *w = system->inverse_mass + from;
   for (int a = 0; a < 3; a++) {
     if (system->drag > 0.0)
-      hooke_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
+      hk_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
     else
-      hooke_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
+      hk_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
   }
 }
 
 static int32_t second_kick(hooke_integrator *it) {
   struct verlet *own = it->own;
-  const double t = hooke_integrator_next_time(it);
+  const double t = hk_integrator_next_time(it);
   if (own->damped) {
-    const int32_t status = hooke_integrator_forces(it, t);
+    const int32_t status = hk_integrator_forces(it, t);
     return status == HOOKE_OK ? solve(it) : status;
   }
-  const int32_t status = hooke_integrator_forces_without(it, t, &hooke_force_drag);
-  if (status == HOOKE_OK) hooke_integrator_each(it, kick, NULL);
+  const int32_t status = hk_integrator_forces_without(it, t, &hk_force_drag);
+  if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
   own->kept = status == HOOKE_OK;
   return status;
 }
@@ -123,28 +123,28 @@ static int32_t second_kick(hooke_integrator *it) {
 static void kick_and_drift(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   (void)ctx;
   const hooke_system *system = it->system;
-  struct hooke_motion *m = it->motion;
+  struct hk_motion *m = it->motion;
   const double h = it->schedule.step;
   for (int a = 0; a < 3; a++) {
-    hooke_kick_and_drift(count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from, gravity(system, a),
-                         m->q[a] + from, m->v[a] + from);
+    hk_kick_and_drift(count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from, gravity(system, a),
+                      m->q[a] + from, m->v[a] + from);
   }
 }
 
 static int32_t step(hooke_integrator *it) {
   const struct verlet *own = it->own;
-  struct hooke_motion *m = it->motion;
-  if (own->start) hooke_motion_save(m, own->start);
+  struct hk_motion *m = it->motion;
+  if (own->start) hk_motion_save(m, own->start);
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
-  hooke_integrator_each(it, kick_and_drift, NULL);
-  if (it->system->held_count > 0) hooke_motion_hold(it->system, m);
+  hk_integrator_each(it, kick_and_drift, NULL);
+  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);
-  if (status != HOOKE_OK && own->start) hooke_motion_restore(m, own->start);
+  if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
   return status;
 }
 
-const struct hooke_method hooke_verlet = {
+const struct hk_method hk_verlet = {
     .name = "verlet",
     .summary = "fixed step, order 2; keeps undamped motion bounded, damping implicit",
     .built = 1,
@@ -154,4 +154,4 @@ const struct hooke_method hooke_verlet = {
     .destroy = destroy,
     .begin = begin,
     .step = step,
-    .store = hooke_fixed_store};
+    .store = hk_fixed_store};

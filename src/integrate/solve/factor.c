@@ -15,34 +15,34 @@ struct place {
   int32_t column, first;
 };
 
-struct hooke_factor {
+struct hk_factor {
   const hooke_system *system;
   int32_t free_count;
   int32_t *particle,
-      *position; /* the free particles in order; where each is in it, -1 for those that are held */
-  struct hooke_columns matrix; /* S, in order */
+      *position;            /* the free particles in order; where each is in it, -1 for those that are held */
+  struct hk_columns matrix; /* S, in order */
   struct place *spring, *triple,
       *tetrahedron; /* of each spring; of the pairs 01, 12, 20 of each triple of bending; of the pairs
                                                   01, 02, 12, 03, 13, 23 of each tetrahedron */
-  struct hooke_cholmod *cholmod;
-  struct hooke_triangle triangle;
+  struct hk_cholmod *cholmod;
+  struct hk_triangle triangle;
   double *vector;
   double numbers, products;
   int64_t bytes;
 };
 
 static int32_t no_memory(void) {
-  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a sparse factor");
+  return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a sparse factor");
 }
 
-static void *take(struct hooke_factor *x, int64_t count, size_t size) {
+static void *take(struct hk_factor *x, int64_t count, size_t size) {
   x->bytes += count * (int64_t)size;
-  return hooke_new(count, size);
+  return hk_new(count, size);
 }
 
 /* ---- once ---- */
 
-static void number_free(struct hooke_factor *x) {
+static void number_free(struct hk_factor *x) {
   x->free_count = 0;
   for (int64_t p = 0; p < x->system->particle_count; p++) {
     x->position[p] = -1;
@@ -54,8 +54,8 @@ static void number_free(struct hooke_factor *x) {
 
 /* The upper triangle of blocks in the present order: a row in each column for every earlier neighbour, ascending, and for
  * the particle itself. */
-static void fill_blocks(const struct hooke_factor *x, const struct hooke_pattern *pattern,
-                        const struct hooke_columns *blocks) {
+static void fill_blocks(const struct hk_factor *x, const struct hk_pattern *pattern,
+                        const struct hk_columns *blocks) {
   int32_t count = 0;
   for (int32_t k = 0; k < x->free_count; k++) {
     const int32_t p = x->particle[k], first = count;
@@ -72,22 +72,22 @@ static void fill_blocks(const struct hooke_factor *x, const struct hooke_pattern
   blocks->start[x->free_count] = count;
 }
 
-static int reorder(struct hooke_factor *x, const struct hooke_columns *blocks) {
-  int32_t *order = hooke_new(x->free_count, sizeof *order);
-  const int fine = order && hooke_cholmod_order(blocks, order);
+static int reorder(struct hk_factor *x, const struct hk_columns *blocks) {
+  int32_t *order = hk_new(x->free_count, sizeof *order);
+  const int fine = order && hk_cholmod_order(blocks, order);
   for (int32_t k = 0; fine && k < x->free_count; k++)
     order[k] = x->particle[order[k]];
   for (int32_t k = 0; fine && k < x->free_count; k++) {
     x->particle[k] = order[k];
     x->position[order[k]] = k;
   }
-  hooke_free(order);
+  hk_free(order);
   return fine;
 }
 
 /* Three columns and rows of numbers for each of blocks. */
-static int make_matrix(struct hooke_factor *x, const struct hooke_columns *blocks) {
-  struct hooke_columns *m = &x->matrix;
+static int make_matrix(struct hk_factor *x, const struct hk_columns *blocks) {
+  struct hk_columns *m = &x->matrix;
   const int64_t numbers = 9 * (int64_t)blocks->start[x->free_count];
   m->size = 3 * x->free_count;
   m->start = take(x, (int64_t)m->size + 1, sizeof *m->start);
@@ -106,7 +106,7 @@ static int make_matrix(struct hooke_factor *x, const struct hooke_columns *block
   return 1;
 }
 
-static struct place find_place(const struct hooke_factor *x, int64_t one, int64_t other) {
+static struct place find_place(const struct hk_factor *x, int64_t one, int64_t other) {
   const int32_t a = x->position[one], b = x->position[other];
   if (a < 0 || b < 0) return (struct place){-1, 0};
   const int32_t column = 3 * (a > b ? a : b), earlier = 3 * (a > b ? b : a);
@@ -122,22 +122,22 @@ static struct place find_place(const struct hooke_factor *x, int64_t one, int64_
   return (struct place){column, low - start};
 }
 
-static int locate_blocks(struct hooke_factor *x) {
-  const struct hooke_springs *springs = &x->system->springs;
+static int locate_blocks(struct hk_factor *x) {
+  const struct hk_springs *springs = &x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
   x->triple = take(x, 3 * x->system->bending.count, sizeof *x->triple);
   x->tetrahedron = take(x, 6 * x->system->altitudes.count, sizeof *x->tetrahedron);
   if (x->spring == NULL || x->triple == NULL || x->tetrahedron == NULL) return 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
+    const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       x->spring[run->first + k] = find_place(x, spring.head, spring.tail);
     }
   }
-  struct hooke_triple triple;
+  struct hk_triple triple;
   struct place *place = x->triple;
-  for (struct hooke_triples at = {&x->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+  for (struct hk_triples at = {&x->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++)
       *place++ = find_place(x, triple.particle[e], triple.particle[(e + 1) % 3]);
   }
@@ -152,8 +152,8 @@ static int locate_blocks(struct hooke_factor *x) {
   return 1;
 }
 
-static void count_numbers(struct hooke_factor *x) {
-  const int32_t *count = hooke_cholmod_counts(x->cholmod);
+static void count_numbers(struct hk_factor *x) {
+  const int32_t *count = hk_cholmod_counts(x->cholmod);
   for (int32_t k = 0; k < x->matrix.size; k++) {
     x->numbers += count[k];
     x->products += 0.5 * count[k] * count[k];
@@ -161,9 +161,9 @@ static void count_numbers(struct hooke_factor *x) {
 }
 
 /* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
-static int make_triangle(struct hooke_factor *x) {
-  struct hooke_triangle *l = &x->triangle;
-  const int32_t *count = hooke_cholmod_counts(x->cholmod);
+static int make_triangle(struct hk_factor *x) {
+  struct hk_triangle *l = &x->triangle;
+  const int32_t *count = hk_cholmod_counts(x->cholmod);
   l->count = x->free_count;
   l->begin = take(x, l->count + 1, sizeof *l->begin);
   for (int64_t k = 0; l->begin && k < l->count; k++)
@@ -178,85 +178,85 @@ static int make_triangle(struct hooke_factor *x) {
 }
 
 /* 1 with the factor found to be small enough, -1 where it is not. */
-static int analyse(struct hooke_factor *x, const struct hooke_pattern *pattern, int64_t most) {
+static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_t most) {
   if (pattern->count > most / 9) return -1;
-  struct hooke_columns blocks = {.size = x->free_count,
-                                 .start = hooke_new((int64_t)x->free_count + 1, sizeof *blocks.start),
-                                 .row = hooke_new(pattern->count, sizeof *blocks.row)};
+  struct hk_columns blocks = {.size = x->free_count,
+                              .start = hk_new((int64_t)x->free_count + 1, sizeof *blocks.start),
+                              .row = hk_new(pattern->count, sizeof *blocks.row)};
   int fine = blocks.start && blocks.row;
   if (fine) fill_blocks(x, pattern, &blocks);
   if (fine) fine = reorder(x, &blocks);
   if (fine) fill_blocks(x, pattern, &blocks);
   if (fine) fine = make_matrix(x, &blocks);
-  hooke_free(blocks.start);
-  hooke_free(blocks.row);
-  if (fine) fine = (x->cholmod = hooke_cholmod_create(&x->matrix)) != NULL;
+  hk_free(blocks.start);
+  hk_free(blocks.row);
+  if (fine) fine = (x->cholmod = hk_cholmod_create(&x->matrix)) != NULL;
   if (!fine) return 0;
   count_numbers(x);
   return x->numbers <= (double)most ? 1 : -1;
 }
 
-int32_t hooke_factor_is_built(void) {
-  return hooke_cholmod_is_built();
+int32_t hk_factor_is_built(void) {
+  return hk_cholmod_is_built();
 }
 
-int32_t hooke_factor_create(const hooke_system *system, int64_t most, struct hooke_factor **factor) {
-  struct hooke_pattern pattern;
+int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor) {
+  struct hk_pattern pattern;
   *factor = NULL;
-  if (!hooke_cholmod_is_built()) return HOOKE_OK;
-  struct hooke_factor *x = hooke_new(1, sizeof *x);
+  if (!hk_cholmod_is_built()) return HOOKE_OK;
+  struct hk_factor *x = hk_new(1, sizeof *x);
   if (x == NULL) return HOOKE_NO_MEMORY;
   x->system = system;
   x->particle = take(x, system->particle_count, sizeof *x->particle);
   x->position = take(x, system->particle_count, sizeof *x->position);
-  int32_t status = x->particle && x->position ? hooke_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;
+  int32_t status = x->particle && x->position ? hk_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;
   int found = -1;
   if (status == HOOKE_OK) {
     number_free(x);
     found = analyse(x, &pattern, most);
-    hooke_pattern_release(&pattern);
+    hk_pattern_release(&pattern);
     if (found > 0) found = locate_blocks(x) && make_triangle(x);
     if (found == 0) status = no_memory();
   }
   if (status == HOOKE_OK && found > 0)
     *factor = x;
   else
-    hooke_factor_destroy(x);
+    hk_factor_destroy(x);
   return status;
 }
 
-void hooke_factor_destroy(struct hooke_factor *x) {
+void hk_factor_destroy(struct hk_factor *x) {
   if (x == NULL) return;
-  hooke_cholmod_destroy(x->cholmod);
+  hk_cholmod_destroy(x->cholmod);
   void *const blocks[] = {x->particle,       x->position,       x->matrix.start, x->matrix.row,
                           x->matrix.number,  x->spring,         x->triple,       x->tetrahedron,
                           x->vector,         x->triangle.begin, x->triangle.row, x->triangle.block,
                           x->triangle.corner};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
-    hooke_free(blocks[k]);
-  hooke_free(x);
+    hk_free(blocks[k]);
+  hk_free(x);
 }
 
-int64_t hooke_factor_memory(const struct hooke_factor *x) {
+int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
 }
 
-int64_t hooke_factor_numbers(const struct hooke_factor *x) {
+int64_t hk_factor_numbers(const struct hk_factor *x) {
   return (int64_t)x->numbers;
 }
 
-double hooke_factor_products(const struct hooke_factor *x) {
+double hk_factor_products(const struct hk_factor *x) {
   return x->products;
 }
 
 /* ---- numbers ---- */
 
 /* Column c of a block. */
-static double *column_of(const struct hooke_columns *matrix, struct place place, int c) {
+static double *column_of(const struct hk_columns *matrix, struct place place, int c) {
   return matrix->number + matrix->start[place.column + c] + place.first;
 }
 
-static void add_diagonal(const struct hooke_factor *x, const double *diagonal) {
+static void add_diagonal(const struct hk_factor *x, const double *diagonal) {
   static const int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   const int64_t n = x->system->particle_count;
   for (int32_t k = 0; k < x->matrix.size; k++) {
@@ -267,7 +267,7 @@ static void add_diagonal(const struct hooke_factor *x, const double *diagonal) {
   }
 }
 
-static void add_springs(const struct hooke_factor *x, const struct hooke_tangent *t) {
+static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
   for (int64_t s = 0; s < x->system->springs.count; s++) {
     if (x->spring[s].column < 0) continue;
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
@@ -281,22 +281,22 @@ static void add_springs(const struct hooke_factor *x, const struct hooke_tangent
   }
 }
 
-static void add_bending(const struct hooke_factor *x, double alpha) {
-  struct hooke_triple triple;
+static void add_bending(const struct hk_factor *x, double alpha) {
+  struct hk_triple triple;
   const struct place *place = x->triple;
-  for (struct hooke_triples at = {&x->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+  for (struct hk_triples at = {&x->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++, place++) {
       if (place->column < 0) continue;
       for (int c = 0; c < 3; c++)
         column_of(&x->matrix, *place, c)[c] +=
-            alpha * triple.coefficient * (hooke_triple_factor(e) * hooke_triple_factor((e + 1) % 3));
+            alpha * triple.coefficient * (hk_triple_factor(e) * hk_triple_factor((e + 1) % 3));
     }
   }
 }
 
-static void add_altitude(const struct hooke_factor *x, const struct hooke_altitude_tangent *altitude) {
+static void add_altitude(const struct hk_factor *x, const struct hk_altitude_tangent *altitude) {
   const struct place *place = x->tetrahedron;
-  for (const struct hooke_altitude_tangent *t = altitude; t < altitude + x->system->altitudes.count; t++) {
+  for (const struct hk_altitude_tangent *t = altitude; t < altitude + x->system->altitudes.count; t++) {
     for (int j = 1; j < 4; j++) {
       for (int e = 0; e < j; e++, place++) {
         const double s = t->size * (t->weight[e] * t->weight[j]);
@@ -311,9 +311,9 @@ static void add_altitude(const struct hooke_factor *x, const struct hooke_altitu
 }
 
 /* Takes L over block by block. 0 where a number on its diagonal is not finite. */
-static int32_t fill_triangle(struct hooke_factor *x) {
-  const struct hooke_columns l = hooke_cholmod_factor(x->cholmod);
-  struct hooke_triangle *to = &x->triangle;
+static int32_t fill_triangle(struct hk_factor *x) {
+  const struct hk_columns l = hk_cholmod_factor(x->cholmod);
+  struct hk_triangle *to = &x->triangle;
   for (int64_t k = 0; k < to->count; k++) {
     const int32_t *row = l.row + l.start[3 * k] + 3;
     const double *one = l.number + l.start[3 * k], *two = l.number + l.start[3 * k + 1],
@@ -331,32 +331,31 @@ static int32_t fill_triangle(struct hooke_factor *x) {
   return 1;
 }
 
-int32_t hooke_factor_compute(struct hooke_factor *x, const double *diagonal,
-                             const struct hooke_tangent *tangent,
-                             const struct hooke_altitude_tangent *altitude, double alpha) {
+int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const struct hk_tangent *tangent,
+                          const struct hk_altitude_tangent *altitude, double alpha) {
   memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
   add_diagonal(x, diagonal);
   add_springs(x, tangent);
   add_bending(x, alpha);
   add_altitude(x, altitude);
-  const int32_t positive = hooke_cholmod_compute(x->cholmod, &x->matrix);
+  const int32_t positive = hk_cholmod_compute(x->cholmod, &x->matrix);
   return positive == 1 ? fill_triangle(x) : positive;
 }
 
 /* ---- solutions ---- */
 
-void hooke_factor_forward(struct hooke_factor *factor, double *x) {
-  hooke_triangle_forward(&factor->triangle, x);
+void hk_factor_forward(struct hk_factor *factor, double *x) {
+  hk_triangle_forward(&factor->triangle, x);
 }
 
-void hooke_factor_backward(struct hooke_factor *factor, double *x) {
+void hk_factor_backward(struct hk_factor *factor, double *x) {
   const size_t bytes = (size_t)factor->matrix.size * sizeof(double);
   memcpy(factor->vector, x, bytes);
-  hooke_triangle_backward(&factor->triangle, factor->vector);
+  hk_triangle_backward(&factor->triangle, factor->vector);
   memcpy(x, factor->vector, bytes);
 }
 
-void hooke_factor_gather(const struct hooke_factor *factor, const double *all, double *ordered) {
+void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered) {
   const int64_t n = factor->system->particle_count;
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)
@@ -364,7 +363,7 @@ void hooke_factor_gather(const struct hooke_factor *factor, const double *all, d
   }
 }
 
-void hooke_factor_spread(const struct hooke_factor *factor, const double *ordered, double *all) {
+void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all) {
   const int64_t n = factor->system->particle_count;
   for (int64_t k = 0; k < factor->system->held_count; k++) {
     for (int a = 0; a < 3; a++)

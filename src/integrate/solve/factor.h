@@ -10,30 +10,29 @@
 
 #include <stdint.h>
 
-struct hooke_factor;
+struct hk_factor;
 
-int32_t hooke_factor_is_built(void);
+int32_t hk_factor_is_built(void);
 
 /* Finds order and sizes, and takes memory for the numbers where they are not more than `most`: HOOKE_OK with *factor NULL
  * if they are, and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
-int32_t hooke_factor_create(const hooke_system *system, int64_t most, struct hooke_factor **factor);
-void hooke_factor_destroy(struct hooke_factor *factor);
+int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
+void hk_factor_destroy(struct hk_factor *factor);
 
-int64_t hooke_factor_memory(const struct hooke_factor *factor); /* bytes */
-int64_t hooke_factor_numbers(const struct hooke_factor *factor);
-double hooke_factor_products(const struct hooke_factor *factor); /* multiplications that computing it takes */
+int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes */
+int64_t hk_factor_numbers(const struct hk_factor *factor);
+double hk_factor_products(const struct hk_factor *factor); /* multiplications that computing it takes */
 
 /* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 1; 0 where rounding or numbers
  * that are not finite leave it not positive; HOOKE_NO_MEMORY. */
-int32_t hooke_factor_compute(struct hooke_factor *factor, const double *diagonal,
-                             const struct hooke_tangent *tangent,
-                             const struct hooke_altitude_tangent *altitude, double alpha);
+int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal, const struct hk_tangent *tangent,
+                          const struct hk_altitude_tangent *altitude, double alpha);
 
 /* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and between that order
  * and vectors of all particles, x, y and z apart, where held ones become 0. */
-void hooke_factor_forward(struct hooke_factor *factor, double *x);
-void hooke_factor_backward(struct hooke_factor *factor, double *x);
-void hooke_factor_gather(const struct hooke_factor *factor, const double *all, double *ordered);
-void hooke_factor_spread(const struct hooke_factor *factor, const double *ordered, double *all);
+void hk_factor_forward(struct hk_factor *factor, double *x);
+void hk_factor_backward(struct hk_factor *factor, double *x);
+void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered);
+void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <cholmod.h>
 
-struct hooke_cholmod {
+struct hk_cholmod {
   cholmod_common common;
   cholmod_factor *factor;
 };
@@ -23,7 +23,7 @@ static void start(cholmod_common *common, int ordering) {
   common->postorder = ordering != CHOLMOD_NATURAL;
 }
 
-static cholmod_sparse view(const struct hooke_columns *matrix) {
+static cholmod_sparse view(const struct hk_columns *matrix) {
   const size_t size = (size_t)matrix->size;
   return (cholmod_sparse){.nrow = size,
                           .ncol = size,
@@ -39,11 +39,11 @@ static cholmod_sparse view(const struct hooke_columns *matrix) {
                           .packed = 1};
 }
 
-int32_t hooke_cholmod_is_built(void) {
+int32_t hk_cholmod_is_built(void) {
   return 1;
 }
 
-int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order) {
+int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order) {
   cholmod_common common;
   cholmod_sparse sparse = view(matrix);
   start(&common, CHOLMOD_AMD);
@@ -56,77 +56,77 @@ int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order) 
   return fine;
 }
 
-struct hooke_cholmod *hooke_cholmod_create(const struct hooke_columns *matrix) {
-  struct hooke_cholmod *x = hooke_new(1, sizeof *x);
+struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix) {
+  struct hk_cholmod *x = hk_new(1, sizeof *x);
   if (x == NULL) return NULL;
   cholmod_sparse sparse = view(matrix);
   start(&x->common, CHOLMOD_NATURAL);
   x->factor = cholmod_analyze(&sparse, &x->common);
   if (x->factor) return x;
-  hooke_cholmod_destroy(x);
+  hk_cholmod_destroy(x);
   return NULL;
 }
 
-void hooke_cholmod_destroy(struct hooke_cholmod *x) {
+void hk_cholmod_destroy(struct hk_cholmod *x) {
   if (x == NULL) return;
   cholmod_free_factor(&x->factor, &x->common);
   cholmod_finish(&x->common);
-  hooke_free(x);
+  hk_free(x);
 }
 
-const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *x) {
+const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {
   return x->factor->ColCount;
 }
 
-int32_t hooke_cholmod_compute(struct hooke_cholmod *x, const struct hooke_columns *matrix) {
+int32_t hk_cholmod_compute(struct hk_cholmod *x, const struct hk_columns *matrix) {
   cholmod_sparse sparse = view(matrix);
   const int fine = cholmod_factorize(&sparse, x->factor, &x->common);
   if (x->common.status == CHOLMOD_OUT_OF_MEMORY)
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a factor of %d unknowns", (int)matrix->size);
+    return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a factor of %d unknowns", (int)matrix->size);
   return fine && x->common.status == CHOLMOD_OK;
 }
 
-struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *x) {
-  return (struct hooke_columns){(int32_t)x->factor->n, x->factor->p, x->factor->i, x->factor->x};
+struct hk_columns hk_cholmod_factor(const struct hk_cholmod *x) {
+  return (struct hk_columns){(int32_t)x->factor->n, x->factor->p, x->factor->i, x->factor->x};
 }
 
 #else
 
 #include <stddef.h>
 
-int32_t hooke_cholmod_is_built(void) {
+int32_t hk_cholmod_is_built(void) {
   return 0;
 }
 
-int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order) {
+int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order) {
   (void)matrix;
   (void)order;
   return 0;
 }
 
-struct hooke_cholmod *hooke_cholmod_create(const struct hooke_columns *matrix) {
+struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix) {
   (void)matrix;
   return NULL;
 }
 
-void hooke_cholmod_destroy(struct hooke_cholmod *x) {
+void hk_cholmod_destroy(struct hk_cholmod *x) {
   (void)x;
 }
 
-const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *x) {
+const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {
   (void)x;
   return NULL;
 }
 
-int32_t hooke_cholmod_compute(struct hooke_cholmod *x, const struct hooke_columns *matrix) {
+int32_t hk_cholmod_compute(struct hk_cholmod *x, const struct hk_columns *matrix) {
   (void)x;
   (void)matrix;
   return 0;
 }
 
-struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *x) {
+struct hk_columns hk_cholmod_factor(const struct hk_cholmod *x) {
   (void)x;
-  return (struct hooke_columns){0};
+  return (struct hk_columns){0};
 }
 
 #endif

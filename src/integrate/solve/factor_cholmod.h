@@ -6,32 +6,32 @@
 #include <stdint.h>
 
 /* Of a square matrix by columns, rows ascending: the upper triangle of a symmetric one, or a lower triangle. */
-struct hooke_columns {
+struct hk_columns {
   int32_t size;
   int32_t *start; /* size + 1; of a factor only the first `size` */
   int32_t *row;
   double *number; /* or NULL */
 };
 
-struct hooke_cholmod;
+struct hk_cholmod;
 
-int32_t hooke_cholmod_is_built(void);
+int32_t hk_cholmod_is_built(void);
 
 /* order[k]: the column that is eliminated as number k, so that little fills in (approximate minimum degree, Amestoy, Davis
  * and Duff 1996). 0 without memory. */
-int32_t hooke_cholmod_order(const struct hooke_columns *matrix, int32_t *order);
+int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order);
 
 /* For factors in the order that the matrix is in. NULL without memory. */
-struct hooke_cholmod *hooke_cholmod_create(const struct hooke_columns *matrix);
-void hooke_cholmod_destroy(struct hooke_cholmod *cholmod);
+struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix);
+void hk_cholmod_destroy(struct hk_cholmod *cholmod);
 
 /* Of each column of the factor: how many numbers it has. */
-const int32_t *hooke_cholmod_counts(const struct hooke_cholmod *cholmod);
+const int32_t *hk_cholmod_counts(const struct hk_cholmod *cholmod);
 
 /* 1; 0 where the matrix proves not to be positive; HOOKE_NO_MEMORY. Numbers that are not finite may come out as such. */
-int32_t hooke_cholmod_compute(struct hooke_cholmod *cholmod, const struct hooke_columns *matrix);
+int32_t hk_cholmod_compute(struct hk_cholmod *cholmod, const struct hk_columns *matrix);
 
 /* L as it was last computed, L L^T the matrix; CHOLMOD's memory, valid until then. */
-struct hooke_columns hooke_cholmod_factor(const struct hooke_cholmod *cholmod);
+struct hk_columns hk_cholmod_factor(const struct hk_cholmod *cholmod);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static double norm(int64_t size, const double *x) {
-  return sqrt(hooke_dot(size, x, x));
+  return sqrt(hk_dot(size, x, x));
 }
 
 static void copy(int64_t size, const double *from, double *to) {
@@ -15,9 +15,9 @@ static void copy(int64_t size, const double *from, double *to) {
 }
 
 /* x = 0, or b where it is 0 or not finite: then there is nothing to solve. */
-static int begin(int64_t size, const double *b, double *x, double *length, struct hooke_solution *solution) {
+static int begin(int64_t size, const double *b, double *x, double *length, struct hk_solution *solution) {
   *length = norm(size, b);
-  *solution = (struct hooke_solution){.converged = !(*length > 0.0 && *length < INFINITY)};
+  *solution = (struct hk_solution){.converged = !(*length > 0.0 && *length < INFINITY)};
   if (solution->converged)
     copy(size, b, x);
   else
@@ -25,28 +25,28 @@ static int begin(int64_t size, const double *b, double *x, double *length, struc
   return !solution->converged;
 }
 
-int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, double tolerance,
-                              int64_t limit, double *scratch, double *x, struct hooke_solution *solution) {
+int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                           double *scratch, double *x, struct hk_solution *solution) {
   const int64_t size = a->size;
   double *r = scratch, *p = r + size, *ap = p + size, length;
   if (!begin(size, b, x, &length, solution)) return HOOKE_OK;
   copy(size, b, r);
   copy(size, b, p);
-  double square = hooke_dot(size, r, r);
+  double square = hk_dot(size, r, r);
   while (!solution->converged && solution->iterations < limit) {
     const int32_t status = a->apply(a->ctx, p, ap);
     if (status != HOOKE_OK) return status;
-    const double curvature = hooke_dot(size, p, ap);
+    const double curvature = hk_dot(size, p, ap);
     if (curvature <= 0.0) {
       if (solution->iterations == 0) copy(size, b, x);
       return HOOKE_OK;
     }
     const double alpha = square / curvature;
-    hooke_add_multiple(size, alpha, p, x);
-    hooke_add_multiple(size, -alpha, ap, r);
+    hk_add_multiple(size, alpha, p, x);
+    hk_add_multiple(size, -alpha, ap, r);
     const double before = square;
-    square = hooke_dot(size, r, r);
-    hooke_scale_and_add(size, square / before, r, p);
+    square = hk_dot(size, r, r);
+    hk_scale_and_add(size, square / before, r, p);
     solution->iterations++;
     solution->residual = sqrt(square) / length;
     /* numbers that are not finite will not get better */
@@ -60,7 +60,7 @@ int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, d
 enum { L = HOOKE_GENERAL_SWEEP };
 
 struct general {
-  const struct hooke_operator *a;
+  const struct hk_operator *a;
   double *r[L + 1], *u[L + 1], *shadow;
   double rho, alpha, omega;
   double length, shadow_length; /* of b and of the shadow */
@@ -88,20 +88,20 @@ static int32_t restart(struct general *g, const double *b, const double *x) {
 /* Step j of the L biconjugate ones; `broken` if its numbers fail. */
 static int32_t biconjugate_step(struct general *g, int j, double *x, int *broken) {
   const int64_t size = g->a->size;
-  const double rho = hooke_dot(size, g->r[j], g->shadow), beta = g->alpha * (rho / g->rho);
+  const double rho = hk_dot(size, g->r[j], g->shadow), beta = g->alpha * (rho / g->rho);
   g->rho = rho;
   for (int i = 0; i <= j; i++)
-    hooke_scale_and_add(size, -beta, g->r[i], g->u[i]);
+    hk_scale_and_add(size, -beta, g->r[i], g->u[i]);
   int32_t status = g->a->apply(g->a->ctx, g->u[j], g->u[j + 1]);
   if (status != HOOKE_OK) return status;
-  const double curvature = hooke_dot(size, g->u[j + 1], g->shadow);
+  const double curvature = hk_dot(size, g->u[j + 1], g->shadow);
   g->alpha = rho / curvature;
   *broken = !(fabs(g->alpha) < INFINITY) || rho == 0.0 ||
             !(fabs(curvature) > BROKEN * g->shadow_length * norm(size, g->u[j + 1]));
   if (*broken) return HOOKE_OK;
-  hooke_add_multiple(size, g->alpha, g->u[0], x);
+  hk_add_multiple(size, g->alpha, g->u[0], x);
   for (int i = 0; i <= j; i++)
-    hooke_add_multiple(size, -g->alpha, g->u[i + 1], g->r[i]);
+    hk_add_multiple(size, -g->alpha, g->u[i + 1], g->r[i]);
   return HOOKE_OK;
 }
 
@@ -112,11 +112,11 @@ static void smooth(struct general *g, double *x, int *broken) {
   double tau[L + 1][L + 1], square[L + 1], along[L + 1], gamma[L + 1];
   for (int j = 1; j <= L; j++) {
     for (int i = 1; i < j; i++) {
-      tau[i][j] = hooke_dot(size, r[j], r[i]) / square[i];
-      hooke_add_multiple(size, -tau[i][j], r[i], r[j]);
+      tau[i][j] = hk_dot(size, r[j], r[i]) / square[i];
+      hk_add_multiple(size, -tau[i][j], r[i], r[j]);
     }
-    square[j] = hooke_dot(size, r[j], r[j]);
-    along[j] = hooke_dot(size, r[0], r[j]) / square[j];
+    square[j] = hk_dot(size, r[j], r[j]);
+    along[j] = hk_dot(size, r[0], r[j]) / square[j];
     *broken |= !(fabs(along[j]) < INFINITY);
   }
   *broken |= along[L] == 0.0;
@@ -126,16 +126,16 @@ static void smooth(struct general *g, double *x, int *broken) {
     for (int i = j + 1; i <= L; i++)
       gamma[j] -= tau[j][i] * gamma[i];
   }
-  hooke_add_multiple(size, gamma[1], r[0], x);
+  hk_add_multiple(size, gamma[1], r[0], x);
   for (int j = 1; j < L; j++) {
     double share = gamma[j + 1];
     for (int i = j + 1; i < L; i++)
       share += tau[j][i] * gamma[i + 1];
-    hooke_add_multiple(size, share, r[j], x);
+    hk_add_multiple(size, share, r[j], x);
   }
   for (int j = 1; j <= L; j++) {
-    hooke_add_multiple(size, -gamma[j], u[j], u[0]);
-    hooke_add_multiple(size, -along[j], r[j], r[0]);
+    hk_add_multiple(size, -gamma[j], u[j], u[0]);
+    hk_add_multiple(size, -along[j], r[j], r[0]);
   }
   g->omega = gamma[L];
 }
@@ -146,8 +146,7 @@ static double residual_of(const struct general *g) {
 }
 
 /* Iterations until the residual is down at `goal`, the limit, or numbers that fail. */
-static int32_t sweep(struct general *g, double goal, int64_t limit, double *x,
-                     struct hooke_solution *solution) {
+static int32_t sweep(struct general *g, double goal, int64_t limit, double *x, struct hk_solution *solution) {
   int broken = 0;
   while (!broken && solution->iterations < limit) {
     g->rho = -g->omega * g->rho;
@@ -164,8 +163,8 @@ static int32_t sweep(struct general *g, double goal, int64_t limit, double *x,
   return HOOKE_OK;
 }
 
-int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
-                            double *scratch, double *x, struct hooke_solution *solution) {
+int32_t hk_solve_general(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                         double *scratch, double *x, struct hk_solution *solution) {
   const int64_t size = a->size;
   struct general g = {.a = a, .shadow = scratch + (int64_t)2 * (L + 1) * size};
   for (int k = 0; k <= L; k++) {
@@ -192,7 +191,7 @@ int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, dou
 enum { SPACE = HOOKE_MINIMAL_SPACE };
 
 struct minimal {
-  const struct hooke_operator *a;
+  const struct hk_operator *a;
   double *v[SPACE + 1];       /* an orthonormal basis */
   double h[SPACE][SPACE + 1]; /* columns of the triangle */
   double c[SPACE], s[SPACE];  /* rotations */
@@ -206,10 +205,10 @@ static int32_t extend(struct minimal *g, int j, int *broken) {
   const int32_t status = g->a->apply(g->a->ctx, g->v[j], next);
   if (status != HOOKE_OK) return status;
   for (int i = 0; i <= j; i++) {
-    h[i] = hooke_long_dot(size, next, g->v[i]);
-    hooke_add_multiple(size, -h[i], g->v[i], next);
+    h[i] = hk_long_dot(size, next, g->v[i]);
+    hk_add_multiple(size, -h[i], g->v[i], next);
   }
-  const double length = sqrt(hooke_long_dot(size, next, next));
+  const double length = sqrt(hk_long_dot(size, next, next));
   for (int i = 0; i < j; i++) {
     const double first = g->c[i] * h[i] + g->s[i] * h[i + 1];
     h[i + 1] = g->c[i] * h[i + 1] - g->s[i] * h[i];
@@ -223,7 +222,7 @@ static int32_t extend(struct minimal *g, int j, int *broken) {
   h[j] = radius;
   g->right[j + 1] = -g->s[j] * g->right[j];
   g->right[j] *= g->c[j];
-  if (length > 0.0) hooke_scale(size, 1.0 / length, next, next);
+  if (length > 0.0) hk_scale(size, 1.0 / length, next, next);
   return HOOKE_OK;
 }
 
@@ -237,23 +236,23 @@ static void combine(struct minimal *g, int count, double *x) {
     share[j] = left / g->h[j][j];
   }
   for (int j = 0; j < count; j++)
-    hooke_add_multiple(g->a->size, share[j], g->v[j], x);
+    hk_add_multiple(g->a->size, share[j], g->v[j], x);
 }
 
-int32_t hooke_solve_minimal(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
-                            double *scratch, double *x, struct hooke_solution *solution) {
+int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                         double *scratch, double *x, struct hk_solution *solution) {
   const int64_t size = a->size;
   struct minimal g = {.a = a};
   for (int k = 0; k <= SPACE; k++)
     g.v[k] = scratch + k * size;
-  *solution = (struct hooke_solution){0};
+  *solution = (struct hk_solution){0};
   memset(x, 0, (size_t)size * sizeof(double));
   copy(size, b, g.v[0]);
   for (int broken = 0; !broken;) {
     const double length = solution->residual = norm(size, g.v[0]);
     solution->converged = length <= tolerance;
     if (solution->converged || solution->iterations >= limit || !(length < INFINITY)) return HOOKE_OK;
-    hooke_scale(size, 1.0 / length, g.v[0], g.v[0]);
+    hk_scale(size, 1.0 / length, g.v[0], g.v[0]);
     g.right[0] = length;
     int count = 0;
     while (count < SPACE && solution->iterations < limit && solution->residual > tolerance) {

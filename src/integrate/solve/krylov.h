@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* out = A x, `size` numbers each; a status. */
-struct hooke_operator {
+struct hk_operator {
   int64_t size;
   int32_t (*apply)(void *ctx, const double *x, double *out);
   void *ctx;
@@ -21,7 +21,7 @@ enum {
   HOOKE_MINIMAL_VECTORS = HOOKE_MINIMAL_SPACE + 1
 };
 
-struct hooke_solution {
+struct hk_solution {
   int32_t converged;
   int64_t iterations;
   double residual; /* relative to b; of the general one the true one, b - A x */
@@ -30,17 +30,17 @@ struct hooke_solution {
 /* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that did not
  * converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come out in x. For an A
  * that is not positive they end at the first direction that shows it (Steihaug 1983), with b.x > 0. */
-int32_t hooke_solve_symmetric(const struct hooke_operator *a, const double *b, double tolerance,
-                              int64_t limit, double *scratch, double *x, struct hooke_solution *solution);
+int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                           double *scratch, double *x, struct hk_solution *solution);
 
 /* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. Not converged
  * also where rounding allows no smaller residual; `residual` tells. */
-int32_t hooke_solve_general(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
-                            double *scratch, double *x, struct hooke_solution *solution);
+int32_t hk_solve_general(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                         double *scratch, double *x, struct hk_solution *solution);
 
 /* GMRES (Saad and Schultz 1986), started again each time that its space is full: the smallest residual that so many
  * products allow, for few of them. `tolerance` is absolute, and so is `residual`. */
-int32_t hooke_solve_minimal(const struct hooke_operator *a, const double *b, double tolerance, int64_t limit,
-                            double *scratch, double *x, struct hooke_solution *solution);
+int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                         double *scratch, double *x, struct hk_solution *solution);
 
 #endif

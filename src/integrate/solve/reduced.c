@@ -20,8 +20,8 @@ static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
 enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
-static int is_own(const struct hooke_force_row *row) {
-  return row == &hooke_force_springs || row == &hooke_force_bending || row == &hooke_force_drag;
+static int is_own(const struct hk_force_row *row) {
+  return row == &hk_force_springs || row == &hk_force_bending || row == &hk_force_drag;
 }
 
 static double *part(double **block, int64_t count) {
@@ -30,18 +30,18 @@ static double *part(double **block, int64_t count) {
   return start;
 }
 
-int32_t hooke_reduced_create(hooke_integrator *it, int32_t kind, struct hooke_reduced *reduced) {
+int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced *reduced) {
   static const int64_t vectors_of[] = {HOOKE_GENERAL_VECTORS, HOOKE_SYMMETRIC_VECTORS, HOOKE_MINIMAL_VECTORS};
   const hooke_system *system = it->system;
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
   const int64_t n = system->particle_count, m = system->springs.count, vectors = vectors_of[kind];
   const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + (symmetric ? 0 : 15 * n);
-  double *block = hooke_new(numbers, sizeof(double));
+  double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  *reduced = (struct hooke_reduced){.integrator = it, .symmetric = symmetric};
-  reduced->altitude = hooke_new(system->altitudes.count, sizeof *reduced->altitude);
+  *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric};
+  reduced->altitude = hk_new(system->altitudes.count, sizeof *reduced->altitude);
   if (reduced->altitude == NULL) {
-    hooke_free(block);
+    hk_free(block);
     return HOOKE_NO_MEMORY;
   }
   it->own_memory +=
@@ -65,10 +65,10 @@ int32_t hooke_reduced_create(hooke_integrator *it, int32_t kind, struct hooke_re
   return HOOKE_OK;
 }
 
-void hooke_reduced_release(struct hooke_reduced *reduced) {
-  hooke_free(reduced->diagonal);
-  hooke_free(reduced->altitude);
-  hooke_factor_destroy(reduced->whole);
+void hk_reduced_release(struct hk_reduced *reduced) {
+  hk_free(reduced->diagonal);
+  hk_free(reduced->altitude);
+  hk_factor_destroy(reduced->whole);
   memset(reduced, 0, sizeof *reduced);
 }
 
@@ -91,18 +91,18 @@ static void factorise(int64_t n, int64_t p, double *block) {
 }
 
 /* Diagonal blocks of alpha times the stiffness of triples. */
-static void add_bending(const struct hooke_bending *bending, double alpha, double *const block[6]) {
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+static void add_bending(const struct hk_bending *bending, double alpha, double *const block[6]) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++) {
-      const double factor = hooke_triple_factor(e);
+      const double factor = hk_triple_factor(e);
       for (int c = 0; c < 3; c++)
         block[c][triple.particle[e]] += alpha * triple.coefficient * (factor * factor);
     }
   }
 }
 
-static void fill_diagonal(struct hooke_reduced *reduced) {
+static void fill_diagonal(struct hk_reduced *reduced) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
   const double brake = reduced->beta * system->drag;
@@ -114,12 +114,12 @@ static void fill_diagonal(struct hooke_reduced *reduced) {
       block[c][p] = c < 3 ? reduced->diagonal[p] : 0.0;
   }
   for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hooke_run *run = &system->springs.run[k];
+    const struct hk_run *run = &system->springs.run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
-      hooke_tangent_diagonal(run, &reduced->tangent, block);
+      hk_tangent_diagonal(run, &reduced->tangent, block);
   }
   if (reduced->alpha != 0.0) add_bending(&system->bending, reduced->alpha, block);
-  hooke_altitude_tangent_diagonal(system->altitudes.count, reduced->altitude, block);
+  hk_altitude_tangent_diagonal(system->altitudes.count, reduced->altitude, block);
   memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
   for (int64_t p = 0; p < n; p++)
     factorise(n, p, reduced->factor);
@@ -129,38 +129,38 @@ static void fill_diagonal(struct hooke_reduced *reduced) {
   }
 }
 
-void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, double beta) {
+void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta) {
   const hooke_system *system = reduced->integrator->system;
-  const struct hooke_motion *motion = reduced->integrator->motion;
+  const struct hk_motion *motion = reduced->integrator->motion;
   reduced->t = t;
   reduced->alpha = alpha;
   reduced->beta = beta;
-  struct hooke_fields fields;
+  struct hk_fields fields;
   for (int a = 0; a < 3; a++) {
     fields.q[a] = motion->q[a];
     fields.v[a] = motion->v[a];
   }
   for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hooke_run *run = &system->springs.run[k];
+    const struct hk_run *run = &system->springs.run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
-      hooke_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
+      hk_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
   }
-  hooke_altitude_tangents(&system->altitudes, fields.q, fields.v, alpha, beta, reduced->altitude);
+  hk_altitude_tangents(&system->altitudes, fields.q, fields.v, alpha, beta, reduced->altitude);
   fill_diagonal(reduced);
-  if (reduced->rows) hooke_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
+  if (reduced->rows) hk_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
 }
 
 /* ---- products ---- */
 
 /* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our own. */
-static int32_t multiply_rows(struct hooke_reduced *reduced, int all) {
+static int32_t multiply_rows(struct hk_reduced *reduced, int all) {
   hooke_integrator *it = reduced->integrator;
   const int64_t size = it->size;
   double *rows = reduced->rows, *out = rows + 4 * size;
   int32_t stop_value = 0;
-  const struct hooke_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
-                                    rows + 3 * size, &stop_value};
-  const int32_t status = hooke_forces_product(it->system, &point, all ? NULL : is_own, out);
+  const struct hk_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
+                                 rows + 3 * size, &stop_value};
+  const int32_t status = hk_forces_product(it->system, &point, all ? NULL : is_own, out);
   if (status == HOOKE_STOPPED) it->stop_value = stop_value;
   return status;
 }
@@ -172,7 +172,7 @@ static void rows_from_vector(int64_t n, double factor, const double *x, double *
   }
 }
 
-int32_t hooke_reduced_change(struct hooke_reduced *reduced, const double *dq, const double *dv, double *out) {
+int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out) {
   hooke_integrator *it = reduced->integrator;
   const int64_t n = it->system->particle_count, size = it->size;
   rows_from_vector(n, 1.0, dq, reduced->rows + 2 * size);
@@ -180,12 +180,12 @@ int32_t hooke_reduced_change(struct hooke_reduced *reduced, const double *dq, co
   it->count.derivative_products++;
   const int32_t status = multiply_rows(reduced, 1);
   double *const component[3] = {out, out + n, out + 2 * n};
-  hooke_components_from_rows(n, reduced->rows + 4 * size, component);
+  hk_components_from_rows(n, reduced->rows + 4 * size, component);
   return status;
 }
 
 /* y -= what forces of the other kinds change by under alpha x, beta x. */
-static int32_t subtract_others(struct hooke_reduced *reduced, double alpha, double beta, const double *x,
+static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double beta, const double *x,
                                double *y) {
   const int64_t n = reduced->integrator->system->particle_count, size = reduced->integrator->size;
   rows_from_vector(n, alpha, x, reduced->rows + 2 * size);
@@ -199,31 +199,31 @@ static int32_t subtract_others(struct hooke_reduced *reduced, double alpha, doub
 }
 
 /* out = the matrix times x, where no particle is held. */
-static int32_t multiply_matrix(struct hooke_reduced *reduced, const double *x, double *out) {
+static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
-  const int32_t status = hooke_integrator_tell(reduced->integrator);
+  const int32_t status = hk_integrator_tell(reduced->integrator);
   if (status != HOOKE_OK) return status;
   reduced->integrator->count.derivative_products++;
-  hooke_apply_diagonal(n, reduced->diagonal, x, out);
+  hk_apply_diagonal(n, reduced->diagonal, x, out);
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hooke_run *run = &system->springs.run[k];
+    const struct hk_run *run = &system->springs.run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
-      hooke_tangent_product(run, &reduced->tangent, from, to);
+      hk_tangent_product(run, &reduced->tangent, from, to);
   }
-  if (reduced->alpha != 0.0) hooke_bending_add(&system->bending, -reduced->alpha, from, to);
-  if (reduced->symmetric) hooke_altitude_tangent_add(system->altitudes.count, reduced->altitude, from, to);
+  if (reduced->alpha != 0.0) hk_bending_add(&system->bending, -reduced->alpha, from, to);
+  if (reduced->symmetric) hk_altitude_tangent_add(system->altitudes.count, reduced->altitude, from, to);
   return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
 }
 
 static int32_t apply(void *ctx, const double *unknown, double *out) {
-  struct hooke_reduced *reduced = ctx;
+  struct hk_reduced *reduced = ctx;
   const int64_t n = reduced->integrator->system->particle_count;
-  hooke_apply_factor_transposed(n, reduced->factor, unknown, reduced->place);
+  hk_apply_factor_transposed(n, reduced->factor, unknown, reduced->place);
   const int32_t status = multiply_matrix(reduced, reduced->place, out);
-  hooke_apply_factor(n, reduced->factor, out);
+  hk_apply_factor(n, reduced->factor, out);
   return status;
 }
 
@@ -246,68 +246,67 @@ static void multiply(int64_t size, double factor, double *x) {
 
 /* The factor on one side and the other; `unknown` is in its order. */
 static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
-  struct hooke_reduced *reduced = ctx;
+  struct hk_reduced *reduced = ctx;
   const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);
   double *x = reduced->place, *product = reduced->moved;
   memcpy(product, unknown, bytes);
-  hooke_factor_backward(reduced->whole, product);
-  hooke_factor_spread(reduced->whole, product, x);
+  hk_factor_backward(reduced->whole, product);
+  hk_factor_spread(reduced->whole, product, x);
   const int32_t status = multiply_matrix(reduced, x, product);
-  hooke_factor_gather(reduced->whole, product, out);
-  hooke_factor_forward(reduced->whole, out);
+  hk_factor_gather(reduced->whole, product, out);
+  hk_factor_forward(reduced->whole, out);
   return status;
 }
 
-static int32_t solve_whole(struct hooke_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                           double *x, struct hooke_solution *solution) {
+static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
+                           double *x, struct hk_solution *solution) {
   hooke_integrator *it = reduced->integrator;
-  const struct hooke_operator a = {3 * (it->system->particle_count - it->system->held_count), apply_whole,
-                                   reduced};
-  hooke_factor_gather(reduced->whole, b, reduced->right);
-  hooke_factor_forward(reduced->whole, reduced->right);
+  const struct hk_operator a = {3 * (it->system->particle_count - it->system->held_count), apply_whole,
+                                reduced};
+  hk_factor_gather(reduced->whole, b, reduced->right);
+  hk_factor_forward(reduced->whole, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
-      hooke_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+      hk_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
-  hooke_factor_backward(reduced->whole, reduced->unknown);
-  hooke_factor_spread(reduced->whole, reduced->unknown, x);
+  hk_factor_backward(reduced->whole, reduced->unknown);
+  hk_factor_spread(reduced->whole, reduced->unknown, x);
   multiply(it->size, 1.0 / scale, x);
   return status;
 }
 
-static int32_t solve_by_blocks(struct hooke_reduced *reduced, int symmetric, const double *b,
-                               double tolerance, int64_t limit, double *x, struct hooke_solution *solution) {
+static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const double *b, double tolerance,
+                               int64_t limit, double *x, struct hk_solution *solution) {
   hooke_integrator *it = reduced->integrator;
   const int64_t n = it->system->particle_count, size = it->size;
-  const struct hooke_operator a = {size, apply, reduced};
+  const struct hk_operator a = {size, apply, reduced};
   memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  hooke_apply_factor(n, reduced->factor, reduced->right);
+  hk_apply_factor(n, reduced->factor, reduced->right);
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
-  const int32_t status = (symmetric ? hooke_solve_symmetric : hooke_solve_general)(
+  const int32_t status = (symmetric ? hk_solve_symmetric : hk_solve_general)(
       &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
-  hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
   multiply(size, 1.0 / scale, x);
   return status;
 }
 
-static int64_t most_iterations(const struct hooke_reduced *reduced) {
+static int64_t most_iterations(const struct hk_reduced *reduced) {
   const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
   return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
 }
 
 /* Iterations by blocks that cost what a factor does with its few. */
-static int64_t iterations_worth_a_factor(const struct hooke_reduced *reduced) {
+static int64_t iterations_worth_a_factor(const struct hk_reduced *reduced) {
   const double whole =
-      hooke_reduced_cost_of_factor(reduced) + 2.0 * TRIES_WITH_FACTOR * hooke_reduced_cost_of_solve(reduced);
-  return (int64_t)fmin(whole / hooke_reduced_cost_by_blocks(reduced, PRODUCTS_OF_SWEEP, VECTORS_OF_SWEEP),
-                       1e9);
+      hk_reduced_cost_of_factor(reduced) + 2.0 * TRIES_WITH_FACTOR * hk_reduced_cost_of_solve(reduced);
+  return (int64_t)fmin(whole / hk_reduced_cost_by_blocks(reduced, PRODUCTS_OF_SWEEP, VECTORS_OF_SWEEP), 1e9);
 }
 
-static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
-                             struct hooke_solution *solution, int64_t *before) {
+static int32_t solve_as_pays(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
+                             struct hk_solution *solution, int64_t *before) {
   const int64_t most = most_iterations(reduced);
   int32_t status = HOOKE_OK;
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
@@ -316,7 +315,7 @@ static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, dou
   } else {
     status = solve_by_blocks(reduced, 0, b, tolerance, TRIES_BY_BLOCKS, x, solution);
     if (status != HOOKE_OK || solution->iterations < TRIES_BY_BLOCKS) return status;
-    status = hooke_reduced_prepare_whole(reduced);
+    status = hk_reduced_prepare_whole(reduced);
     if (status != HOOKE_OK) return status;
     const int64_t worth = reduced->whole ? iterations_worth_a_factor(reduced) : most;
     if (worth > TRIES_BY_BLOCKS) {
@@ -326,7 +325,7 @@ static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, dou
     }
   }
   *before += solution->iterations;
-  const int32_t positive = hooke_reduced_factorise(reduced);
+  const int32_t positive = hk_reduced_factorise(reduced);
   if (positive < 0) return positive;
   return positive ? solve_whole(reduced, b, tolerance, most, x, solution)
                   : solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
@@ -334,8 +333,8 @@ static int32_t solve_as_pays(struct hooke_reduced *reduced, const double *b, dou
 
 /* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with the factor of
  * this step, and if that has come to be old with a new one. What is chosen hangs on the numbers of the step alone. */
-int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
-                            struct hooke_solution *solution) {
+int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
+                         struct hk_solution *solution) {
   int64_t before = 0;
   const int32_t status =
       reduced->symmetric ? solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, solution)
@@ -344,51 +343,51 @@ int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, doub
   return status;
 }
 
-int32_t hooke_reduced_descend(struct hooke_reduced *reduced, const double *b, double tolerance, double *x) {
-  struct hooke_solution solution;
+int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x) {
+  struct hk_solution solution;
   return solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, &solution);
 }
 
 /* ---- all of S ---- */
 
-int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced) {
+int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   if (reduced->whole_state != HOOKE_WHOLE_UNKNOWN) return HOOKE_OK;
-  const int32_t status = hooke_factor_create(reduced->integrator->system, MOST_NUMBERS, &reduced->whole);
+  const int32_t status = hk_factor_create(reduced->integrator->system, MOST_NUMBERS, &reduced->whole);
   if (status != HOOKE_OK) return status;
   reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
-  if (reduced->whole) reduced->integrator->own_memory += hooke_factor_memory(reduced->whole);
+  if (reduced->whole) reduced->integrator->own_memory += hk_factor_memory(reduced->whole);
   return HOOKE_OK;
 }
 
-int32_t hooke_reduced_factorise(struct hooke_reduced *reduced) {
-  const int32_t positive = hooke_factor_compute(reduced->whole, reduced->block, &reduced->tangent,
-                                                reduced->altitude, reduced->alpha);
+int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
+  const int32_t positive =
+      hk_factor_compute(reduced->whole, reduced->block, &reduced->tangent, reduced->altitude, reduced->alpha);
   reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
 }
 
-void hooke_reduced_drop_factor(struct hooke_reduced *reduced) {
+void hk_reduced_drop_factor(struct hk_reduced *reduced) {
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) reduced->whole_state = HOOKE_WHOLE_READY;
 }
 
-double hooke_reduced_cost_by_blocks(const struct hooke_reduced *reduced, double products, double vectors) {
+double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors) {
   const hooke_integrator *it = reduced->integrator;
   return products * (OF_SPRING * (double)it->system->springs.count +
                      OF_TETRAHEDRON * (double)it->system->altitudes.count) +
          vectors * OF_UNKNOWN * (double)it->size;
 }
 
-double hooke_reduced_cost_of_solve(const struct hooke_reduced *reduced) {
-  return OF_NUMBER * (double)hooke_factor_numbers(reduced->whole);
+double hk_reduced_cost_of_solve(const struct hk_reduced *reduced) {
+  return OF_NUMBER * (double)hk_factor_numbers(reduced->whole);
 }
 
-double hooke_reduced_cost_of_factor(const struct hooke_reduced *reduced) {
-  return OF_PRODUCT * hooke_factor_products(reduced->whole);
+double hk_reduced_cost_of_factor(const struct hk_reduced *reduced) {
+  return OF_PRODUCT * hk_factor_products(reduced->whole);
 }
 
 /* ---- few iterations, for an error in a given norm ---- */
 
-int32_t hooke_reduced_right(struct hooke_reduced *reduced, const double *bq, const double *bv, double *out) {
+int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const double *bv, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count, size = 3 * n;
   const double inverse = 1.0 / reduced->beta;
@@ -399,56 +398,55 @@ int32_t hooke_reduced_right(struct hooke_reduced *reduced, const double *bq, con
   const double *const from[3] = {bq, bq + n, bq + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hooke_run *run = &system->springs.run[k];
-    if (run->shape & HOOKE_RUN_DAMPED) hooke_tangent_damping(run, &reduced->tangent, from, to);
+    const struct hk_run *run = &system->springs.run[k];
+    if (run->shape & HOOKE_RUN_DAMPED) hk_tangent_damping(run, &reduced->tangent, from, to);
   }
   if (!reduced->rows_needed) return HOOKE_OK;
   return subtract_others(reduced, 0.0, 1.0, bq, out);
 }
 
 /* x = S^-1 x, as far as S is factorised. */
-static void divide(struct hooke_reduced *reduced, double *x) {
+static void divide(struct hk_reduced *reduced, double *x) {
   const int64_t n = reduced->integrator->system->particle_count;
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
-    hooke_factor_gather(reduced->whole, x, reduced->unknown);
-    hooke_factor_forward(reduced->whole, reduced->unknown);
-    hooke_factor_backward(reduced->whole, reduced->unknown);
-    hooke_factor_spread(reduced->whole, reduced->unknown, x);
+    hk_factor_gather(reduced->whole, x, reduced->unknown);
+    hk_factor_forward(reduced->whole, reduced->unknown);
+    hk_factor_backward(reduced->whole, reduced->unknown);
+    hk_factor_spread(reduced->whole, reduced->unknown, x);
     return;
   }
   memcpy(reduced->unknown, x, (size_t)(3 * n) * sizeof(double));
-  hooke_apply_factor(n, reduced->factor, reduced->unknown);
-  hooke_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  hk_apply_factor(n, reduced->factor, reduced->unknown);
+  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
 }
 
 static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {
-  struct hooke_reduced *reduced = ctx;
+  struct hk_reduced *reduced = ctx;
   const int64_t size = reduced->integrator->size;
-  hooke_divide(size, weighed, reduced->weight, reduced->place);
+  hk_divide(size, weighed, reduced->weight, reduced->place);
   const int32_t status = multiply_matrix(reduced, reduced->place, out);
   divide(reduced, out);
-  hooke_multiply(size, reduced->weight, out, out);
+  hk_multiply(size, reduced->weight, out, out);
   return status;
 }
 
-int32_t hooke_reduced_minimise(struct hooke_reduced *reduced, const double *b, const double *weight,
-                               double tolerance, int64_t limit, double *x, struct hooke_solution *solution) {
+int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const double *weight,
+                            double tolerance, int64_t limit, double *x, struct hk_solution *solution) {
   const int64_t size = reduced->integrator->size;
-  const struct hooke_operator a = {size, apply_weighed, reduced};
+  const struct hk_operator a = {size, apply_weighed, reduced};
   reduced->weight = weight;
   memcpy(reduced->right, b, (size_t)size * sizeof(double));
   divide(reduced, reduced->right);
-  hooke_multiply(size, weight, reduced->right, reduced->right);
-  const int32_t status =
-      hooke_solve_minimal(&a, reduced->right, tolerance, limit, reduced->krylov, x, solution);
+  hk_multiply(size, weight, reduced->right, reduced->right);
+  const int32_t status = hk_solve_minimal(&a, reduced->right, tolerance, limit, reduced->krylov, x, solution);
   reduced->integrator->count.linear_iterations += solution->iterations;
-  hooke_divide(size, x, weight, x);
+  hk_divide(size, x, weight, x);
   return status;
 }
 
-int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution) {
+int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution) {
   const hooke_integrator *it = reduced->integrator;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_SOLVER_FAILED, NULL,
       "%s could not solve the linear equations of the step from t = %.6g s: the residual is %.3g of the "
       "right-hand side after %lld iterations; take a smaller step",

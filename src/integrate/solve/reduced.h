@@ -19,17 +19,17 @@ enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
 
-struct hooke_reduced {
+struct hk_reduced {
   hooke_integrator *integrator;
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t rows_needed; /* some force is none of springs, bending and drag */
   double t, alpha, beta;
-  struct hooke_tangent tangent;
-  struct hooke_altitude_tangent *altitude; /* one a tetrahedron */
+  struct hk_tangent tangent;
+  struct hk_altitude_tangent *altitude;    /* one a tetrahedron */
   double *diagonal;                        /* n: m + beta c */
   double *block;                           /* 6 n: diagonal blocks of S, zero where a particle is held */
   double *factor;                          /* 6 n: L^-1 of these */
-  struct hooke_factor *whole;              /* of all of S; NULL: not asked for, too large, not built */
+  struct hk_factor *whole;                 /* of all of S; NULL: not asked for, too large, not built */
   int32_t whole_state;                     /* HOOKE_WHOLE_* */
   const double *weight;                    /* of the norm of the minimal one */
   double *right, *unknown, *place, *moved; /* 3n each: L^-1 b, L^T x, x, scratch */
@@ -38,47 +38,47 @@ struct hooke_reduced {
 };
 
 /* Its memory is counted as the method's. */
-int32_t hooke_reduced_create(hooke_integrator *integrator, int32_t kind, struct hooke_reduced *reduced);
-void hooke_reduced_release(struct hooke_reduced *reduced);
+int32_t hk_reduced_create(hooke_integrator *integrator, int32_t kind, struct hk_reduced *reduced);
+void hk_reduced_release(struct hk_reduced *reduced);
 
 /* Derivatives at the place of the integrator's motion; t is for callbacks. */
-void hooke_reduced_set(struct hooke_reduced *reduced, double t, double alpha, double beta);
+void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta);
 
 /* x = the solution for b (3n each, x y z apart), 0 where a particle is held; `converged` is 0 if `tolerance` was not
  * reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it. */
-int32_t hooke_reduced_solve(struct hooke_reduced *reduced, const double *b, double tolerance, double *x,
-                            struct hooke_solution *solution);
+int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
+                         struct hk_solution *solution);
 
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
-int32_t hooke_reduced_prepare_whole(struct hooke_reduced *reduced);
+int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
  * positive; HOOKE_NO_MEMORY. */
-int32_t hooke_reduced_factorise(struct hooke_reduced *reduced);
-void hooke_reduced_drop_factor(struct hooke_reduced *reduced);
+int32_t hk_reduced_factorise(struct hk_reduced *reduced);
+void hk_reduced_drop_factor(struct hk_reduced *reduced);
 
 /* What things cost, in units of their own: work by blocks for so many products and works on a vector; solves with a factor
  * of S, and the factor itself, once there is room for one. */
-double hooke_reduced_cost_by_blocks(const struct hooke_reduced *reduced, double products, double vectors);
-double hooke_reduced_cost_of_solve(const struct hooke_reduced *reduced);
-double hooke_reduced_cost_of_factor(const struct hooke_reduced *reduced);
+double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors);
+double hk_reduced_cost_of_solve(const struct hk_reduced *reduced);
+double hk_reduced_cost_of_factor(const struct hk_reduced *reduced);
 
 /* out = M (b_v + b_q/beta) - D b_q: the right-hand side of an implicit equation in z = dv + b_q/beta where
  * dq - beta dv = b_q and M (dv - beta (W K dq + W D dv)) = M b_v, for alpha = beta^2; then dq = beta z. */
-int32_t hooke_reduced_right(struct hooke_reduced *reduced, const double *bq, const double *bv, double *out);
+int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const double *bv, double *out);
 
 /* By GMRES until |weight . r| <= tolerance for the scaled residual r = S^-1 (b - A x), which is near the error of x. */
-int32_t hooke_reduced_minimise(struct hooke_reduced *reduced, const double *b, const double *weight,
-                               double tolerance, int64_t limit, double *x, struct hooke_solution *solution);
+int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const double *weight,
+                            double tolerance, int64_t limit, double *x, struct hk_solution *solution);
 
 /* By conjugate gradients, as far as `tolerance` or to where the matrix proves not to be positive: a direction with
  * b.x > 0. For corrections far from a solution. */
-int32_t hooke_reduced_descend(struct hooke_reduced *reduced, const double *b, double tolerance, double *x);
+int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x);
 
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
-int32_t hooke_reduced_fail(const struct hooke_reduced *reduced, const struct hooke_solution *solution);
+int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution);
 
 /* out = (df/dq) dq + (df/dv) dv of all forces at the place of the last set; 3n each, x y z apart. */
-int32_t hooke_reduced_change(struct hooke_reduced *reduced, const double *dq, const double *dv, double *out);
+int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out);
 
 #endif

@@ -26,7 +26,7 @@ enum { MOST_ITERATIONS = 300 };
 struct solver {
   hooke_integrator *integrator;
   int32_t direct_only, by_blocks; /* as the option says; neither: as it pays */
-  struct hooke_reduced reduced;
+  struct hk_reduced reduced;
   N_Vector weight;
   double *numbers; /* the next five, of all particles: b_q, b_v or dv, right-hand side or z, weights of z */
   double *bq, *bv, *right, *z, *z_weight;
@@ -41,14 +41,14 @@ static struct solver *solver_of(SUNLinearSolver linear) {
   return linear->content;
 }
 
-static const struct hooke_unknowns *unknowns_of(const hooke_integrator *it) {
-  return &((const struct hooke_sundials *)it->own)->unknowns;
+static const struct hk_unknowns *unknowns_of(const hooke_integrator *it) {
+  return &((const struct hk_sundials *)it->own)->unknowns;
 }
 
 /* ---- which S ---- */
 
 static void forget(struct solver *s) {
-  hooke_reduced_drop_factor(&s->reduced);
+  hk_reduced_drop_factor(&s->reduced);
   s->direct = s->direct_only && s->reduced.whole;
   s->may_be_direct = !s->by_blocks;
   s->solves = 0;
@@ -58,7 +58,7 @@ static void forget(struct solver *s) {
 /* S of the present place, if that is due; where it is not positive, its blocks have to do from now on. */
 static int32_t renew(struct solver *s, int due) {
   if (!s->direct || !due) return HOOKE_OK;
-  const int32_t positive = hooke_reduced_factorise(&s->reduced);
+  const int32_t positive = hk_reduced_factorise(&s->reduced);
   if (positive < 0) return positive;
   s->direct = s->may_be_direct = positive;
   s->solves = 0;
@@ -68,29 +68,29 @@ static int32_t renew(struct solver *s, int due) {
 
 static double cost_by_blocks(const struct solver *s, double iterations) {
   const double space = fmin(iterations, HOOKE_MINIMAL_SPACE);
-  return iterations * hooke_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
+  return iterations * hk_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
 }
 
 /* What a new factor would have saved has come to its price. That is told after the fact, and so costs at most twice what
  * the best choice would have. */
 static int is_due(const struct solver *s) {
-  return s->excess > hooke_reduced_cost_of_factor(&s->reduced);
+  return s->excess > hk_reduced_cost_of_factor(&s->reduced);
 }
 
 /* Whether the next solves had better be with a new factor; by counts alone, so that runs repeat to the bit. */
-static int32_t learn(struct solver *s, const struct hooke_solution *solution) {
+static int32_t learn(struct solver *s, const struct hk_solution *solution) {
   const double iterations = (double)solution->iterations;
   s->solves++;
   if (s->direct) {
     if (s->solves == 1) s->fresh = iterations;
-    s->excess += fmax(0.0, iterations - s->fresh) * hooke_reduced_cost_of_solve(&s->reduced);
+    s->excess += fmax(0.0, iterations - s->fresh) * hk_reduced_cost_of_solve(&s->reduced);
     return HOOKE_OK;
   }
   s->by_blocks_alone += iterations;
   if (!s->may_be_direct || (solution->converged && s->by_blocks_alone < MANY)) return HOOKE_OK;
-  const int32_t status = hooke_reduced_prepare_whole(&s->reduced);
+  const int32_t status = hk_reduced_prepare_whole(&s->reduced);
   if (status != HOOKE_OK || s->reduced.whole == NULL) return status;
-  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * hooke_reduced_cost_of_solve(&s->reduced);
+  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * hk_reduced_cost_of_solve(&s->reduced);
   s->excess = fmax(0.0, s->excess);
   s->direct = !solution->converged || is_due(s);
   if (s->direct) s->solves = 0;
@@ -101,22 +101,22 @@ static int32_t learn(struct solver *s, const struct hooke_solution *solution) {
 
 /* b in vectors of all particles, and the weights of z: |(gamma z, z)| weighed as q and v are. */
 static void take(struct solver *s, N_Vector b, double gamma) {
-  const struct hooke_unknowns *u = unknowns_of(s->integrator);
+  const struct hk_unknowns *u = unknowns_of(s->integrator);
   const int64_t n = s->integrator->system->particle_count, m = u->free_count;
   double *const bq[3] = {s->bq, s->bq + n, s->bq + 2 * n}, *const bv[3] = {s->bv, s->bv + n, s->bv + 2 * n};
   double *const weight[3] = {s->z_weight, s->z_weight + n, s->z_weight + 2 * n};
   const double *w = N_VGetArrayPointer(s->weight), *from = N_VGetArrayPointer(b);
-  hooke_unknowns_spread(u, from, bq);
-  hooke_unknowns_spread(u, from + 3 * m, bv);
+  hk_unknowns_spread(u, from, bq);
+  hk_unknowns_spread(u, from + 3 * m, bv);
   double *some = s->right; /* room for 3 m */
   for (int64_t k = 0; k < 3 * m; k++)
     some[k] = sqrt((gamma * w[k]) * (gamma * w[k]) + w[3 * m + k] * w[3 * m + k]);
-  hooke_unknowns_spread(u, some, weight);
+  hk_unknowns_spread(u, some, weight);
 }
 
 /* dq = gamma z, dv = z - b_q/gamma. */
 static void give(struct solver *s, double gamma, N_Vector x) {
-  const struct hooke_unknowns *u = unknowns_of(s->integrator);
+  const struct hk_unknowns *u = unknowns_of(s->integrator);
   const int64_t n = s->integrator->system->particle_count, m = u->free_count;
   double *to = N_VGetArrayPointer(x);
   for (int64_t k = 0; k < 3 * n; k++) {
@@ -125,8 +125,8 @@ static void give(struct solver *s, double gamma, N_Vector x) {
   }
   const double *const dq[3] = {s->bq, s->bq + n, s->bq + 2 * n}, *const dv[3] = {s->bv, s->bv + n,
                                                                                  s->bv + 2 * n};
-  hooke_unknowns_gather(u, dq, to);
-  hooke_unknowns_gather(u, dv, to + 3 * m);
+  hk_unknowns_gather(u, dq, to);
+  hk_unknowns_gather(u, dv, to + 3 * m);
 }
 
 /* The largest that a block of S has over its mass. Along what is soft the residual scaled by blocks is smaller than the
@@ -141,16 +141,16 @@ static double stiffest(const struct solver *s) {
   return most;
 }
 
-static int32_t minimise(struct solver *s, double tolerance, struct hooke_solution *solution) {
-  const int32_t status = hooke_reduced_minimise(
-      &s->reduced, s->right, s->z_weight, s->direct ? LOOSER * tolerance : tolerance / sqrt(stiffest(s)),
-      MOST_ITERATIONS, s->z, solution);
+static int32_t minimise(struct solver *s, double tolerance, struct hk_solution *solution) {
+  const int32_t status = hk_reduced_minimise(&s->reduced, s->right, s->z_weight,
+                                             s->direct ? LOOSER * tolerance : tolerance / sqrt(stiffest(s)),
+                                             MOST_ITERATIONS, s->z, solution);
   s->iterations += (int)solution->iterations;
   return status == HOOKE_OK ? learn(s, solution) : status;
 }
 
 /* Once more with a new factor, if the one at hand is old or there was none. */
-static int32_t find(struct solver *s, double tolerance, struct hooke_solution *solution) {
+static int32_t find(struct solver *s, double tolerance, struct hk_solution *solution) {
   int32_t status = renew(s, s->direct && (s->solves == 0 || is_due(s)));
   if (status == HOOKE_OK) status = minimise(s, tolerance, solution);
   if (status != HOOKE_OK || solution->converged || !s->direct || s->solves == 1) return status;
@@ -159,7 +159,7 @@ static int32_t find(struct solver *s, double tolerance, struct hooke_solution *s
 }
 
 /* What the solver is told of a failure; it has one number for all of them. */
-static int failed(struct hooke_sundials *own, int32_t status) {
+static int failed(struct hk_sundials *own, int32_t status) {
   if (status == HOOKE_NO_MEMORY) own->no_memory = 1;
   return SUNLS_ATIMES_FAIL_UNREC;
 }
@@ -168,17 +168,17 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)matrix;
   struct solver *s = solver_of(linear);
   hooke_integrator *it = s->integrator;
-  struct hooke_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   realtype t, gamma;
   N_Vector y;
   s->iterations = 0;
   if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_MEM_NULL;
-  int32_t status = hooke_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
+  int32_t status = hk_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
   if (status != HOOKE_OK) return failed(own, status);
-  hooke_reduced_set(&s->reduced, t, gamma * gamma, gamma);
+  hk_reduced_set(&s->reduced, t, gamma * gamma, gamma);
   take(s, b, gamma);
-  struct hooke_solution solution;
-  status = hooke_reduced_right(&s->reduced, s->bq, s->bv, s->right);
+  struct hk_solution solution;
+  status = hk_reduced_right(&s->reduced, s->bq, s->bv, s->right);
   if (status == HOOKE_OK) status = find(s, tolerance, &solution);
   if (status != HOOKE_OK) return failed(own, status);
   give(s, gamma, x);
@@ -205,9 +205,9 @@ static int iterations_of(SUNLinearSolver linear) {
 static int release(SUNLinearSolver linear) {
   struct solver *s = solver_of(linear);
   if (s) {
-    hooke_reduced_release(&s->reduced);
-    hooke_free(s->numbers);
-    hooke_free(s);
+    hk_reduced_release(&s->reduced);
+    hk_free(s->numbers);
+    hk_free(s);
   }
   linear->content = NULL;
   SUNLinSolFreeEmpty(linear);
@@ -217,7 +217,7 @@ static int release(SUNLinearSolver linear) {
 static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   const int64_t size = it->size;
   s->integrator = it;
-  s->numbers = hooke_new(5 * size, sizeof(double));
+  s->numbers = hk_new(5 * size, sizeof(double));
   if (s->numbers == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += 5 * size * (int64_t)sizeof(double);
   s->bq = s->numbers;
@@ -227,33 +227,33 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   s->z_weight = s->z + size;
   for (int64_t k = 0; k < size; k++)
     s->z_weight[k] = 1.0;
-  int32_t status = hooke_reduced_create(it, HOOKE_REDUCED_MINIMAL, &s->reduced);
+  int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, &s->reduced);
   s->direct_only = strcmp(word, "direct") == 0;
   s->by_blocks = strcmp(word, "blocks") == 0;
-  if (status == HOOKE_OK && s->direct_only) status = hooke_reduced_prepare_whole(&s->reduced);
+  if (status == HOOKE_OK && s->direct_only) status = hk_reduced_prepare_whole(&s->reduced);
   forget(s);
   return status;
 }
 
-static int32_t create_own(hooke_integrator *it, const char *word, struct hooke_sundials *own) {
+static int32_t create_own(hooke_integrator *it, const char *word, struct hk_sundials *own) {
   SUNLinearSolver linear = SUNLinSolNewEmpty(own->context);
-  if (linear == NULL) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", it->method->name);
+  if (linear == NULL) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", it->method->name);
   own->linear = linear;
   linear->ops->gettype = type_of;
   linear->ops->setscalingvectors = take_weights;
   linear->ops->solve = solve;
   linear->ops->numiters = iterations_of;
   linear->ops->free = release;
-  linear->content = hooke_new(1, sizeof(struct solver));
+  linear->content = hk_new(1, sizeof(struct solver));
   return linear->content ? fill(it, word, linear->content) : HOOKE_NO_MEMORY;
 }
 
-int32_t hooke_sundials_linear_create(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+int32_t hk_sundials_linear_create(hooke_integrator *it) {
+  struct hk_sundials *own = it->own;
   const char *word = hooke_options_text(it->options, "linear_solver");
-  if (strcmp(word, "direct") == 0 && !hooke_factor_is_built())
-    return hooke_fail(HOOKE_NOT_BUILT, "linear_solver",
-                      "direct needs CHOLMOD, which this build is without; take auto or blocks");
+  if (strcmp(word, "direct") == 0 && !hk_factor_is_built())
+    return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
+                   "direct needs CHOLMOD, which this build is without; take auto or blocks");
   /* a space that holds every unknown is exact as it is */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
   if (!it->rate && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
@@ -262,19 +262,19 @@ int32_t hooke_sundials_linear_create(hooke_integrator *it) {
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
   it->own_memory += HOOKE_KRYLOV_VECTORS * own->unknowns.size * (int64_t)sizeof(double);
   if (own->linear) return HOOKE_OK;
-  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", it->method->name);
+  return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", it->method->name);
 }
 
-int32_t hooke_sundials_linear_is_own(const hooke_integrator *it) {
-  const struct hooke_sundials *own = it->own;
+int32_t hk_sundials_linear_is_own(const hooke_integrator *it) {
+  const struct hk_sundials *own = it->own;
   return own->linear && own->linear->ops->solve == solve;
 }
 
-void hooke_sundials_linear_begin(hooke_integrator *it) {
-  const struct hooke_sundials *own = it->own;
-  if (hooke_sundials_linear_is_own(it)) forget(solver_of(own->linear));
+void hk_sundials_linear_begin(hooke_integrator *it) {
+  const struct hk_sundials *own = it->own;
+  if (hk_sundials_linear_is_own(it)) forget(solver_of(own->linear));
 }
 
 #else
-typedef int hooke_sundials_linear_is_not_built;
+typedef int hk_sundials_linear_is_not_built;
 #endif

@@ -7,12 +7,12 @@
 
 /* Makes own->linear as the option linear_solver says: GMRES of SUNDIALS on all unknowns for `gmres`, for first-order
  * problems and where nothing is free. HOOKE_NO_MEMORY. */
-int32_t hooke_sundials_linear_create(hooke_integrator *integrator);
+int32_t hk_sundials_linear_create(hooke_integrator *integrator);
 
 /* Forgets what earlier solves have led to: a run starts anew. */
-void hooke_sundials_linear_begin(hooke_integrator *integrator);
+void hk_sundials_linear_begin(hooke_integrator *integrator);
 
 /* 1 if own->linear brings its own products. */
-int32_t hooke_sundials_linear_is_own(const hooke_integrator *integrator);
+int32_t hk_sundials_linear_is_own(const hooke_integrator *integrator);
 
 #endif

@@ -12,39 +12,39 @@
 #include <string.h>
 
 static int32_t no_memory(const hooke_integrator *it, int64_t size) {
-  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s on %lld numbers", it->method->name,
-                    (long long)size);
+  return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s on %lld numbers", it->method->name,
+                 (long long)size);
 }
 
-int32_t hooke_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vectors) {
-  struct hooke_sundials *own = hooke_new(1, sizeof *own);
+int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vectors) {
+  struct hk_sundials *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  const int32_t status = hooke_unknowns_create(it, implicit, &own->unknowns);
+  const int32_t status = hk_unknowns_create(it, implicit, &own->unknowns);
   if (status != HOOKE_OK) return status;
   const int64_t size = own->unknowns.size;
   it->own_memory += vectors * size * (int64_t)sizeof(double);
   if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
-  own->y = hooke_sundials_vector(size, it->crew, own->context);
-  own->tolerance = hooke_sundials_vector(size, it->crew, own->context);
-  if (own->y == NULL || own->tolerance == NULL || !hooke_sundials_spare_create(own->y, &own->spare))
+  own->y = hk_sundials_vector(size, it->crew, own->context);
+  own->tolerance = hk_sundials_vector(size, it->crew, own->context);
+  if (own->y == NULL || own->tolerance == NULL || !hk_sundials_spare_create(own->y, &own->spare))
     return no_memory(it, size);
   N_VConst(0.0, own->y);
-  hooke_unknowns_tolerance(it, &own->unknowns, N_VGetArrayPointer(own->tolerance));
-  return implicit ? hooke_sundials_linear_create(it) : HOOKE_OK;
+  hk_unknowns_tolerance(it, &own->unknowns, N_VGetArrayPointer(own->tolerance));
+  return implicit ? hk_sundials_linear_create(it) : HOOKE_OK;
 }
 
-int32_t hooke_sundials_created(const hooke_integrator *it, const char *solver, int32_t created,
-                               int32_t no_room) {
-  const struct hooke_sundials *own = it->own;
+int32_t hk_sundials_created(const hooke_integrator *it, const char *solver, int32_t created,
+                            int32_t no_room) {
+  const struct hk_sundials *own = it->own;
   if (own->spare.taken || no_room) return no_memory(it, own->unknowns.size);
   if (created) return HOOKE_OK;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", solver, own->message);
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", solver, own->message);
 }
 
-int32_t hooke_sundials_renew(hooke_integrator *it) {
+int32_t hk_sundials_renew(hooke_integrator *it) {
   if (it->own) {
-    const struct hooke_sundials *own = it->own;
+    const struct hk_sundials *own = it->own;
     if (!own->spare.taken) return HOOKE_OK;
     it->method->destroy(it);
   }
@@ -54,45 +54,45 @@ int32_t hooke_sundials_renew(hooke_integrator *it) {
   return status;
 }
 
-void hooke_sundials_release(hooke_integrator *it) {
-  struct hooke_sundials *own = it->own;
+void hk_sundials_release(hooke_integrator *it) {
+  struct hk_sundials *own = it->own;
   if (own->linear) SUNLinSolFree(own->linear);
   if (own->nonlinear) SUNNonlinSolFree(own->nonlinear);
   if (own->y) N_VDestroy(own->y);
   if (own->tolerance) N_VDestroy(own->tolerance);
-  hooke_sundials_spare_release(&own->spare);
+  hk_sundials_spare_release(&own->spare);
   if (own->context) SUNContext_Free(&own->context);
-  hooke_unknowns_release(&own->unknowns);
-  hooke_free(own);
+  hk_unknowns_release(&own->unknowns);
+  hk_free(own);
   it->own = NULL;
 }
 
-int32_t hooke_sundials_order(const hooke_integrator *it, int lowest, int highest, int *order) {
+int32_t hk_sundials_order(const hooke_integrator *it, int lowest, int highest, int *order) {
   const double given = hooke_options_number(it->options, "max_order");
   *order = isnan(given) ? highest : (int)given;
   if (*order >= lowest && *order <= highest) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "max_order", "%d is not allowed; %s takes %d to %d", *order,
-                    it->method->name, lowest, highest);
+  return hk_fail(HOOKE_BAD_VALUE, "max_order", "%d is not allowed; %s takes %d to %d", *order,
+                 it->method->name, lowest, highest);
 }
 
 /* Along stiff springs a small residual is a large error, which costs steps, so this is below the 0.05 of SUNDIALS; and
  * where the Krylov space holds every unknown, accuracy is free. */
-double hooke_sundials_linear_share(const hooke_integrator *it) {
-  const struct hooke_sundials *own = it->own;
+double hk_sundials_linear_share(const hooke_integrator *it) {
+  const struct hk_sundials *own = it->own;
   return !it->rate && 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS ? 1e-4 : 1e-2;
 }
 
-void hooke_sundials_load(hooke_integrator *it, const hooke_state *state) {
-  struct hooke_sundials *own = it->own;
-  hooke_unknowns_load(it, &own->unknowns, state, N_VGetArrayPointer(own->y));
-  hooke_sundials_linear_begin(it);
+void hk_sundials_load(hooke_integrator *it, const hooke_state *state) {
+  struct hk_sundials *own = it->own;
+  hk_unknowns_load(it, &own->unknowns, state, N_VGetArrayPointer(own->y));
+  hk_sundials_linear_begin(it);
   own->before = it->count;
   own->no_memory = 0;
   own->message[0] = '\0';
 }
 
-void hooke_sundials_count(hooke_integrator *it, struct hooke_counts since) {
-  const struct hooke_counts *before = &((const struct hooke_sundials *)it->own)->before;
+void hk_sundials_count(hooke_integrator *it, struct hk_counts since) {
+  const struct hk_counts *before = &((const struct hk_sundials *)it->own)->before;
   it->count.steps = before->steps + since.steps;
   it->count.error_test_failures = before->error_test_failures + since.error_test_failures;
   it->count.nonlinear_iterations = before->nonlinear_iterations + since.nonlinear_iterations;
@@ -104,7 +104,7 @@ void hooke_sundials_count(hooke_integrator *it, struct hooke_counts since) {
  * times too long leaves nothing of the state when it is taken back. */
 static const double FARTHEST = 1e9;
 
-double hooke_sundials_towards(const hooke_integrator *it) {
+double hk_sundials_towards(const hooke_integrator *it) {
   const double duration = it->schedule.duration;
   return it->t + (isnan(duration) ? 1.0 : fmin(duration, FARTHEST));
 }
@@ -117,21 +117,21 @@ static int complaint_length(const char *message) {
   return (int)length;
 }
 
-int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
-  const struct hooke_sundials *own = it->own;
+int32_t hk_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
+  const struct hk_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
   /* GMRES takes its scratch before the first step; the number is that of ARKODE as well */
   if (own->spare.taken || own->no_memory || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
-                      "%s gave up at t = %.6g s: %.*s; try other tolerances, or a fixed-step method", solver,
-                      it->t, complaint_length(own->message), own->message);
+    return hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                   "%s gave up at t = %.6g s: %.*s; try other tolerances, or a fixed-step method", solver,
+                   it->t, complaint_length(own->message), own->message);
   }
   if (!(reached > it->t)) {
-    return hooke_fail(HOOKE_SOLVER_FAILED, NULL,
-                      "%s gave up at t = %.6g s: its step is too small to change the time; try looser "
-                      "tolerances or a fixed-step method",
-                      solver, it->t);
+    return hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                   "%s gave up at t = %.6g s: its step is too small to change the time; try looser "
+                   "tolerances or a fixed-step method",
+                   solver, it->t);
   }
   it->t = reached;
   return HOOKE_OK;
@@ -139,35 +139,35 @@ int32_t hooke_sundials_advance(hooke_integrator *it, const char *solver, int fla
 
 /* ---- callbacks ---- */
 
-int hooke_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx) {
+int hk_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx) {
   hooke_integrator *it = ctx;
-  const struct hooke_sundials *own = it->own;
-  return hooke_unknowns_slope(it, &own->unknowns, t, N_VGetArrayPointer(y), N_VGetArrayPointer(slope));
+  const struct hk_sundials *own = it->own;
+  return hk_unknowns_slope(it, &own->unknowns, t, N_VGetArrayPointer(y), N_VGetArrayPointer(slope));
 }
 
 /* Called once per linear solve. */
-int hooke_sundials_product_setup(realtype t, N_Vector y, N_Vector slope, void *ctx) {
+int hk_sundials_product_setup(realtype t, N_Vector y, N_Vector slope, void *ctx) {
   (void)slope;
   hooke_integrator *it = ctx;
-  const struct hooke_sundials *own = it->own;
-  return hooke_unknowns_linearise(it, &own->unknowns, t, N_VGetArrayPointer(y));
+  const struct hk_sundials *own = it->own;
+  return hk_unknowns_linearise(it, &own->unknowns, t, N_VGetArrayPointer(y));
 }
 
-int hooke_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vector y, N_Vector slope,
-                           void *ctx, N_Vector scratch) {
+int hk_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vector y, N_Vector slope,
+                        void *ctx, N_Vector scratch) {
   (void)y, (void)slope, (void)scratch;
   hooke_integrator *it = ctx;
-  const struct hooke_sundials *own = it->own;
-  return hooke_unknowns_product(it, &own->unknowns, t, N_VGetArrayPointer(direction),
-                                N_VGetArrayPointer(product));
+  const struct hk_sundials *own = it->own;
+  return hk_unknowns_product(it, &own->unknowns, t, N_VGetArrayPointer(direction),
+                             N_VGetArrayPointer(product));
 }
 
-void hooke_sundials_message(int code, const char *module, const char *function, char *message, void *ctx) {
+void hk_sundials_message(int code, const char *module, const char *function, char *message, void *ctx) {
   (void)code, (void)module, (void)function;
-  struct hooke_sundials *own = ctx;
+  struct hk_sundials *own = ctx;
   snprintf(own->message, sizeof own->message, "%s", message);
 }
 
 #else
-typedef int hooke_sundials_problem_is_not_built;
+typedef int hk_sundials_problem_is_not_built;
 #endif

@@ -16,8 +16,8 @@ enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
 struct content {
   struct _N_VectorContent_Serial serial;
   void *plain; /* what it is a copy of */
-  struct hooke_crew *crew;
-  struct hooke_sundials_spare *spare; /* for clones; NULL: none */
+  struct hk_crew *crew;
+  struct hk_sundials_spare *spare; /* for clones; NULL: none */
   int32_t is_spare;
 };
 
@@ -46,8 +46,8 @@ struct job {
 
 static void work(int32_t member, int32_t members, void *ctx) {
   struct job *job = ctx;
-  const int64_t end = hooke_crew_share(job->size, job->block, member + 1, members);
-  for (int64_t at = hooke_crew_share(job->size, job->block, member, members); at < end; at += job->block) {
+  const int64_t end = hk_crew_share(job->size, job->block, member + 1, members);
+  for (int64_t at = hk_crew_share(job->size, job->block, member, members); at < end; at += job->block) {
     const int64_t left = job->size - at;
     job->some(job, at, left < job->block ? left : job->block, &job->sum[at / job->block]);
   }
@@ -58,7 +58,7 @@ static void run(N_Vector v, struct job *job) {
   job->size = size_of(v);
   job->block = (least + LEAST_BLOCK - 1) / LEAST_BLOCK * LEAST_BLOCK;
   if (job->block < LEAST_BLOCK) job->block = LEAST_BLOCK;
-  hooke_crew_run(job->size < LARGE ? NULL : ((struct content *)v->content)->crew, work, job);
+  hk_crew_run(job->size < LARGE ? NULL : ((struct content *)v->content)->crew, work, job);
 }
 
 /* The sums of the blocks in their order. */
@@ -74,7 +74,7 @@ static double run_and_add(N_Vector v, struct job *job) {
 
 static void some_linear_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
+  hk_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
 }
 
 static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
@@ -94,7 +94,7 @@ static void set(realtype a, N_Vector z) {
 
 static void some_product(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_multiply(count, j->x + at, j->y + at, j->z + at);
+  hk_multiply(count, j->x + at, j->y + at, j->z + at);
 }
 
 static void product(N_Vector x, N_Vector y, N_Vector z) {
@@ -103,7 +103,7 @@ static void product(N_Vector x, N_Vector y, N_Vector z) {
 
 static void some_quotient(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_divide(count, j->x + at, j->y + at, j->z + at);
+  hk_divide(count, j->x + at, j->y + at, j->z + at);
 }
 
 static void quotient(N_Vector x, N_Vector y, N_Vector z) {
@@ -112,7 +112,7 @@ static void quotient(N_Vector x, N_Vector y, N_Vector z) {
 
 static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_scale(count, j->a, j->x + at, j->z + at);
+  hk_scale(count, j->a, j->x + at, j->z + at);
 }
 
 static void scale(realtype a, N_Vector x, N_Vector z) {
@@ -121,7 +121,7 @@ static void scale(realtype a, N_Vector x, N_Vector z) {
 
 static void some_absolute(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_absolute(count, j->x + at, j->z + at);
+  hk_absolute(count, j->x + at, j->z + at);
 }
 
 static void absolute(N_Vector x, N_Vector z) {
@@ -130,7 +130,7 @@ static void absolute(N_Vector x, N_Vector z) {
 
 static void some_inverse(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_invert(count, j->x + at, j->z + at);
+  hk_invert(count, j->x + at, j->z + at);
 }
 
 static void inverse(N_Vector x, N_Vector z) {
@@ -139,7 +139,7 @@ static void inverse(N_Vector x, N_Vector z) {
 
 static void some_add_number(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_add_number(count, j->a, j->x + at, j->z + at);
+  hk_add_number(count, j->a, j->x + at, j->z + at);
 }
 
 static void add_number(N_Vector x, realtype a, N_Vector z) {
@@ -149,7 +149,7 @@ static void add_number(N_Vector x, realtype a, N_Vector z) {
 /* ---- numbers ---- */
 
 static void some_dot(const struct job *j, int64_t at, int64_t count, double *sum) {
-  *sum = hooke_long_dot(count, j->x + at, j->y + at);
+  *sum = hk_long_dot(count, j->x + at, j->y + at);
 }
 
 static realtype dot(N_Vector x, N_Vector y) {
@@ -157,7 +157,7 @@ static realtype dot(N_Vector x, N_Vector y) {
 }
 
 static void some_largest(const struct job *j, int64_t at, int64_t count, double *sum) {
-  *sum = hooke_largest(count, j->x + at);
+  *sum = hk_largest(count, j->x + at);
 }
 
 static realtype largest(N_Vector x) {
@@ -170,7 +170,7 @@ static realtype largest(N_Vector x) {
 }
 
 static void some_squares(const struct job *j, int64_t at, int64_t count, double *sum) {
-  *sum = hooke_sum_of_squares(count, j->x + at, j->y + at);
+  *sum = hk_sum_of_squares(count, j->x + at, j->y + at);
 }
 
 static realtype sum_of_squares(N_Vector x, N_Vector weight) {
@@ -189,9 +189,9 @@ static realtype norm(N_Vector x, N_Vector weight) {
 
 static void some_combination(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hooke_scale(count, j->factor[0], numbers(j->from[0]) + at, j->z + at);
+  hk_scale(count, j->factor[0], numbers(j->from[0]) + at, j->z + at);
   for (int k = 1; k < j->vectors; k++)
-    hooke_add_multiple(count, j->factor[k], numbers(j->from[k]) + at, j->z + at);
+    hk_add_multiple(count, j->factor[k], numbers(j->from[k]) + at, j->z + at);
 }
 
 /* z may be the first of x. */
@@ -203,7 +203,7 @@ static int combination(int count, realtype *c, N_Vector *x, N_Vector z) {
 static void some_add_to_each(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
   for (int k = 0; k < j->vectors; k++)
-    hooke_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
+    hk_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
 }
 
 static int add_to_each(int count, realtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
@@ -230,13 +230,13 @@ static void destroy(N_Vector v) {
   struct content *content = v->content;
   if (content->is_spare) return; /* others may still have it */
   v->content = content->plain;
-  hooke_free(content);
+  hk_free(content);
   N_VDestroy_Serial(v);
 }
 
 /* A serial vector with content of ours; NULL, and nothing left, without memory. */
-static N_Vector wrap(N_Vector v, struct hooke_crew *crew) {
-  struct content *content = v ? hooke_new(1, sizeof *content) : NULL;
+static N_Vector wrap(N_Vector v, struct hk_crew *crew) {
+  struct content *content = v ? hk_new(1, sizeof *content) : NULL;
   if (content) {
     content->serial = *(N_VectorContent_Serial)v->content;
     content->plain = v->content;
@@ -251,7 +251,7 @@ static N_Vector wrap(N_Vector v, struct hooke_crew *crew) {
 /* N_VClone() writes to what it gets without a look. */
 static N_Vector clone(N_Vector v) {
   const struct content *content = v->content;
-  struct hooke_sundials_spare *spare = content->spare;
+  struct hk_sundials_spare *spare = content->spare;
   N_Vector copy = wrap(N_VClone_Serial(v), content->crew);
   if (copy) ((struct content *)copy->content)->spare = spare;
   if (copy || spare == NULL) return copy;
@@ -259,7 +259,7 @@ static N_Vector clone(N_Vector v) {
   return spare->vector;
 }
 
-int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spare) {
+int32_t hk_sundials_spare_create(N_Vector v, struct hk_sundials_spare *spare) {
   struct content *content = v->content;
   spare->vector = clone(v);
   if (spare->vector == NULL) return 0;
@@ -268,14 +268,14 @@ int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spa
   return 1;
 }
 
-void hooke_sundials_spare_release(struct hooke_sundials_spare *spare) {
+void hk_sundials_spare_release(struct hk_sundials_spare *spare) {
   if (spare->vector == NULL) return;
   ((struct content *)spare->vector->content)->is_spare = 0;
   destroy(spare->vector);
   spare->vector = NULL;
 }
 
-N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context) {
+N_Vector hk_sundials_vector(int64_t size, struct hk_crew *crew, SUNContext context) {
   N_Vector v = wrap(N_VNew_Serial(size, context), crew);
   if (v == NULL) return NULL;
   v->ops->nvclone = clone;
@@ -301,5 +301,5 @@ N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext
 }
 
 #else
-typedef int hooke_sundials_vector_is_not_built;
+typedef int hk_sundials_vector_is_not_built;
 #endif

@@ -9,17 +9,17 @@
 
 /* `size` numbers, not set; N_VDestroy() releases it. Clones have the same loops and crew, which has to outlive them (NULL:
  * one thread). NULL without memory. */
-N_Vector hooke_sundials_vector(int64_t size, struct hooke_crew *crew, SUNContext context);
+N_Vector hk_sundials_vector(int64_t size, struct hk_crew *crew, SUNContext context);
 
 /* SUNDIALS takes for granted that there is memory for a clone. Where there is none, its clones are all this one vector, which
  * N_VDestroy() leaves alone, and `taken` says that their numbers mean nothing. */
-struct hooke_sundials_spare {
+struct hk_sundials_spare {
   N_Vector vector;
   int32_t taken;
 };
 
 /* A spare for the clones of `v` and for theirs, which stays where it is until all of them are gone. 0 without memory. */
-int32_t hooke_sundials_spare_create(N_Vector v, struct hooke_sundials_spare *spare);
-void hooke_sundials_spare_release(struct hooke_sundials_spare *spare);
+int32_t hk_sundials_spare_create(N_Vector v, struct hk_sundials_spare *spare);
+void hk_sundials_spare_release(struct hk_sundials_spare *spare);
 
 #endif

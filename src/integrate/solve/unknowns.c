@@ -6,14 +6,14 @@
 
 #include <string.h>
 
-static int32_t find_stretches(const hooke_system *system, struct hooke_unknowns *u) {
-  u->stretch = hooke_new(system->held_count + 1, sizeof *u->stretch);
+static int32_t find_stretches(const hooke_system *system, struct hk_unknowns *u) {
+  u->stretch = hk_new(system->held_count + 1, sizeof *u->stretch);
   if (u->stretch == NULL) return HOOKE_NO_MEMORY;
   int64_t from = 0, place = 0;
   for (int64_t k = 0; k <= system->held_count; k++) {
     const int64_t to = k < system->held_count ? system->held_particle[k] : system->particle_count;
     if (to > from) {
-      u->stretch[u->stretch_count++] = (struct hooke_stretch_of_free){from, place, to - from};
+      u->stretch[u->stretch_count++] = (struct hk_stretch_of_free){from, place, to - from};
       place += to - from;
     }
     from = to + 1;
@@ -21,25 +21,25 @@ static int32_t find_stretches(const hooke_system *system, struct hooke_unknowns 
   return HOOKE_OK;
 }
 
-int32_t hooke_unknowns_create(hooke_integrator *it, int32_t products, struct hooke_unknowns *u) {
-  *u = (struct hooke_unknowns){.size = it->size};
+int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unknowns *u) {
+  *u = (struct hk_unknowns){.size = it->size};
   if (it->rate) return HOOKE_OK;
   u->free_count = it->system->particle_count - it->system->held_count;
   u->size = u->free_count > 0 ? 6 * u->free_count : 1;
   if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (!products) return HOOKE_OK;
-  u->rows = hooke_new(5 * it->size, sizeof(double));
+  u->rows = hk_new(5 * it->size, sizeof(double));
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
   return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-void hooke_unknowns_release(struct hooke_unknowns *u) {
-  hooke_free(u->stretch);
-  hooke_free(u->rows);
-  *u = (struct hooke_unknowns){0};
+void hk_unknowns_release(struct hk_unknowns *u) {
+  hk_free(u->stretch);
+  hk_free(u->rows);
+  *u = (struct hk_unknowns){0};
 }
 
-void hooke_unknowns_tolerance(const hooke_integrator *it, const struct hooke_unknowns *u, double *tolerance) {
+void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns *u, double *tolerance) {
   const double position = hooke_options_number(it->options, "atol");
   const double velocity = hooke_options_number(it->options, "atol_velocity");
   for (int64_t k = 0; k < u->size; k++)
@@ -48,28 +48,28 @@ void hooke_unknowns_tolerance(const hooke_integrator *it, const struct hooke_unk
 
 /* ---- between y and all particles ---- */
 
-void hooke_unknowns_gather(const struct hooke_unknowns *u, const double *const all[3], double *some) {
+void hk_unknowns_gather(const struct hk_unknowns *u, const double *const all[3], double *some) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
-      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const struct hk_stretch_of_free *s = &u->stretch[k];
       memcpy(some + a * u->free_count + s->place, all[a] + s->particle, (size_t)s->count * sizeof(double));
     }
   }
 }
 
-void hooke_unknowns_spread(const struct hooke_unknowns *u, const double *some, double *const all[3]) {
+void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double *const all[3]) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
-      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const struct hk_stretch_of_free *s = &u->stretch[k];
       memcpy(all[a] + s->particle, some + a * u->free_count + s->place, (size_t)s->count * sizeof(double));
     }
   }
 }
 
 /* Rows of x y z of the free particles; those of the others stay. */
-static void spread_to_rows(const struct hooke_unknowns *u, const double *some, double *rows) {
+static void spread_to_rows(const struct hk_unknowns *u, const double *some, double *rows) {
   for (int64_t k = 0; k < u->stretch_count; k++) {
-    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    const struct hk_stretch_of_free *s = &u->stretch[k];
     const double *x = some + s->place, *y = x + u->free_count, *z = y + u->free_count;
     double *row = rows + 3 * s->particle;
     for (int64_t p = 0; p < s->count; p++, row += 3) {
@@ -80,31 +80,31 @@ static void spread_to_rows(const struct hooke_unknowns *u, const double *some, d
   }
 }
 
-static void gather_motion(const struct hooke_unknowns *u, const struct hooke_motion *motion, double *y) {
-  hooke_unknowns_gather(u, (const double *const *)motion->q, y);
-  hooke_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
+static void gather_motion(const struct hk_unknowns *u, const struct hk_motion *motion, double *y) {
+  hk_unknowns_gather(u, (const double *const *)motion->q, y);
+  hk_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
 }
 
-void hooke_unknowns_load(hooke_integrator *it, const struct hooke_unknowns *u, const hooke_state *state,
-                         double *y) {
+void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const hooke_state *state,
+                      double *y) {
   if (it->rate) {
     memcpy(y, state->q, (size_t)it->size * sizeof(double));
     return;
   }
   y[0] = 0.0; /* stays where nothing is free */
-  hooke_motion_load(it->system, it->motion, state->q, state->v);
+  hk_motion_load(it->system, it->motion, state->q, state->v);
   gather_motion(u, it->motion, y);
 }
 
-int32_t hooke_unknowns_store(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y,
-                             hooke_state *state) {
+int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
+                          hooke_state *state) {
   *state->t = t;
   if (it->rate) {
     memcpy(state->q, y, (size_t)it->size * sizeof(double));
     return HOOKE_OK;
   }
-  const int32_t status = hooke_integrator_hold(it, t);
-  hooke_motion_store(it->motion, state->q, state->v);
+  const int32_t status = hk_integrator_hold(it, t);
+  hk_motion_store(it->motion, state->q, state->v);
   spread_to_rows(u, y, state->q);
   spread_to_rows(u, y + 3 * u->free_count, state->v);
   return status;
@@ -112,21 +112,20 @@ int32_t hooke_unknowns_store(hooke_integrator *it, const struct hooke_unknowns *
 
 /* ---- the right-hand side ---- */
 
-int32_t hooke_unknowns_place(hooke_integrator *it, const struct hooke_unknowns *u, double t,
-                             const double *y) {
-  hooke_unknowns_spread(u, y, it->motion->q);
-  hooke_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
-  return hooke_integrator_hold(it, t);
+int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
+  hk_unknowns_spread(u, y, it->motion->q);
+  hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+  return hk_integrator_hold(it, t);
 }
 
 /* v' of the free particles; 0 times their sum tells whether all are finite. */
-static double accelerations(const hooke_integrator *it, const struct hooke_unknowns *u, double *out) {
+static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;
   for (int a = 0; a < 3; a++) {
     const double g = system->gravity[a];
     for (int64_t k = 0; k < u->stretch_count; k++) {
-      const struct hooke_stretch_of_free *s = &u->stretch[k];
+      const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
       double *to = out + a * u->free_count + s->place;
       for (int64_t p = 0; p < s->count; p++) {
@@ -139,15 +138,15 @@ static double accelerations(const hooke_integrator *it, const struct hooke_unkno
 }
 
 static int first_order_slope(hooke_integrator *it, double t, const double *x, double *slope) {
-  if (hooke_integrator_rate(it, t, x, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  if (hk_integrator_rate(it, t, x, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
   double sum = 0.0;
   for (int64_t k = 0; k < it->size; k++)
     sum += 0.0 * slope[k];
   return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
 }
 
-int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, double t, const double *y,
-                         double *slope) {
+int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
+                      double *slope) {
   /* a solver may take a stop for a reason to try a smaller step */
   if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
   if (it->rate) return first_order_slope(it, t, y, slope);
@@ -155,7 +154,7 @@ int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, d
     slope[0] = 0.0;
     return HOOKE_SLOPE_FINE;
   }
-  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK || hooke_integrator_forces(it, t) != HOOKE_OK)
+  if (hk_unknowns_place(it, u, t, y) != HOOKE_OK || hk_integrator_forces(it, t) != HOOKE_OK)
     return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->free_count;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
@@ -164,16 +163,15 @@ int hooke_unknowns_slope(hooke_integrator *it, const struct hooke_unknowns *u, d
 
 /* ---- its derivative ---- */
 
-int hooke_unknowns_linearise(hooke_integrator *it, const struct hooke_unknowns *u, double t,
-                             const double *y) {
+int hk_unknowns_linearise(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
   if (u->free_count == 0) return HOOKE_SLOPE_FINE;
-  if (hooke_unknowns_place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
-  hooke_motion_store(it->motion, u->rows, u->rows + it->size);
+  if (hk_unknowns_place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  hk_motion_store(it->motion, u->rows, u->rows + it->size);
   return HOOKE_SLOPE_FINE;
 }
 
-int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u, double t,
-                           const double *direction, double *product) {
+int hk_unknowns_product(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *direction,
+                        double *product) {
   if (u->free_count == 0) {
     product[0] = 0.0;
     return HOOKE_SLOPE_FINE;
@@ -184,14 +182,14 @@ int hooke_unknowns_product(hooke_integrator *it, const struct hooke_unknowns *u,
   spread_to_rows(u, direction + 3 * m, dv);
   it->count.derivative_products++;
   int32_t stop_value = 0;
-  const struct hooke_point point = {t, q, v, dq, dv, &stop_value};
-  if (hooke_forces_product(it->system, &point, NULL, out) != HOOKE_OK) {
+  const struct hk_point point = {t, q, v, dq, dv, &stop_value};
+  if (hk_forces_product(it->system, &point, NULL, out) != HOOKE_OK) {
     it->stop_value = stop_value;
     return HOOKE_SLOPE_STOPPED;
   }
   memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
   for (int64_t k = 0; k < u->stretch_count; k++) {
-    const struct hooke_stretch_of_free *s = &u->stretch[k];
+    const struct hk_stretch_of_free *s = &u->stretch[k];
     for (int64_t p = 0; p < s->count; p++) {
       for (int a = 0; a < 3; a++)
         product[(3 + a) * m + s->place + p] =

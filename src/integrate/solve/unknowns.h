@@ -7,14 +7,14 @@
 #include "integrate/integrator.h"
 
 /* Free particles in a row: those from `particle` on, the first of which is free one number `place`. */
-struct hooke_stretch_of_free {
+struct hk_stretch_of_free {
   int64_t particle, place, count;
 };
 
-struct hooke_unknowns {
+struct hk_unknowns {
   int64_t size; /* numbers in y */
   int64_t free_count, stretch_count;
-  struct hooke_stretch_of_free *stretch;
+  struct hk_stretch_of_free *stretch;
   double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
 };
 
@@ -23,36 +23,35 @@ struct hooke_unknowns {
 enum { HOOKE_SLOPE_FINE = 0, HOOKE_SLOPE_NOT_FINITE = 1, HOOKE_SLOPE_STOPPED = -1 };
 
 /* `products`: 1 if products with the derivative will be asked for. HOOKE_NO_MEMORY. */
-int32_t hooke_unknowns_create(hooke_integrator *integrator, int32_t products,
-                              struct hooke_unknowns *unknowns);
-void hooke_unknowns_release(struct hooke_unknowns *unknowns);
+int32_t hk_unknowns_create(hooke_integrator *integrator, int32_t products, struct hk_unknowns *unknowns);
+void hk_unknowns_release(struct hk_unknowns *unknowns);
 
 /* The absolute tolerance of each unknown, from atol and atol_velocity. */
-void hooke_unknowns_tolerance(const hooke_integrator *integrator, const struct hooke_unknowns *unknowns,
-                              double *tolerance);
+void hk_unknowns_tolerance(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                           double *tolerance);
 
 /* From a state, and to one at time t: a drive may stop the run. */
-void hooke_unknowns_load(hooke_integrator *integrator, const struct hooke_unknowns *unknowns,
-                         const hooke_state *state, double *y);
-int32_t hooke_unknowns_store(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
-                             const double *y, hooke_state *state);
+void hk_unknowns_load(hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                      const hooke_state *state, double *y);
+int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+                          const double *y, hooke_state *state);
 
 /* Three components of the free particles (3 free_count) from and to those of all (3 n); those of the others stay. */
-void hooke_unknowns_gather(const struct hooke_unknowns *unknowns, const double *const all[3], double *some);
-void hooke_unknowns_spread(const struct hooke_unknowns *unknowns, const double *some, double *const all[3]);
+void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *const all[3], double *some);
+void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, double *const all[3]);
 
 /* Puts y and the held particles of time t into the working copy; a status. */
-int32_t hooke_unknowns_place(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
-                             const double *y);
+int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+                          const double *y);
 
 /* slope = phi(t, y), counted. */
-int hooke_unknowns_slope(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
-                         const double *y, double *slope);
+int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+                      const double *y, double *slope);
 
 /* Sets the point at which products of a second-order problem are taken; then product = (d phi/d y) direction there. */
-int hooke_unknowns_linearise(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
-                             const double *y);
-int hooke_unknowns_product(hooke_integrator *integrator, const struct hooke_unknowns *unknowns, double t,
-                           const double *direction, double *product);
+int hk_unknowns_linearise(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+                          const double *y);
+int hk_unknowns_product(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+                        const double *direction, double *product);
 
 #endif

@@ -21,24 +21,24 @@ enum { CHUNK = 1024 };
 
 /* ---- writing ---- */
 
-static int32_t find_place(const hooke_integrator *it, const hooke_state *state,
-                          struct hooke_standing *standing, const hooke_state **from) {
+static int32_t find_place(const hooke_integrator *it, const hooke_state *state, struct hk_standing *standing,
+                          const hooke_state **from) {
   if (!it->begun)
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "there is no run to write a checkpoint of: it has not begun");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is no run to write a checkpoint of: it has not begun");
   if (it->method->adaptive && it->restart.state == NULL) {
-    return hooke_fail(HOOKE_UNSUITED, "checkpoint",
-                      "is missing: %s goes on from the times of this option alone; give one [s]",
-                      it->method->name);
+    return hk_fail(HOOKE_UNSUITED, "checkpoint",
+                   "is missing: %s goes on from the times of this option alone; give one [s]",
+                   it->method->name);
   }
-  *standing = it->method->adaptive ? it->restart.standing : hooke_integrator_standing(it);
+  *standing = it->method->adaptive ? it->restart.standing : hk_integrator_standing(it);
   *from = it->method->adaptive ? it->restart.state : state;
   const double t = standing->t;
   if ((*from)->size != it->size || (*from)->has_v != (it->system != NULL) ||
       memcmp(&t, (*from)->t, sizeof t) != 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.6g s", t);
+    return hk_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.6g s", t);
   }
-  if (hooke_all_finite(((*from)->has_v ? 2 : 1) * (*from)->size, (*from)->q)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
+  if (hk_all_finite(((*from)->has_v ? 2 : 1) * (*from)->size, (*from)->q)) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
 }
 
 /* Where the next bytes go; each function returns 0 or the number of the system's error. */
@@ -49,8 +49,8 @@ struct sink {
 };
 
 static int write_some(struct sink *sink, const void *bytes, int64_t count) {
-  const int error = hooke_bytes_write(sink->descriptor, sink->at, count, bytes);
-  sink->check = hooke_crc32(sink->check, bytes, count);
+  const int error = hk_bytes_write(sink->descriptor, sink->at, count, bytes);
+  sink->check = hk_crc32(sink->check, bytes, count);
   sink->at += count;
   return error;
 }
@@ -60,16 +60,16 @@ static int write_numbers(struct sink *sink, int64_t count, const double *value) 
   int error = 0;
   for (int64_t done = 0; done < count && error == 0; done += CHUNK) {
     const int64_t some = count - done < CHUNK ? count - done : CHUNK;
-    hooke_checkpoint_pack_numbers(some, value + done, bytes);
+    hk_checkpoint_pack_numbers(some, value + done, bytes);
     error = write_some(sink, bytes, 8 * some);
   }
   return error;
 }
 
-static int write_all(int descriptor, const struct hooke_checkpoint_header *header, const hooke_state *state) {
+static int write_all(int descriptor, const struct hk_checkpoint_header *header, const hooke_state *state) {
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER], end[HOOKE_CHECKPOINT_END];
   struct sink sink = {.descriptor = descriptor};
-  hooke_checkpoint_pack(header, bytes);
+  hk_checkpoint_pack(header, bytes);
   int error = write_some(&sink, bytes, sizeof bytes);
   if (error == 0) error = write_numbers(&sink, (state->has_v ? 2 : 1) * state->size, state->q);
   for (int k = 0; k < HOOKE_CHECKPOINT_END; k++)
@@ -80,23 +80,23 @@ static int write_all(int descriptor, const struct hooke_checkpoint_header *heade
 int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, const hooke_state *state,
                                const char *run) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_standing standing;
+  struct hk_standing standing;
   const hooke_state *from = NULL;
   int32_t status = find_place(it, state, &standing, &from);
   if (status == HOOKE_OK && run && strlen(run) >= HOOKE_CHECKPOINT_RUN)
-    status = hooke_fail(HOOKE_BAD_VALUE, "run", "is longer than %d bytes", HOOKE_CHECKPOINT_RUN - 1);
+    status = hk_fail(HOOKE_BAD_VALUE, "run", "is longer than %d bytes", HOOKE_CHECKPOINT_RUN - 1);
   if (status != HOOKE_OK) return status;
-  struct hooke_checkpoint_header header;
-  hooke_checkpoint_describe(it, &standing, run, &header);
-  struct hooke_place place;
+  struct hk_checkpoint_header header;
+  hk_checkpoint_describe(it, &standing, run, &header);
+  struct hk_place place;
   char *previous = NULL;
-  status = hooke_place_make(path, &place);
-  if (status == HOOKE_OK) status = hooke_place_beside(place.path, ".previous", &previous);
+  status = hk_place_make(path, &place);
+  if (status == HOOKE_OK) status = hk_place_beside(place.path, ".previous", &previous);
   const int error = status == HOOKE_OK ? write_all(place.descriptor, &header, from) : 0;
-  if (error) status = hooke_place_fail(path, "write", error);
-  if (status == HOOKE_OK) status = hooke_place_take(&place, previous);
-  hooke_free(previous);
-  hooke_place_release(&place);
+  if (error) status = hk_place_fail(path, "write", error);
+  if (status == HOOKE_OK) status = hk_place_take(&place, previous);
+  hk_free(previous);
+  hk_place_release(&place);
   return status;
 }
 
@@ -104,18 +104,18 @@ int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, con
 
 /* One file that was read: its label, and a state of the right size with its numbers. */
 struct found {
-  struct hooke_checkpoint_header header;
+  struct hk_checkpoint_header header;
   hooke_state *state;
-  enum hooke_checkpoint_finding finding;
+  enum hk_checkpoint_finding finding;
 };
 
 static int32_t damaged(const char *path, const char *what) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", path, what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", path, what);
 }
 
 static int read_some(FILE *file, uint32_t *check, void *bytes, int64_t count) {
   if (fread(bytes, 1, (size_t)count, file) != (size_t)count) return 0;
-  *check = hooke_crc32(*check, bytes, count);
+  *check = hk_crc32(*check, bytes, count);
   return 1;
 }
 
@@ -124,7 +124,7 @@ static int read_numbers(FILE *file, uint32_t *check, int64_t count, double *valu
   for (int64_t done = 0; done < count; done += CHUNK) {
     const int64_t some = count - done < CHUNK ? count - done : CHUNK;
     if (!read_some(file, check, bytes, 8 * some)) return 0;
-    hooke_checkpoint_unpack_numbers(some, bytes, value + done);
+    hk_checkpoint_unpack_numbers(some, bytes, value + done);
   }
   return 1;
 }
@@ -144,17 +144,17 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
   struct stat there;
   uint32_t check = 0;
-  if (fstat(fileno(file), &there) != 0) return hooke_place_fail(path, "read the file", errno);
+  if (fstat(fileno(file), &there) != 0) return hk_place_fail(path, "read the file", errno);
   if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
-  hooke_checkpoint_unpack(bytes, &found->header);
-  const char *damage = hooke_checkpoint_damage(&found->header, there.st_size);
+  hk_checkpoint_unpack(bytes, &found->header);
+  const char *damage = hk_checkpoint_damage(&found->header, there.st_size);
   if (damage) return damaged(path, damage);
   const int64_t size = found->header.size;
   if (size != it->size || found->header.has_v != (it->system != NULL)) {
     found->finding = HOOKE_CHECKPOINT_OTHER;
     return damaged(path, "is of another scene");
   }
-  int32_t status = hooke_state_create_sized(size, it->system != NULL, &found->state);
+  int32_t status = hk_state_create_sized(size, it->system != NULL, &found->state);
   if (status != HOOKE_OK) return status;
   if (!read_numbers(file, &check, (found->state->has_v ? 2 : 1) * size, found->state->q))
     return damaged(path, "is cut off");
@@ -163,14 +163,14 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
 }
 
 static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
-  const int descriptor = hooke_place_open(path);
+  const int descriptor = hk_place_open(path);
   FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
   found->finding = file == NULL && errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
   if (file == NULL) {
     const int error = errno;
     if (descriptor >= 0) close(descriptor);
     return error == EINVAL || error == EISDIR ? damaged(path, "is not a regular file")
-                                              : hooke_place_fail(path, "open the checkpoint", error);
+                                              : hk_place_fail(path, "open the checkpoint", error);
   }
   int32_t status = read_open(path, file, it, found);
   fclose(file);
@@ -180,7 +180,7 @@ static int32_t read_file(const char *path, const char *run, const hooke_integrat
     return damaged(path, "is of another run");
   }
   found->finding = HOOKE_CHECKPOINT_OTHER;
-  status = hooke_checkpoint_check(path, &found->header, it);
+  status = hk_checkpoint_check(path, &found->header, it);
   if (status == HOOKE_OK) found->finding = HOOKE_CHECKPOINT_FOUND;
   return status;
 }
@@ -194,37 +194,37 @@ static void drop(struct found *found) {
 static int32_t find(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
   char *previous = NULL, first[512];
   int32_t status = read_file(path, run, it, found);
-  const enum hooke_checkpoint_finding newest = found->finding;
+  const enum hk_checkpoint_finding newest = found->finding;
   if (newest == HOOKE_CHECKPOINT_FOUND || newest >= HOOKE_CHECKPOINT_OTHER_RUN || status == HOOKE_NO_MEMORY)
     return status;
   snprintf(first, sizeof first, "%s", hooke_last_error());
   drop(found);
-  const int32_t second = hooke_place_beside(path, ".previous", &previous);
+  const int32_t second = hk_place_beside(path, ".previous", &previous);
   const int there = second == HOOKE_OK && access(previous, F_OK) == 0;
   if (there) {
     status = read_file(previous, run, it, found);
-    if (status != HOOKE_OK) hooke_fail_before(status, "%s; ", first);
+    if (status != HOOKE_OK) hk_fail_before(status, "%s; ", first);
   } else {
-    hooke_fail(status, NULL, "%s", first);
+    hk_fail(status, NULL, "%s", first);
   }
-  hooke_free(previous);
+  hk_free(previous);
   return second == HOOKE_OK ? status : second;
 }
 
-int32_t hooke_checkpoint_take(const char *path, const char *run, hooke_integrator *it, hooke_state *state,
-                              enum hooke_checkpoint_finding *finding) {
+int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *it, hooke_state *state,
+                           enum hk_checkpoint_finding *finding) {
   HOOKE_KEEP_ERRNO;
   *finding = HOOKE_CHECKPOINT_OTHER;
   if (state->size != it->size || state->has_v != (it->system != NULL))
-    return hooke_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                      (long long)state->size, (long long)it->size);
+    return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
+                   (long long)state->size, (long long)it->size);
   struct found found = {.state = NULL};
   int32_t status = find(path, run, it, &found);
   *finding = found.finding;
   if (status == HOOKE_OK) {
-    hooke_recent_set_first(&it->recent, NULL);
-    status = hooke_integrator_stand(it, &found.header.standing, found.state);
-    if (status != HOOKE_OK) hooke_fail_before(status, "%s: ", path);
+    hk_recent_set_first(&it->recent, NULL);
+    status = hk_integrator_stand(it, &found.header.standing, found.state);
+    if (status != HOOKE_OK) hk_fail_before(status, "%s: ", path);
   }
   if (status == HOOKE_OK) {
     it->placed = 1;
@@ -235,13 +235,13 @@ int32_t hooke_checkpoint_take(const char *path, const char *run, hooke_integrato
 }
 
 int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *it, hooke_state *state) {
-  enum hooke_checkpoint_finding finding;
-  return hooke_checkpoint_take(path, run, it, state, &finding);
+  enum hk_checkpoint_finding finding;
+  return hk_checkpoint_take(path, run, it, state, &finding);
 }
 
-void hooke_checkpoint_remove(const char *path) {
+void hk_checkpoint_remove(const char *path) {
   char *previous = NULL;
   unlink(path);
-  if (hooke_place_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
-  hooke_free(previous);
+  if (hk_place_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
+  hk_free(previous);
 }

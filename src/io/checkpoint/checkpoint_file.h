@@ -5,7 +5,7 @@
 #include "hooke/checkpoint.h"
 
 /* What was found where a checkpoint was looked for: of several files, the last one that was looked at. */
-enum hooke_checkpoint_finding {
+enum hk_checkpoint_finding {
   HOOKE_CHECKPOINT_FOUND,
   HOOKE_CHECKPOINT_ABSENT,
   HOOKE_CHECKPOINT_DAMAGED,
@@ -14,10 +14,10 @@ enum hooke_checkpoint_finding {
 };
 
 /* hooke_checkpoint_read(), and what was found. */
-int32_t hooke_checkpoint_take(const char *path, const char *run, hooke_integrator *integrator,
-                              hooke_state *state, enum hooke_checkpoint_finding *finding);
+int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *integrator,
+                           hooke_state *state, enum hk_checkpoint_finding *finding);
 
 /* The file and the previous one, as far as they are there. */
-void hooke_checkpoint_remove(const char *path);
+void hk_checkpoint_remove(const char *path);
 
 #endif

@@ -59,9 +59,9 @@ static void move_text(struct tape *tape, char *text, int64_t size) {
   tape->at += size;
 }
 
-static void move_header(struct tape *tape, struct hooke_checkpoint_header *h) {
-  struct hooke_standing *s = &h->standing;
-  struct hooke_counts *c = &s->count;
+static void move_header(struct tape *tape, struct hk_checkpoint_header *h) {
+  struct hk_standing *s = &h->standing;
+  struct hk_counts *c = &s->count;
   move_text(tape, h->magic, sizeof h->magic);
   move_u32(tape, &h->version);
   move_u32(tape, &h->has_v);
@@ -88,20 +88,20 @@ static void move_header(struct tape *tape, struct hooke_checkpoint_header *h) {
     move_whole(tape, wholes[k]);
 }
 
-void hooke_checkpoint_pack(const struct hooke_checkpoint_header *header,
-                           unsigned char bytes[HOOKE_CHECKPOINT_HEADER]) {
-  struct hooke_checkpoint_header copy = *header;
+void hk_checkpoint_pack(const struct hk_checkpoint_header *header,
+                        unsigned char bytes[HOOKE_CHECKPOINT_HEADER]) {
+  struct hk_checkpoint_header copy = *header;
   move_header(&(struct tape){bytes, 1}, &copy);
 }
 
-void hooke_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
-                             struct hooke_checkpoint_header *header) {
+void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
+                          struct hk_checkpoint_header *header) {
   unsigned char copy[HOOKE_CHECKPOINT_HEADER];
   memcpy(copy, bytes, sizeof copy);
   move_header(&(struct tape){copy, 0}, header);
 }
 
-void hooke_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes) {
+void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes) {
   struct tape tape = {bytes, 1};
   for (int64_t k = 0; k < count; k++) {
     double number = value[k];
@@ -109,7 +109,7 @@ void hooke_checkpoint_pack_numbers(int64_t count, const double *value, unsigned 
   }
 }
 
-void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value) {
+void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value) {
   for (int64_t k = 0; k < count; k++) {
     unsigned char copy[8];
     memcpy(copy, bytes + 8 * k, sizeof copy);
@@ -119,17 +119,17 @@ void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, 
 
 /* ---- what it is of ---- */
 
-uint32_t hooke_checkpoint_options(const hooke_options *options) {
+uint32_t hk_checkpoint_options(const hooke_options *options) {
   uint32_t value = 0;
   for (int64_t k = 0; k < hooke_options_row_count(options); k++) {
     const char *name = hooke_options_row(options, k, "name"), *text = hooke_options_text(options, name);
     const double number = hooke_options_number(options, name);
     if (strcmp(name, "threads") == 0 || (isnan(number) && text[0] == '\0')) continue;
-    value = hooke_crc32(value, name, (int64_t)strlen(name) + 1);
+    value = hk_crc32(value, name, (int64_t)strlen(name) + 1);
     if (isnan(number))
-      value = hooke_crc32(value, text, (int64_t)strlen(text) + 1);
+      value = hk_crc32(value, text, (int64_t)strlen(text) + 1);
     else
-      value = hooke_crc32(value, &number, sizeof number);
+      value = hk_crc32(value, &number, sizeof number);
   }
   return value;
 }
@@ -138,22 +138,22 @@ static int64_t length_of(int64_t size, uint32_t has_v) {
   return HOOKE_CHECKPOINT_HEADER + (has_v ? 16 : 8) * size + HOOKE_CHECKPOINT_END;
 }
 
-void hooke_checkpoint_describe(const hooke_integrator *it, const struct hooke_standing *standing,
-                               const char *run, struct hooke_checkpoint_header *h) {
+void hk_checkpoint_describe(const hooke_integrator *it, const struct hk_standing *standing, const char *run,
+                            struct hk_checkpoint_header *h) {
   memset(h, 0, sizeof *h);
   memcpy(h->magic, MAGIC, sizeof MAGIC);
   h->version = VERSION;
   h->has_v = it->system != NULL;
   h->size = it->size;
   h->length = length_of(h->size, h->has_v);
-  h->system = it->system ? hooke_system_check_value(it->system) : 0;
-  h->options = hooke_checkpoint_options(it->options);
+  h->system = it->system ? hk_system_check_value(it->system) : 0;
+  h->options = hk_checkpoint_options(it->options);
   snprintf(h->method, sizeof h->method, "%s", it->method->name);
   snprintf(h->run, sizeof h->run, "%s", run ? run : "");
   h->standing = *standing;
 }
 
-const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *h, int64_t length) {
+const char *hk_checkpoint_damage(const struct hk_checkpoint_header *h, int64_t length) {
   if (memcmp(h->magic, MAGIC, sizeof MAGIC) != 0) return "is no checkpoint of hooke";
   if (h->version != VERSION) return "is of a version that this library does not read";
   if (h->length != length) return "is not as long as it was written";
@@ -166,9 +166,9 @@ const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *h, int
 /* ---- whether it fits ---- */
 
 /* Far from where counting on would overflow. */
-static int are_counts(const struct hooke_standing *s) {
+static int are_counts(const struct hk_standing *s) {
   static const int64_t most = INT64_C(1) << 62;
-  const struct hooke_counts *c = &s->count;
+  const struct hk_counts *c = &s->count;
   const int64_t counts[] = {s->k,
                             s->frames,
                             c->steps,
@@ -184,8 +184,8 @@ static int are_counts(const struct hooke_standing *s) {
   return fit;
 }
 
-static int is_possible(const hooke_integrator *it, const struct hooke_standing *s) {
-  const struct hooke_schedule *schedule = &it->schedule;
+static int is_possible(const hooke_integrator *it, const struct hk_standing *s) {
+  const struct hk_schedule *schedule = &it->schedule;
   const int planned = schedule->frames > 0;
   const double t = s->t0 + (double)s->k * schedule->step;
   if (!isfinite(s->t0) || !isfinite(s->t) || !are_counts(s) || !(s->wall_seconds >= 0.0)) return 0;
@@ -200,22 +200,22 @@ static int is_possible(const hooke_integrator *it, const struct hooke_standing *
          (s->frames == frames || (s->frames == frames - 1 && s->k % schedule->frame_steps == 0));
 }
 
-int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *h,
-                               const hooke_integrator *it) {
-  struct hooke_checkpoint_header own;
-  hooke_checkpoint_describe(it, &h->standing, NULL, &own);
+int32_t hk_checkpoint_check(const char *path, const struct hk_checkpoint_header *h,
+                            const hooke_integrator *it) {
+  struct hk_checkpoint_header own;
+  hk_checkpoint_describe(it, &h->standing, NULL, &own);
   if (h->size != own.size || h->has_v != own.has_v || h->system != own.system)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
   if (strcmp(h->method, own.method) != 0) {
     char shown[HOOKE_OPTION_SHOWN];
-    hooke_option_show(h->method, (int64_t)strlen(h->method), shown);
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run by %s, not by %s", path, shown, own.method);
+    hk_option_show(h->method, (int64_t)strlen(h->method), shown);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run by %s, not by %s", path, shown, own.method);
   }
   if (h->options != own.options)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "%s: is of a run with other options; only threads may be changed", path);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run with other options; only threads may be changed",
+                   path);
   if (!is_possible(it, &h->standing))
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is damaged: it is at a place where no such run comes by",
-                      path);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is damaged: it is at a place where no such run comes by",
+                   path);
   return HOOKE_OK;
 }

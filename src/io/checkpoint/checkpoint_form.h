@@ -5,7 +5,7 @@
  *   32   check values of the system and of the options u32 each
  *   40   method, 32 bytes; run, 64 bytes; both end in zeros
  *   136  t0, t, energy0, scale0, gravity0, gravity_swing, wall_seconds f64 each
- *   192  k, frames, and the counts in the order of struct hooke_counts i64 each
+ *   192  k, frames, and the counts in the order of struct hk_counts i64 each
  *   264  q, then v f64 each
  *   end  CRC-32 of all bytes before it u32 */
 #ifndef HOOKE_IO_CHECKPOINT_CHECKPOINT_FORM_H
@@ -20,33 +20,33 @@ enum {
   HOOKE_CHECKPOINT_END = 4
 };
 
-struct hooke_checkpoint_header {
+struct hk_checkpoint_header {
   char magic[8];
   uint32_t version, has_v;
   int64_t length, size;
   uint32_t system, options;
   char method[HOOKE_CHECKPOINT_METHOD], run[HOOKE_CHECKPOINT_RUN];
-  struct hooke_standing standing;
+  struct hk_standing standing;
 };
 
 /* That of the run of an integrator that is at `standing`. */
-void hooke_checkpoint_describe(const hooke_integrator *integrator, const struct hooke_standing *standing,
-                               const char *run, struct hooke_checkpoint_header *header);
+void hk_checkpoint_describe(const hooke_integrator *integrator, const struct hk_standing *standing,
+                            const char *run, struct hk_checkpoint_header *header);
 
-void hooke_checkpoint_pack(const struct hooke_checkpoint_header *header,
-                           unsigned char bytes[HOOKE_CHECKPOINT_HEADER]);
-void hooke_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
-                             struct hooke_checkpoint_header *header);
-void hooke_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
-void hooke_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
+void hk_checkpoint_pack(const struct hk_checkpoint_header *header,
+                        unsigned char bytes[HOOKE_CHECKPOINT_HEADER]);
+void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
+                          struct hk_checkpoint_header *header);
+void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
+void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
 
 /* Check value of the options of a run that have a value, given or not, but for `threads`, which decide no bit. */
-uint32_t hooke_checkpoint_options(const hooke_options *options);
+uint32_t hk_checkpoint_options(const hooke_options *options);
 
 /* NULL, or what is wrong with a header of a file of `length` bytes. */
-const char *hooke_checkpoint_damage(const struct hooke_checkpoint_header *header, int64_t length);
+const char *hk_checkpoint_damage(const struct hk_checkpoint_header *header, int64_t length);
 /* HOOKE_BAD_VALUE for one that is not of this problem and these options, or with impossible numbers. */
-int32_t hooke_checkpoint_check(const char *path, const struct hooke_checkpoint_header *header,
-                               const hooke_integrator *integrator);
+int32_t hk_checkpoint_check(const char *path, const struct hk_checkpoint_header *header,
+                            const hooke_integrator *integrator);
 
 #endif

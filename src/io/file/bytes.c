@@ -3,7 +3,7 @@
 #include <errno.h>
 #include <unistd.h>
 
-int hooke_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes) {
+int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes) {
   const char *rest = bytes;
   while (count > 0) {
     const ssize_t done = pwrite(descriptor, rest, (size_t)count, (off_t)at);
@@ -16,7 +16,7 @@ int hooke_bytes_write(int descriptor, int64_t at, int64_t count, const void *byt
   return 0;
 }
 
-int hooke_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
+int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
   char *rest = bytes;
   while (count > 0) {
     const ssize_t done = pread(descriptor, rest, (size_t)count, (off_t)at);
@@ -29,13 +29,13 @@ int hooke_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
   return 0;
 }
 
-int hooke_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,
-                     int64_t room) {
+int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,
+                  int64_t room) {
   int error = 0;
   for (int64_t done = 0; error == 0 && done < count; done += room) {
     const int64_t part = count - done < room ? count - done : room;
-    error = hooke_bytes_read(from, from_at + done, part, block);
-    if (error == 0) error = hooke_bytes_write(to, to_at + done, part, block);
+    error = hk_bytes_read(from, from_at + done, part, block);
+    if (error == 0) error = hk_bytes_write(to, to_at + done, part, block);
   }
   return error;
 }

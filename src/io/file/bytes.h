@@ -5,11 +5,10 @@
 #include <stdint.h>
 
 /* Each returns 0 or the number of the system's error; a file that ends before is EIO. */
-int hooke_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes);
-int hooke_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes);
+int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes);
+int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes);
 
 /* Copies from one file to another through `block`, which has room for `room` bytes. */
-int hooke_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,
-                     int64_t room);
+int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block, int64_t room);
 
 #endif

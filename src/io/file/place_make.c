@@ -27,8 +27,8 @@
 static int32_t refuse_written(const char *path, int descriptor) {
   struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
   if (fcntl(descriptor, F_OFD_GETLK, &lock) != 0 || lock.l_type != F_WRLCK) return HOOKE_OK;
-  return hooke_fail(HOOKE_IO_FAILED, NULL,
-                    "%s: another run is writing this file; wait for it to end, or name another file", path);
+  return hk_fail(HOOKE_IO_FAILED, NULL,
+                 "%s: another run is writing this file; wait for it to end, or name another file", path);
 }
 
 static void unlock(int descriptor) {
@@ -60,7 +60,7 @@ static int32_t open_locked(const char *path, int *descriptor) {
   for (;;) {
     struct stat there, own;
     *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (*descriptor < 0) return errno == ENOENT ? HOOKE_OK : hooke_place_fail(path, "open the file", errno);
+    if (*descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_place_fail(path, "open the file", errno);
     const int32_t status = lock(path, *descriptor);
     const int same = stat(path, &there) == 0 && fstat(*descriptor, &own) == 0 && there.st_dev == own.st_dev &&
                      there.st_ino == own.st_ino;
@@ -80,7 +80,7 @@ static int32_t look_whether_free(const char *path) {
   return status;
 }
 
-static int32_t hold_older(struct hooke_place *place) {
+static int32_t hold_older(struct hk_place *place) {
   if (access(place->path, F_OK) == 0 && access(place->path, W_OK) != 0) return look_whether_free(place->path);
   const int32_t status = open_locked(place->path, &place->older);
   place->is_new = status == HOOKE_OK && place->older < 0;
@@ -102,20 +102,20 @@ static void inherit(int descriptor, const struct stat *older) {
 }
 
 /* A new name in the folder of the path, short enough for every folder. */
-static int32_t name_anew(struct hooke_place *place) {
+static int32_t name_anew(struct hk_place *place) {
   const int folder = (int)(strrchr(place->path, '/') - place->path) + 1;
   const size_t room = (size_t)folder + 32;
   uint64_t number;
-  hooke_free(place->temporary);
-  place->temporary = hooke_new((int64_t)room, 1);
+  hk_free(place->temporary);
+  place->temporary = hk_new((int64_t)room, 1);
   if (place->temporary == NULL) return HOOKE_NO_MEMORY;
   if (getrandom(&number, sizeof number, 0) != (ssize_t)sizeof number)
-    return hooke_place_fail(place->path, "take a random number for a name", errno);
+    return hk_place_fail(place->path, "take a random number for a name", errno);
   snprintf(place->temporary, room, "%.*shooke-%016" PRIx64 ".part", folder, place->path, number);
   return HOOKE_OK;
 }
 
-static int32_t create(const char *path, struct hooke_place *place) {
+static int32_t create(const char *path, struct hk_place *place) {
   struct stat older;
   const int replaces = stat(place->path, &older) == 0;
   do {
@@ -127,28 +127,28 @@ static int32_t create(const char *path, struct hooke_place *place) {
   } while (place->descriptor < 0 && errno == EEXIST);
   if (place->descriptor < 0) {
     const int error = errno;
-    hooke_free(place->temporary); /* it is none of ours */
+    hk_free(place->temporary); /* it is none of ours */
     place->temporary = NULL;
-    return hooke_place_fail(path, "create the file", error);
+    return hk_place_fail(path, "create the file", error);
   }
   if (replaces) inherit(place->descriptor, &older);
   return HOOKE_OK;
 }
 
-static int32_t begin(const char *path, struct hooke_place *place) {
+static int32_t begin(const char *path, struct hk_place *place) {
   *place = HOOKE_NO_PLACE;
   place->process = getpid();
-  return hooke_place_find(path, &place->path);
+  return hk_place_find(path, &place->path);
 }
 
-int32_t hooke_place_make(const char *path, struct hooke_place *place) {
+int32_t hk_place_make(const char *path, struct hk_place *place) {
   HOOKE_KEEP_ERRNO;
   int32_t status = begin(path, place);
   if (status == HOOKE_OK) status = look_whether_free(place->path);
   return status == HOOKE_OK ? create(path, place) : status;
 }
 
-int32_t hooke_place_make_held(const char *path, int32_t again, struct hooke_place *place) {
+int32_t hk_place_make_held(const char *path, int32_t again, struct hk_place *place) {
   HOOKE_KEEP_ERRNO;
   int32_t status = begin(path, place);
   place->holds = 1;
@@ -159,12 +159,12 @@ int32_t hooke_place_make_held(const char *path, int32_t again, struct hooke_plac
   return status;
 }
 
-int32_t hooke_place_hold(const char *path, struct hooke_place *place) {
+int32_t hk_place_hold(const char *path, struct hk_place *place) {
   HOOKE_KEEP_ERRNO;
   int32_t status = begin(path, place);
   place->holds = 1;
   if (status == HOOKE_OK) status = open_locked(place->path, &place->descriptor);
-  if (status == HOOKE_OK && place->descriptor < 0) status = hooke_place_fail(path, "open the file", ENOENT);
+  if (status == HOOKE_OK && place->descriptor < 0) status = hk_place_fail(path, "open the file", ENOENT);
   if (status == HOOKE_OK) let_readers_in(place->path, place->descriptor);
   return status;
 }
@@ -173,14 +173,14 @@ int32_t hooke_place_hold(const char *path, struct hooke_place *place) {
 
 static int open_folder_of(const char *path) {
   const char *slash = strrchr(path, '/');
-  char *folder = hooke_new(slash - path + 2, 1);
+  char *folder = hk_new(slash - path + 2, 1);
   if (folder == NULL) {
     errno = ENOMEM;
     return -1;
   }
   memcpy(folder, path, (size_t)(slash - path) + 1);
   const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  hooke_free(folder);
+  hk_free(folder);
   return descriptor;
 }
 
@@ -192,7 +192,7 @@ static int sync_folder(int folder) {
 }
 
 /* Where nothing was as a run began, another may have come first. */
-static int32_t rename_new(struct hooke_place *place) {
+static int32_t rename_new(struct hk_place *place) {
   const char *path = place->path;
   if (place->is_new) {
     if (renameat2(AT_FDCWD, place->temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0) return HOOKE_OK;
@@ -200,10 +200,10 @@ static int32_t rename_new(struct hooke_place *place) {
       const int32_t status = look_whether_free(path);
       if (status != HOOKE_OK) return status;
     } else if (errno != EINVAL && errno != ENOSYS) { /* some file systems cannot do this */
-      return hooke_place_fail(path, "take this name", errno);
+      return hk_place_fail(path, "take this name", errno);
     }
   }
-  return rename(place->temporary, path) == 0 ? HOOKE_OK : hooke_place_fail(path, "take this name", errno);
+  return rename(place->temporary, path) == 0 ? HOOKE_OK : hk_place_fail(path, "take this name", errno);
 }
 
 /* Under a second name, so that the first is never without a file; renamed where there are no such names. */
@@ -215,29 +215,28 @@ static int keep_older(const char *path, const char *previous) {
                                                                                   : -1;
 }
 
-static int32_t take(struct hooke_place *place, const char *previous, int folder) {
+static int32_t take(struct hk_place *place, const char *previous, int folder) {
   const char *path = place->path;
   /* a folder that cannot do this is found out before anything is replaced */
-  if (sync_folder(folder) != 0) return hooke_place_fail(path, "bring the name to the disk", errno);
+  if (sync_folder(folder) != 0) return hk_place_fail(path, "bring the name to the disk", errno);
   if (previous && keep_older(path, previous) != 0)
-    return hooke_place_fail(path, "keep the file that was there", errno);
+    return hk_place_fail(path, "keep the file that was there", errno);
   const int32_t status = rename_new(place);
   if (status != HOOKE_OK) return status;
-  hooke_free(place->temporary);
+  hk_free(place->temporary);
   place->temporary = NULL;
   if (sync_folder(folder) == 0) return HOOKE_OK;
-  return hooke_place_fail(path, "bring the name to the disk, though the new file is in place", errno);
+  return hk_place_fail(path, "bring the name to the disk, though the new file is in place", errno);
 }
 
-int32_t hooke_place_take(struct hooke_place *place, const char *previous) {
+int32_t hk_place_take(struct hk_place *place, const char *previous) {
   HOOKE_KEEP_ERRNO;
-  if (fsync(place->descriptor) != 0)
-    return hooke_place_fail(place->path, "bring the data to the disk", errno);
-  int32_t status = place->holds ? HOOKE_OK : hooke_place_close(place);
+  if (fsync(place->descriptor) != 0) return hk_place_fail(place->path, "bring the data to the disk", errno);
+  int32_t status = place->holds ? HOOKE_OK : hk_place_close(place);
   if (status != HOOKE_OK) return status;
   /* opened once, so that nothing but the disk can fail when the file has its name */
   const int folder = open_folder_of(place->path);
-  if (folder < 0) return hooke_place_fail(place->path, "open its folder", errno);
+  if (folder < 0) return hk_place_fail(place->path, "open its folder", errno);
   status = take(place, previous, folder);
   close(folder);
   drop(place->older, 1);
@@ -247,42 +246,42 @@ int32_t hooke_place_take(struct hooke_place *place, const char *previous) {
 
 /* ---- the end ---- */
 
-static int32_t is_own(const struct hooke_place *place) {
+static int32_t is_own(const struct hk_place *place) {
   return place->process == getpid();
 }
 
-int32_t hooke_place_require_own(const struct hooke_place *place) {
+int32_t hk_place_require_own(const struct hk_place *place) {
   if (is_own(place)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_CALL, NULL,
-                    "%s: belongs to the process that this one was forked from, which alone may write it",
-                    place->path);
+  return hk_fail(HOOKE_BAD_CALL, NULL,
+                 "%s: belongs to the process that this one was forked from, which alone may write it",
+                 place->path);
 }
 
-int32_t hooke_place_close(struct hooke_place *place) {
+int32_t hk_place_close(struct hk_place *place) {
   const int descriptor = place->descriptor;
   place->descriptor = -1;
   if (place->holds && is_own(place)) unlock(descriptor);
-  return close(descriptor) == 0 ? HOOKE_OK : hooke_place_fail(place->path, "write", errno);
+  return close(descriptor) == 0 ? HOOKE_OK : hk_place_fail(place->path, "write", errno);
 }
 
-void hooke_place_release(struct hooke_place *place) {
+void hk_place_release(struct hk_place *place) {
   HOOKE_KEEP_ERRNO;
   const int32_t own = is_own(place);
   drop(place->older, own);
   drop(place->descriptor, place->holds && own);
   if (place->temporary && own) unlink(place->temporary);
-  hooke_free(place->temporary);
-  hooke_free(place->path);
+  hk_free(place->temporary);
+  hk_free(place->path);
   *place = HOOKE_NO_PLACE;
 }
 
-int32_t hooke_place_write(const char *path, const char *bytes, int64_t length) {
+int32_t hk_place_write(const char *path, const char *bytes, int64_t length) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_place place;
-  int32_t status = hooke_place_make(path, &place);
-  const int error = status == HOOKE_OK ? hooke_bytes_write(place.descriptor, 0, length, bytes) : 0;
-  if (error) status = hooke_place_fail(path, "write", error);
-  if (status == HOOKE_OK) status = hooke_place_take(&place, NULL);
-  hooke_place_release(&place);
+  struct hk_place place;
+  int32_t status = hk_place_make(path, &place);
+  const int error = status == HOOKE_OK ? hk_bytes_write(place.descriptor, 0, length, bytes) : 0;
+  if (error) status = hk_place_fail(path, "write", error);
+  if (status == HOOKE_OK) status = hk_place_take(&place, NULL);
+  hk_place_release(&place);
   return status;
 }

@@ -37,13 +37,13 @@ static FILE *open_share(const char *name) {
   return fopen(path, "rb");
 }
 
-int32_t hooke_share_read(const char *name, struct hooke_text *text) {
+int32_t hk_share_read(const char *name, struct hk_text *text) {
   HOOKE_KEEP_ERRNO;
   FILE *file = open_share(name);
   if (file == NULL && errno == ENOMEM)
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to open share/hooke/%s", name);
+    return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open share/hooke/%s", name);
   if (file == NULL) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_NOT_BUILT, NULL,
         "share/hooke/%s is not where this library looks for it: beside it, or in %s; install hooke "
         "with all its files",
@@ -52,11 +52,10 @@ int32_t hooke_share_read(const char *name, struct hooke_text *text) {
   char piece[1 << 14];
   size_t got;
   while ((got = fread(piece, 1, sizeof piece, file)) > 0)
-    hooke_text_add(text, piece, (int64_t)got);
+    hk_text_add(text, piece, (int64_t)got);
   const int error = ferror(file) ? errno : 0;
   fclose(file);
   char reason[HOOKE_ERROR_SIZE];
-  if (error)
-    return hooke_fail(HOOKE_IO_FAILED, NULL, "share/hooke/%s: %s", name, hooke_print_error(error, reason));
+  if (error) return hk_fail(HOOKE_IO_FAILED, NULL, "share/hooke/%s: %s", name, hk_print_error(error, reason));
   return text->status;
 }

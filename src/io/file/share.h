@@ -6,6 +6,6 @@
 
 /* Adds the whole of share/hooke/<name> to `text`. HOOKE_NOT_BUILT if it is not there, HOOKE_IO_FAILED,
  * HOOKE_NO_MEMORY. */
-int32_t hooke_share_read(const char *name, struct hooke_text *text);
+int32_t hk_share_read(const char *name, struct hk_text *text);
 
 #endif

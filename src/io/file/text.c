@@ -10,12 +10,12 @@
 
 static const int64_t FIRST_CAPACITY = 1 << 16;
 
-void hooke_text_add(struct hooke_text *text, const char *bytes, int64_t length) {
+void hk_text_add(struct hk_text *text, const char *bytes, int64_t length) {
   if (text->status != HOOKE_OK) return;
   if (length > text->capacity - text->length) {
     int64_t capacity = text->capacity > 0 ? 2 * text->capacity : FIRST_CAPACITY;
     if (capacity < text->length + length) capacity = text->length + length;
-    text->status = hooke_grow((void **)&text->bytes, text->length, capacity, 1);
+    text->status = hk_grow((void **)&text->bytes, text->length, capacity, 1);
     if (text->status != HOOKE_OK) return;
     text->capacity = capacity;
   }
@@ -23,39 +23,39 @@ void hooke_text_add(struct hooke_text *text, const char *bytes, int64_t length) 
   text->length += length;
 }
 
-void hooke_text_release(struct hooke_text *text) {
-  hooke_free(text->bytes);
-  *text = (struct hooke_text){.bytes = NULL};
+void hk_text_release(struct hk_text *text) {
+  hk_free(text->bytes);
+  *text = (struct hk_text){.bytes = NULL};
 }
 
 /* ---- JSON ---- */
 
-static void add(struct hooke_text *text, const char *words) {
-  hooke_text_add(text, words, (int64_t)strlen(words));
+static void add(struct hk_text *text, const char *words) {
+  hk_text_add(text, words, (int64_t)strlen(words));
 }
 
 /* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer a terminal. */
-static void add_quoted(struct hooke_text *text, const char *words) {
+static void add_quoted(struct hk_text *text, const char *words) {
   add(text, "\"");
   const char *at = words;
   for (int64_t left = (int64_t)strlen(words), bytes; left > 0; left -= bytes) {
-    bytes = hooke_utf8_character(at, left);
-    uint32_t escape = hooke_utf8_control(at, bytes);
+    bytes = hk_utf8_character(at, left);
+    uint32_t escape = hk_utf8_control(at, bytes);
     if (strchr("\"\\<", *at)) escape = (unsigned char)*at;
     if (bytes == 0) bytes = 1;
     at += bytes;
     if (escape == 0) continue;
     char escaped[12];
     snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)escape);
-    hooke_text_add(text, words, at - bytes - words);
+    hk_text_add(text, words, at - bytes - words);
     add(text, escaped);
     words = at;
   }
-  hooke_text_add(text, words, at - words);
+  hk_text_add(text, words, at - words);
   add(text, "\"");
 }
 
-static void begin(struct hooke_text *text, const char *key) {
+static void begin(struct hk_text *text, const char *key) {
   const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
   if (last != '{' && last != '[') add(text, ",");
   if (key == NULL) return;
@@ -63,30 +63,30 @@ static void begin(struct hooke_text *text, const char *key) {
   add(text, ":");
 }
 
-void hooke_text_open(struct hooke_text *text, const char *key, char bracket) {
+void hk_text_open(struct hk_text *text, const char *key, char bracket) {
   begin(text, key);
-  hooke_text_add(text, &bracket, 1);
+  hk_text_add(text, &bracket, 1);
 }
 
-void hooke_text_close(struct hooke_text *text, char bracket) {
-  hooke_text_add(text, &bracket, 1);
+void hk_text_close(struct hk_text *text, char bracket) {
+  hk_text_add(text, &bracket, 1);
 }
 
 /* "-0" would be read as a whole number, and these have one 0. */
-void hooke_text_number(struct hooke_text *text, const char *key, double value) {
+void hk_text_number(struct hk_text *text, const char *key, double value) {
   char number[HOOKE_NUMBER_SIZE] = "null";
-  if (isfinite(value)) hooke_number_print(value, number);
+  if (isfinite(value)) hk_number_print(value, number);
   if (value == 0.0 && signbit(value)) strcpy(number, "-0.0");
   begin(text, key);
   add(text, number);
 }
 
-void hooke_text_flag(struct hooke_text *text, const char *key, int32_t flag) {
+void hk_text_flag(struct hk_text *text, const char *key, int32_t flag) {
   begin(text, key);
   add(text, flag ? "true" : "false");
 }
 
-void hooke_text_word(struct hooke_text *text, const char *key, const char *word) {
+void hk_text_word(struct hk_text *text, const char *key, const char *word) {
   begin(text, key);
   if (word)
     add_quoted(text, word);

@@ -5,8 +5,8 @@
 
 enum { LINE = 100, INDENT = 2 };
 
-static void add(struct hooke_text *text, const char *words) {
-  hooke_text_add(text, words, (int64_t)strlen(words));
+static void add(struct hk_text *text, const char *words) {
+  hk_text_add(text, words, (int64_t)strlen(words));
 }
 
 /* Past the string, object, array or bare word that begins at `at`. */
@@ -30,32 +30,32 @@ static const char *past_value(const char *at, const char *end) {
   return end;
 }
 
-static void new_line(struct hooke_text *laid, int32_t depth) {
+static void new_line(struct hk_text *laid, int32_t depth) {
   add(laid, "\n");
   for (int32_t k = 0; k < depth * INDENT; k++)
     add(laid, " ");
 }
 
 /* On one line, with a space after every comma and colon outside texts. */
-static void add_line(struct hooke_text *laid, const char *at, const char *end) {
+static void add_line(struct hk_text *laid, const char *at, const char *end) {
   int32_t quoted = 0;
   for (; at < end; at++) {
     if (*at == '\\') {
-      hooke_text_add(laid, at++, 1);
+      hk_text_add(laid, at++, 1);
     } else if (*at == '"') {
       quoted = !quoted;
     }
-    hooke_text_add(laid, at, 1);
+    hk_text_add(laid, at, 1);
     if (!quoted && (*at == ',' || *at == ':')) add(laid, " ");
   }
 }
 
-static void lay_out(struct hooke_text *laid, const char *at, const char *end, int32_t depth) {
+static void lay_out(struct hk_text *laid, const char *at, const char *end, int32_t depth) {
   if ((*at != '{' && *at != '[') || end - at <= LINE - depth * INDENT) {
     add_line(laid, at, end);
     return;
   }
-  hooke_text_add(laid, at++, 1);
+  hk_text_add(laid, at++, 1);
   while (at < end - 1) {
     const char *stop = past_value(at, end - 1);
     new_line(laid, depth + 1);
@@ -71,10 +71,10 @@ static void lay_out(struct hooke_text *laid, const char *at, const char *end, in
     at = stop + 1;
   }
   new_line(laid, depth);
-  hooke_text_add(laid, end - 1, 1);
+  hk_text_add(laid, end - 1, 1);
 }
 
-void hooke_text_lay_out(const struct hooke_text *json, struct hooke_text *laid) {
+void hk_text_lay_out(const struct hk_text *json, struct hk_text *laid) {
   if (json->status != HOOKE_OK || json->length == 0) {
     laid->status = json->status;
     return;

@@ -17,44 +17,43 @@
 #include <string.h>
 
 struct source {
-  struct hooke_h5_guard *guard;
+  struct hk_h5_guard *guard;
   double memory_limit;
   const char *path, *dataset;
   hid_t file;
-  struct hooke_dataset data;
+  struct hk_dataset data;
 };
 
 static int32_t refuse(const struct source *source, const char *what) {
-  return hooke_dataset_refuse(source->path, source->dataset, what);
+  return hk_dataset_refuse(source->path, source->dataset, what);
 }
 
 static int32_t fail(const struct source *source, const char *what) {
-  return hooke_h5_fail(source->guard, source->path, what);
+  return hk_h5_fail(source->guard, source->path, what);
 }
 
 /* For numbers of a part of `data`, and for what HDF5 takes to read them. */
-static int32_t check_room(const struct source *source, const struct hooke_dataset *data,
-                          const hsize_t *part) {
+static int32_t check_room(const struct source *source, const struct hk_dataset *data, const hsize_t *part) {
   double bytes = sizeof(double);
   for (int k = 0; k < data->rank; k++)
     bytes *= (double)part[k];
   char what[192];
   snprintf(what, sizeof what, "dataset %.150s", source->dataset);
-  return hooke_room_require(source->memory_limit, bytes + hooke_dataset_read_bytes(data, part), what);
+  return hk_room_require(source->memory_limit, bytes + hk_dataset_read_bytes(data, part), what);
 }
 
 /* Frames before the first without a time. */
-static int32_t count_timed(const struct source *source, const struct hooke_dataset *data, int64_t *frames) {
+static int32_t count_timed(const struct source *source, const struct hk_dataset *data, int64_t *frames) {
   int32_t status = check_room(source, data, data->size);
   if (status != HOOKE_OK) return status;
-  double *time = hooke_new(*frames, sizeof(double));
+  double *time = hk_new(*frames, sizeof(double));
   if (time == NULL) return HOOKE_NO_MEMORY;
   if (H5Dread(data->id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, time) < 0)
     status = fail(source, "read the times of the frames");
   for (int64_t k = 0; status == HOOKE_OK && k < *frames; k++) {
     if (isnan(time[k])) *frames = k;
   }
-  hooke_free(time);
+  hk_free(time);
   return status;
 }
 
@@ -64,15 +63,15 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   const char *slash = strrchr(source->dataset, '/');
   const int folder = slash ? (int)(slash - source->dataset) + 1 : 0;
   const int64_t room = folder + 8;
-  char *name = hooke_new(room, 1);
+  char *name = hk_new(room, 1);
   if (name == NULL) return HOOKE_NO_MEMORY;
   snprintf(name, (size_t)room, "%.*stime", folder, source->dataset);
-  struct hooke_dataset time;
-  int32_t status = hooke_dataset_find(source->guard, source->file, source->path, name, &time);
-  hooke_free(name);
+  struct hk_dataset time;
+  int32_t status = hk_dataset_find(source->guard, source->file, source->path, name, &time);
+  hk_free(name);
   const int each = time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0];
   if (status == HOOKE_OK && each) status = count_timed(source, &time, frames);
-  hooke_h5_drop(time.id);
+  hk_h5_drop(time.id);
   return status == HOOKE_BAD_VALUE && !each ? HOOKE_OK : status;
 }
 
@@ -108,7 +107,7 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
   const hsize_t begin[3] = {(hsize_t)frame, 0, 0}, part[3] = {1, high, wide};
   const int32_t room = check_room(source, &source->data, part + !framed);
   if (room != HOOKE_OK) return room;
-  *values = hooke_new((int64_t)count, sizeof(double));
+  *values = hk_new((int64_t)count, sizeof(double));
   if (*values == NULL) return HOOKE_NO_MEMORY;
   hid_t there = H5Dget_space(source->data.id), here = H5Screate_simple(1, &count, NULL);
   herr_t result = there < 0 || here < 0 ? -1 : 0;
@@ -117,8 +116,8 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
   *rows = (int64_t)high;
   *columns = (int64_t)wide;
   int32_t status = result < 0 ? fail(source, "read the numbers") : HOOKE_OK;
-  hooke_h5_drop(here);
-  hooke_h5_drop(there);
+  hk_h5_drop(here);
+  hk_h5_drop(there);
   return status;
 }
 
@@ -126,55 +125,54 @@ static int32_t read_open(struct source *source, int64_t frame, int32_t has_frame
                          double **values, int64_t *rows, int64_t *columns) {
   *values = NULL;
   *rows = *columns = 0;
-  int32_t status =
-      hooke_dataset_open(source->guard, source->file, source->path, source->dataset, &source->data);
+  int32_t status = hk_dataset_open(source->guard, source->file, source->path, source->dataset, &source->data);
   if (status == HOOKE_OK) status = choose_frame(source, &frame, has_frame);
   if (status == HOOKE_OK) status = read_values(source, frame, values, rows, columns);
   if (status == HOOKE_OK && source->data.rank == 3 && check)
-    status = hooke_frame_check(source->guard, source->file, source->path, source->dataset, frame, *values);
+    status = hk_frame_check(source->guard, source->file, source->path, source->dataset, frame, *values);
   if (status != HOOKE_OK) {
-    hooke_free(*values);
+    hk_free(*values);
     *values = NULL;
   }
-  hooke_h5_drop(source->data.id);
+  hk_h5_drop(source->data.id);
   return status;
 }
 
-int32_t hooke_array_read_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *dataset,
-                              int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
-                              int64_t *columns) {
+int32_t hk_array_read_open(struct hk_h5_guard *guard, hid_t file, const char *path, const char *dataset,
+                           int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
+                           int64_t *columns) {
   struct source source = {.guard = guard, .path = path, .dataset = dataset, .file = file};
   return read_open(&source, frame, has_frame, check, values, rows, columns);
 }
 
-int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
-                                int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
-  struct hooke_h5_guard guard;
+int32_t hk_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                             int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
+  struct hk_h5_guard guard;
   struct source source = {.guard = &guard, .memory_limit = memory_limit, .path = path, .dataset = dataset};
   *values = NULL;
   *rows = *columns = 0;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = hooke_dataset_file(&guard, path, &source.file);
+  hk_h5_guard_begin(&guard);
+  int32_t status = hk_dataset_file(&guard, path, &source.file);
   if (status == HOOKE_OK) status = read_open(&source, frame, has_frame, 1, values, rows, columns);
   if (source.file >= 0) H5Fclose(source.file);
-  hooke_h5_guard_end(&guard);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
 #else
 
-int32_t hooke_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
-                                int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
+int32_t hk_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
+                             int32_t has_frame, double **values, int64_t *rows, int64_t *columns) {
   (void)memory_limit, (void)frame, (void)has_frame;
   *values = NULL;
   *rows = *columns = 0;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "%s, dataset %s: reading it needs HDF5, which this build is without", path, dataset);
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "%s, dataset %s: reading it needs HDF5, which this build is without",
+                 path, dataset);
 }
 
 #endif
 
-int32_t hooke_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
-                         double **values, int64_t *rows, int64_t *columns) {
-  return hooke_array_read_within(0.0, path, dataset, frame, has_frame, values, rows, columns);
+int32_t hk_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
+                      double **values, int64_t *rows, int64_t *columns) {
+  return hk_array_read_within(0.0, path, dataset, frame, has_frame, values, rows, columns);
 }

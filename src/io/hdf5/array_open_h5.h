@@ -4,9 +4,9 @@
 
 #include "io/hdf5/file_h5.h"
 
-/* As hooke_array_read(); `path` is for messages. Without `check` a frame is not held against its check value. */
-int32_t hooke_array_read_open(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *dataset,
-                              int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
-                              int64_t *columns);
+/* As hk_array_read(); `path` is for messages. Without `check` a frame is not held against its check value. */
+int32_t hk_array_read_open(struct hk_h5_guard *guard, hid_t file, const char *path, const char *dataset,
+                           int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
+                           int64_t *columns);
 
 #endif

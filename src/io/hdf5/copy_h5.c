@@ -15,16 +15,16 @@ enum { NAME_SIZE = 256, BLOCK = 1 << 16 };
 /* ---- attributes ---- */
 
 static herr_t copy_value(hid_t attribute, hid_t to, const char *name, hid_t type, hid_t space) {
-  void *value = hooke_new((int64_t)H5Sget_simple_extent_npoints(space), H5Tget_size(type));
+  void *value = hk_new((int64_t)H5Sget_simple_extent_npoints(space), H5Tget_size(type));
   if (value == NULL) return -1;
   herr_t result = H5Aread(attribute, type, value);
   if (result >= 0) {
     hid_t copied = H5Acreate2(to, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     result = copied < 0 ? -1 : H5Awrite(copied, type, value);
-    hooke_h5_drop(copied);
+    hk_h5_drop(copied);
     H5Dvlen_reclaim(type, space, H5P_DEFAULT, value); /* texts */
   }
-  hooke_free(value);
+  hk_free(value);
   return result;
 }
 
@@ -37,9 +37,9 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *inf
   herr_t result = space < 0 ? -1 : 0;
   if (result >= 0 && H5Tget_class(type) != H5T_REFERENCE)
     result = copy_value(attribute, *to, name, type, space);
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
-  hooke_h5_drop(attribute);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  hk_h5_drop(attribute);
   return result;
 }
 
@@ -49,13 +49,13 @@ static herr_t copy_attributes(hid_t from, hid_t to) {
 
 /* ---- arrays ---- */
 
-static herr_t add_piece(struct hooke_h5_copy *copy, hid_t from, hid_t to) {
+static herr_t add_piece(struct hk_h5_copy *copy, hid_t from, hid_t to) {
   const hsize_t bytes = H5Dget_storage_size(from);
   const haddr_t here = H5Dget_offset(from), there = H5Dget_offset(to);
   if (bytes == 0) return 0;
   if (here == HADDR_UNDEF || there == HADDR_UNDEF || H5Dget_storage_size(to) != bytes) return -1;
   void *grown = copy->piece;
-  if (hooke_grow(&grown, copy->count, copy->count + 1, sizeof *copy->piece) != HOOKE_OK) return -1;
+  if (hk_grow(&grown, copy->count, copy->count + 1, sizeof *copy->piece) != HOOKE_OK) return -1;
   copy->piece = grown;
   copy->piece[copy->count].from = (int64_t)here;
   copy->piece[copy->count].to = (int64_t)there;
@@ -63,8 +63,8 @@ static herr_t add_piece(struct hooke_h5_copy *copy, hid_t from, hid_t to) {
   return 0;
 }
 
-static herr_t copy_array(hid_t from, hid_t where, const char *path, struct hooke_h5_copy *copy) {
-  const char *foreign = hooke_h5_foreign(from);
+static herr_t copy_array(hid_t from, hid_t where, const char *path, struct hk_h5_copy *copy) {
+  const char *foreign = hk_h5_foreign(from);
   if (foreign) {
     snprintf(copy->guard->reason, sizeof copy->guard->reason, "dataset %.100s %s", path, foreign);
     return -1;
@@ -74,17 +74,17 @@ static herr_t copy_array(hid_t from, hid_t where, const char *path, struct hooke
   if (result >= 0) to = H5Dcreate2(where, path, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
   result = to < 0 ? -1 : copy_attributes(from, to);
   if (result >= 0) result = add_piece(copy, from, to);
-  hooke_h5_drop(to);
-  hooke_h5_drop(list);
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
+  hk_h5_drop(to);
+  hk_h5_drop(list);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
   return result;
 }
 
 /* ---- groups ---- */
 
 static herr_t copy_members(hid_t from_file, hid_t to_file, hid_t group, const char *path, const char *skip,
-                           struct hooke_h5_copy *copy) {
+                           struct hk_h5_copy *copy) {
   H5G_info_t info;
   herr_t result = H5Gget_info(group, &info);
   for (hsize_t k = 0; result >= 0 && k < info.nlinks; k++) {
@@ -94,42 +94,42 @@ static herr_t copy_members(hid_t from_file, hid_t to_file, hid_t group, const ch
     if (length < 0 || length >= NAME_SIZE) return -1;
     if (skip && strcmp(name, skip) == 0) continue;
     if (snprintf(inside, sizeof inside, "%s/%s", path, name) >= NAME_SIZE) return -1;
-    result = hooke_h5_copy(from_file, to_file, inside, skip, copy);
+    result = hk_h5_copy(from_file, to_file, inside, skip, copy);
   }
   return result;
 }
 
-herr_t hooke_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hooke_h5_copy *copy) {
-  hid_t list = hooke_h5_own_links(copy->guard), object = list < 0 ? -1 : H5Oopen(from, path, list);
+herr_t hk_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hk_h5_copy *copy) {
+  hid_t list = hk_h5_own_links(copy->guard), object = list < 0 ? -1 : H5Oopen(from, path, list);
   herr_t result = object < 0 ? -1 : 0;
   if (result >= 0 && H5Iget_type(object) == H5I_DATASET) {
     result = copy_array(object, to, path, copy);
   } else if (result >= 0) {
     hid_t group = H5Gcreate2(to, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     result = group < 0 ? -1 : copy_attributes(object, group);
-    hooke_h5_drop(group);
+    hk_h5_drop(group);
     if (result >= 0) result = copy_members(from, to, object, path, skip, copy);
   }
-  hooke_h5_drop(object);
-  hooke_h5_drop(list);
+  hk_h5_drop(object);
+  hk_h5_drop(list);
   return result;
 }
 
 /* ---- bytes ---- */
 
-int hooke_h5_copy_bytes(const struct hooke_h5_copy *copy, int from, int to) {
-  char *block = hooke_reserve(BLOCK, 1);
+int hk_h5_copy_bytes(const struct hk_h5_copy *copy, int from, int to) {
+  char *block = hk_reserve(BLOCK, 1);
   int error = block ? 0 : ENOMEM;
   for (int64_t k = 0; error == 0 && k < copy->count; k++)
-    error = hooke_bytes_copy(from, copy->piece[k].from, to, copy->piece[k].to, copy->piece[k].bytes, block,
-                             BLOCK);
-  hooke_free(block);
+    error =
+        hk_bytes_copy(from, copy->piece[k].from, to, copy->piece[k].to, copy->piece[k].bytes, block, BLOCK);
+  hk_free(block);
   return error;
 }
 
-void hooke_h5_copy_release(struct hooke_h5_copy *copy) {
-  hooke_free(copy->piece);
-  *copy = (struct hooke_h5_copy){0};
+void hk_h5_copy_release(struct hk_h5_copy *copy) {
+  hk_free(copy->piece);
+  *copy = (struct hk_h5_copy){0};
 }
 
 #endif

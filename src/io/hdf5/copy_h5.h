@@ -11,8 +11,8 @@
 #include <hdf5.h>
 
 /* Bytes that are still to be copied, and who is told why they are not. */
-struct hooke_h5_copy {
-  struct hooke_h5_guard *guard;
+struct hk_h5_copy {
+  struct hk_h5_guard *guard;
   int64_t count;
   struct {
     int64_t from, to, bytes;
@@ -20,12 +20,12 @@ struct hooke_h5_copy {
 };
 
 /* Makes the object `path` and all that is in it, except what is called `skip` (NULL: nothing) and attributes that are
- * references; what is not in this very file is refused. Whatever comes back, hooke_h5_copy_release() has to follow at last. Negative on failure. */
-herr_t hooke_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hooke_h5_copy *copy);
+ * references; what is not in this very file is refused. Whatever comes back, hk_h5_copy_release() has to follow at last. Negative on failure. */
+herr_t hk_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hk_h5_copy *copy);
 
 /* 0, or the number of the system's error. */
-int hooke_h5_copy_bytes(const struct hooke_h5_copy *copy, int from, int to);
+int hk_h5_copy_bytes(const struct hk_h5_copy *copy, int from, int to);
 
-void hooke_h5_copy_release(struct hooke_h5_copy *copy);
+void hk_h5_copy_release(struct hk_h5_copy *copy);
 
 #endif

@@ -36,13 +36,13 @@ static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t l
   struct stat there;
   (void)name, (void)flags, (void)longest;
   if (setting == NULL) return NULL;
-  struct driven *f = hooke_new(1, sizeof *f);
+  struct driven *f = hk_new(1, sizeof *f);
   if (f == NULL) return NULL;
   f->error = setting->error;
   f->descriptor = setting->descriptor;
   if (fstat(f->descriptor, &there) != 0) {
     keep(f, errno);
-    hooke_free(f);
+    hk_free(f);
     return NULL;
   }
   f->size = (haddr_t)there.st_size;
@@ -50,7 +50,7 @@ static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t l
 }
 
 static herr_t close_file(H5FD_t *file) {
-  hooke_free(file);
+  hk_free(file);
   return 0;
 }
 
@@ -101,7 +101,7 @@ static herr_t read_file(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t at, s
   const haddr_t there = at < f->size ? f->size - at : 0;
   if (there == 0 || *f->error != 0) return 0;
   const int error =
-      hooke_bytes_read(f->descriptor, (int64_t)at, (int64_t)(there < count ? there : count), bytes);
+      hk_bytes_read(f->descriptor, (int64_t)at, (int64_t)(there < count ? there : count), bytes);
   if (error) keep(f, error);
   return 0;
 }
@@ -111,7 +111,7 @@ static herr_t write_file(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t at, 
   struct driven *f = (struct driven *)file;
   (void)type, (void)list;
   if (at + count > f->size) f->size = at + count;
-  const int error = *f->error ? 0 : hooke_bytes_write(f->descriptor, (int64_t)at, (int64_t)count, bytes);
+  const int error = *f->error ? 0 : hk_bytes_write(f->descriptor, (int64_t)at, (int64_t)count, bytes);
   if (error) keep(f, error);
   return 0;
 }
@@ -148,7 +148,7 @@ static const H5FD_class_t driver = {
     .fl_map = H5FD_FLMAP_DICHOTOMY,
 };
 
-hid_t hooke_h5_access_list(int descriptor, int *error) {
+hid_t hk_h5_access_list(int descriptor, int *error) {
   const struct setting setting = {descriptor, error};
   hid_t list = H5Pcreate(H5P_FILE_ACCESS), id = list < 0 ? -1 : H5FDregister(&driver);
   herr_t result = id < 0 ? -1 : H5Pset_driver(list, id, &setting);
@@ -162,5 +162,5 @@ hid_t hooke_h5_access_list(int descriptor, int *error) {
 }
 
 #else
-typedef int hooke_driver_is_not_built;
+typedef int hk_driver_is_not_built;
 #endif

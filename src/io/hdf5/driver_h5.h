@@ -10,6 +10,6 @@
  * caller's; the first error, as errno has it, comes to be in `error`; both have to stay until the file is closed. So has the
  * list: with the last of its lists the driver goes, which H5Fclose() still looks at. Give `error` any number to have nothing
  * written any more. Negative on failure. */
-hid_t hooke_h5_access_list(int descriptor, int *error);
+hid_t hk_h5_access_list(int descriptor, int *error);
 
 #endif

@@ -23,7 +23,7 @@
 
 /* The innermost entry of HDF5's error stack is the cause. */
 static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
-  struct hooke_h5_guard *guard = ctx;
+  struct hk_h5_guard *guard = ctx;
   if (n > 0 || entry->desc == NULL) return 0;
   const char *text = entry->desc, *mark = "error message = '";
   const char *system_text = strstr(text, mark);
@@ -41,7 +41,7 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
 
 /* Called by HDF5 when one of its functions fails; what fails first is the reason for the rest. */
 static herr_t on_error(hid_t stack, void *ctx) {
-  struct hooke_h5_guard *guard = ctx;
+  struct hk_h5_guard *guard = ctx;
   if (guard->reason[0] == '\0') H5Ewalk2(stack, H5E_WALK_UPWARD, keep_innermost, guard);
   return 0;
 }
@@ -50,8 +50,8 @@ static herr_t on_error(hid_t stack, void *ctx) {
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
 static _Thread_local int32_t guards; /* of this thread, one inside the other */
 
-void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
-  *guard = (struct hooke_h5_guard){.second_version = 1, .error = errno, .failures = hooke_fail_count()};
+void hk_h5_guard_begin(struct hk_h5_guard *guard) {
+  *guard = (struct hk_h5_guard){.second_version = 1, .error = errno, .failures = hk_fail_count()};
   if (guards++ == 0) pthread_mutex_lock(&alone);
   H5Eauto_is_v2(H5E_DEFAULT, &guard->second_version);
   if (guard->second_version) {
@@ -68,7 +68,7 @@ void hooke_h5_guard_begin(struct hooke_h5_guard *guard) {
   H5PLset_loading_state(0);
 }
 
-void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
+void hk_h5_guard_end(const struct hk_h5_guard *guard) {
   H5PLset_loading_state(guard->plugins);
   H5Eclear2(H5E_DEFAULT);
   if (guard->second_version) {
@@ -81,14 +81,14 @@ void hooke_h5_guard_end(const struct hooke_h5_guard *guard) {
 }
 
 /* HDF5 was without memory, or we were as it called us. */
-static int was_without_memory(const struct hooke_h5_guard *guard) {
-  return guard->no_memory || (hooke_fail_count() > guard->failures && hooke_fail_status() == HOOKE_NO_MEMORY);
+static int was_without_memory(const struct hk_h5_guard *guard) {
+  return guard->no_memory || (hk_fail_count() > guard->failures && hk_fail_status() == HOOKE_NO_MEMORY);
 }
 
-int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, const char *what) {
-  if (was_without_memory(guard)) return hooke_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
-                    guard->reason);
+int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char *what) {
+  if (was_without_memory(guard)) return hk_fail(HOOKE_NO_MEMORY, NULL, "%s: no memory to %s", path, what);
+  return hk_fail(HOOKE_IO_FAILED, NULL, "%s: could not %s%s%s", path, what, guard->reason[0] ? ": " : "",
+                 guard->reason);
 }
 
 /* ---- a file ---- */
@@ -96,105 +96,104 @@ int32_t hooke_h5_fail(const struct hooke_h5_guard *guard, const char *path, cons
 /* Whether `bytes` fit is found out before anything is written. */
 static int32_t try_room(const char *path, int descriptor, double bytes) {
   char what[64];
-  hooke_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
+  hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
   int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
   if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
   if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
-  return error ? hooke_place_fail(path, what, error) : HOOKE_OK;
+  return error ? hk_place_fail(path, what, error) : HOOKE_OK;
 }
 
-static int32_t create(struct hooke_h5_guard *guard, const char *path, double bytes,
-                      struct hooke_h5_file *file) {
+static int32_t create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file) {
   const int32_t status = try_room(path, file->place.descriptor, bytes);
   if (status != HOOKE_OK) return status;
-  file->list = hooke_h5_access_list(file->place.descriptor, &file->error);
+  file->list = hk_h5_access_list(file->place.descriptor, &file->error);
   if (file->list >= 0) file->id = H5Fcreate(file->place.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
   if (file->id >= 0) return HOOKE_OK;
-  return file->error && !was_without_memory(guard) ? hooke_place_fail(path, "create the file", file->error)
-                                                   : hooke_h5_fail(guard, path, "create the file");
+  return file->error && !was_without_memory(guard) ? hk_place_fail(path, "create the file", file->error)
+                                                   : hk_h5_fail(guard, path, "create the file");
 }
 
-int32_t hooke_h5_file_create(struct hooke_h5_guard *guard, const char *path, double bytes,
-                             struct hooke_h5_file *file) {
+int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes,
+                          struct hk_h5_file *file) {
   *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hooke_place_make(path, &file->place);
+  const int32_t status = hk_place_make(path, &file->place);
   return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
-int32_t hooke_h5_file_create_held(struct hooke_h5_guard *guard, const char *path, double bytes, int32_t again,
-                                  struct hooke_h5_file *file) {
+int32_t hk_h5_file_create_held(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
+                               struct hk_h5_file *file) {
   *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hooke_place_make_held(path, again, &file->place);
+  const int32_t status = hk_place_make_held(path, again, &file->place);
   return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
 /* Room on the disk for all of it, and not only in the numbering of its bytes. */
-static int32_t take_room(struct hooke_h5_guard *guard, const struct hooke_h5_file *file) {
+static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
-  if (H5Fget_filesize(file->id, &bytes) < 0) return hooke_h5_fail(guard, file->place.path, "write");
+  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->place.path, "write");
   const int error = posix_fallocate(file->place.descriptor, 0, (off_t)bytes);
   if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
-  return hooke_place_fail(file->place.path, "make room for all frames", error);
+  return hk_place_fail(file->place.path, "make room for all frames", error);
 }
 
 /* Whatever comes of it, HDF5 has no part in the file afterwards. */
-static int32_t let_go(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const hid_t id = file->id;
   file->id = -1;
   const herr_t result = H5Fclose(id);
-  hooke_h5_drop(file->list);
+  hk_h5_drop(file->list);
   file->list = -1;
-  if (file->error) return hooke_place_fail(file->place.path, "write", file->error);
-  return result < 0 ? hooke_h5_fail(guard, file->place.path, "close the file") : HOOKE_OK;
+  if (file->error) return hk_place_fail(file->place.path, "write", file->error);
+  return result < 0 ? hk_h5_fail(guard, file->place.path, "close the file") : HOOKE_OK;
 }
 
-int32_t hooke_h5_file_settle(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const int32_t status = take_room(guard, file);
   return status == HOOKE_OK ? let_go(guard, file) : status;
 }
 
-int32_t hooke_h5_file_publish(struct hooke_h5_file *file) {
-  return hooke_place_take(&file->place, NULL);
+int32_t hk_h5_file_publish(struct hk_h5_file *file) {
+  return hk_place_take(&file->place, NULL);
 }
 
-int32_t hooke_h5_file_close(struct hooke_h5_file *file) {
-  int32_t status = hooke_place_is(file->place.path, file->place.descriptor);
+int32_t hk_h5_file_close(struct hk_h5_file *file) {
+  int32_t status = hk_place_is(file->place.path, file->place.descriptor);
   if (status == HOOKE_OK && fsync(file->place.descriptor) != 0)
-    status = hooke_place_fail(file->place.path, "bring the data to the disk", errno);
-  const int32_t closed = hooke_place_close(&file->place);
+    status = hk_place_fail(file->place.path, "bring the data to the disk", errno);
+  const int32_t closed = hk_place_close(&file->place);
   return status == HOOKE_OK ? closed : status;
 }
 
-int32_t hooke_h5_file_finish(struct hooke_h5_guard *guard, struct hooke_h5_file *file) {
+int32_t hk_h5_file_finish(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const int32_t status = let_go(guard, file);
-  return status == HOOKE_OK ? hooke_place_take(&file->place, NULL) : status;
+  return status == HOOKE_OK ? hk_place_take(&file->place, NULL) : status;
 }
 
-int32_t hooke_h5_file_open(struct hooke_h5_guard *guard, const struct hooke_h5_file *file, hid_t *id) {
+int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id) {
   void *handle = NULL;
   *id = H5Fopen(file->place.path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (*id < 0) return hooke_h5_fail(guard, file->place.path, "open the file as HDF5");
+  if (*id < 0) return hk_h5_fail(guard, file->place.path, "open the file as HDF5");
   int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
-                       ? hooke_h5_fail(guard, file->place.path, "open the file as HDF5")
-                       : hooke_place_same(file->place.path, *(const int *)handle, file->place.descriptor);
+                       ? hk_h5_fail(guard, file->place.path, "open the file as HDF5")
+                       : hk_place_same(file->place.path, *(const int *)handle, file->place.descriptor);
   if (status == HOOKE_OK) return status;
   H5Fclose(*id);
   *id = -1;
   return status;
 }
 
-double hooke_h5_file_bytes(const struct hooke_h5_file *file) {
+double hk_h5_file_bytes(const struct hk_h5_file *file) {
   struct stat now;
   return fstat(file->place.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
 }
 
-void hooke_h5_file_release(struct hooke_h5_file *file) {
+void hk_h5_file_release(struct hk_h5_file *file) {
   if (file->id >= 0) {
     file->error = ECANCELED; /* nobody wants what HDF5 has not written yet */
     H5Fclose(file->id);
   }
-  hooke_h5_drop(file->list);
-  hooke_place_release(&file->place);
+  hk_h5_drop(file->list);
+  hk_place_release(&file->place);
   *file = HOOKE_NO_H5_FILE;
 }
 

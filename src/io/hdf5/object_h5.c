@@ -8,11 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
-void hooke_h5_drop(hid_t id) {
+void hk_h5_drop(hid_t id) {
   if (id >= 0) H5Idec_ref(id);
 }
 
-hid_t hooke_h5_open_own(hid_t where, const char *name) {
+hid_t hk_h5_open_own(hid_t where, const char *name) {
   H5L_info_t link;
   const int is_own = where >= 0 && H5Lexists(where, name, H5P_DEFAULT) > 0 &&
                      H5Lget_info(where, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
@@ -21,17 +21,17 @@ hid_t hooke_h5_open_own(hid_t where, const char *name) {
 
 static herr_t refuse_link(const char *from_file, const char *from, const char *to_file, const char *to,
                           unsigned *flags, hid_t access, void *ctx) {
-  struct hooke_h5_guard *guard = ctx;
+  struct hk_h5_guard *guard = ctx;
   (void)from_file, (void)from, (void)to_file, (void)to, (void)flags, (void)access;
   snprintf(guard->reason, sizeof guard->reason,
            "a link in it leads to another file; allowed: what is in the file itself");
   return -1;
 }
 
-hid_t hooke_h5_own_links(struct hooke_h5_guard *guard) {
+hid_t hk_h5_own_links(struct hk_h5_guard *guard) {
   hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
   if (list >= 0 && H5Pset_elink_cb(list, refuse_link, guard) >= 0) return list;
-  hooke_h5_drop(list);
+  hk_h5_drop(list);
   return -1;
 }
 
@@ -47,7 +47,7 @@ static int needs_code(hid_t list) {
   return needs;
 }
 
-const char *hooke_h5_foreign(hid_t dataset) {
+const char *hk_h5_foreign(hid_t dataset) {
   hid_t list = H5Dget_create_plist(dataset);
   const char *what = NULL;
   if (list < 0)
@@ -56,7 +56,7 @@ const char *hooke_h5_foreign(hid_t dataset) {
     what = "keeps its numbers in another file; allowed: numbers in the file itself";
   else if (H5Pget_layout(list) == H5D_CHUNKED && needs_code(list))
     what = "is packed by a filter that HDF5 would have to load; allowed: its own, such as gzip and shuffle";
-  hooke_h5_drop(list);
+  hk_h5_drop(list);
   return what;
 }
 
@@ -65,8 +65,8 @@ static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t 
                               const void *data) {
   hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
   herr_t result = attribute < 0 ? -1 : H5Awrite(attribute, memory, data);
-  hooke_h5_drop(attribute);
-  hooke_h5_drop(space);
+  hk_h5_drop(attribute);
+  hk_h5_drop(space);
   return result;
 }
 
@@ -81,24 +81,24 @@ static herr_t write_text_attribute(hid_t object, const char *name, int64_t count
   herr_t result = type < 0 ? -1 : H5Tset_size(type, H5T_VARIABLE);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
   if (result >= 0) result = write_attribute(object, name, type, type, line_space(count, scalar), text);
-  hooke_h5_drop(type);
+  hk_h5_drop(type);
   return result;
 }
 
-herr_t hooke_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text) {
+herr_t hk_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text) {
   return write_text_attribute(object, name, count, 0, text);
 }
 
-herr_t hooke_h5_text_attribute(hid_t object, const char *name, const char *text) {
+herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text) {
   return write_text_attribute(object, name, 1, 1, &text);
 }
 
-herr_t hooke_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number) {
+herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number) {
   return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, line_space(count, count == 1),
                          number);
 }
 
-herr_t hooke_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number) {
+herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number) {
   return write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, line_space(count, count == 1),
                          number);
 }
@@ -115,44 +115,44 @@ static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, cons
   /* no dates: the same run makes the same bytes */
   if (result >= 0) result = H5Pset_obj_track_times(list, 0);
   if (result >= 0) dataset = H5Dcreate2(where, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
-  hooke_h5_drop(space);
-  hooke_h5_drop(list);
+  hk_h5_drop(space);
+  hk_h5_drop(list);
   return dataset;
 }
 
-hid_t hooke_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
-                     const void *fill) {
+hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
+                  const void *fill) {
   return new_array(where, name, type, rank, size, H5D_FILL_TIME_ALLOC, fill);
 }
 
-hid_t hooke_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size) {
+hid_t hk_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size) {
   return new_array(where, name, type, rank, size, H5D_FILL_TIME_NEVER, NULL);
 }
 
-herr_t hooke_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank,
-                         const hsize_t *size, const void *data) {
-  hid_t dataset = hooke_h5_room(where, name, type, rank, size);
+herr_t hk_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank, const hsize_t *size,
+                      const void *data) {
+  hid_t dataset = hk_h5_room(where, name, type, rank, size);
   herr_t result = dataset < 0 ? -1 : H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
-  hooke_h5_drop(dataset);
+  hk_h5_drop(dataset);
   return result;
 }
 
-hid_t hooke_h5_texts(hid_t where, const char *name, int64_t count, int64_t length) {
+hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length) {
   hid_t type = H5Tcopy(H5T_C_S1), dataset = -1;
   const hsize_t size = (hsize_t)count;
   herr_t result = type < 0 ? -1 : H5Tset_size(type, (size_t)(length > 0 ? length : 1));
   if (result >= 0) result = H5Tset_strpad(type, H5T_STR_NULLPAD);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
-  if (result >= 0) dataset = hooke_h5_array(where, name, type, count < 0 ? 0 : 1, &size, NULL);
-  hooke_h5_drop(type);
+  if (result >= 0) dataset = hk_h5_array(where, name, type, count < 0 ? 0 : 1, &size, NULL);
+  hk_h5_drop(type);
   return dataset;
 }
 
-herr_t hooke_h5_write_text(hid_t dataset, int64_t k, const char *text) {
+herr_t hk_h5_write_text(hid_t dataset, int64_t k, const char *text) {
   hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset), one = H5Screate(H5S_SCALAR);
   herr_t result = type < 0 || space < 0 || one < 0 ? -1 : 0;
   const size_t length = result < 0 ? 0 : H5Tget_size(type);
-  char *padded = hooke_new((int64_t)length, 1);
+  char *padded = hk_new((int64_t)length, 1);
   if (padded == NULL) result = -1;
   if (result >= 0) {
     memcpy(padded, text, strlen(text) < length ? strlen(text) : length);
@@ -162,10 +162,10 @@ herr_t hooke_h5_write_text(hid_t dataset, int64_t k, const char *text) {
     }
   }
   if (result >= 0) result = H5Dwrite(dataset, type, one, space, H5P_DEFAULT, padded);
-  hooke_free(padded);
-  hooke_h5_drop(one);
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
+  hk_free(padded);
+  hk_h5_drop(one);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
   return result;
 }
 

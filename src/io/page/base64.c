@@ -4,7 +4,7 @@ enum { TRIPLES = 1024 }; /* at a time */
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-int64_t hooke_base64_length(int64_t bytes) {
+int64_t hk_base64_length(int64_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
 
@@ -18,12 +18,12 @@ static void put(const uint8_t *bytes, int64_t left, char *text) {
   text[3] = left > 2 ? digits[word & 63] : '=';
 }
 
-void hooke_base64_add(struct hooke_text *text, const uint8_t *bytes, int64_t count) {
+void hk_base64_add(struct hk_text *text, const uint8_t *bytes, int64_t count) {
   char piece[4 * TRIPLES];
   for (int64_t at = 0; at < count;) {
     int64_t length = 0;
     for (; at < count && length < (int64_t)sizeof piece; at += 3, length += 4)
       put(bytes + at, count - at, piece + length);
-    hooke_text_add(text, piece, length);
+    hk_text_add(text, piece, length);
   }
 }

@@ -5,8 +5,8 @@
 #include "io/file/text.h"
 
 /* Length of `bytes` bytes as text. */
-int64_t hooke_base64_length(int64_t bytes);
+int64_t hk_base64_length(int64_t bytes);
 
-void hooke_base64_add(struct hooke_text *text, const uint8_t *bytes, int64_t count);
+void hk_base64_add(struct hk_text *text, const uint8_t *bytes, int64_t count);
 
 #endif

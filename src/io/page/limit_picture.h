@@ -9,6 +9,6 @@
 enum { HOOKE_PICTURE_SPRINGS = 3000 };
 
 /* Adds "picture": the springs that are drawn and their ends, at positions q (3n). Failures go to the text's status. */
-void hooke_limit_picture_add(struct hooke_text *data, const hooke_limit *limit, const double *q);
+void hk_limit_picture_add(struct hk_text *data, const hooke_limit *limit, const double *q);
 
 #endif

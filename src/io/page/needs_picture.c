@@ -6,7 +6,7 @@
 
 /* Of each particle, whether it is watched. NULL: no memory. */
 static char *find_watched(const hooke_needs *needs) {
-  char *watched = hooke_new(hooke_system_particle_count(needs->system), 1);
+  char *watched = hk_new(hooke_system_particle_count(needs->system), 1);
   for (int64_t k = 0; k < needs->watch_count && watched; k++)
     watched[needs->watch[k]] = 1;
   return watched;
@@ -15,7 +15,7 @@ static char *find_watched(const hooke_needs *needs) {
 /* ---- which springs ---- */
 
 /* Returns how many springs there are between watched particles. */
-static int64_t choose(struct hooke_picture *p, const char *watched) {
+static int64_t choose(struct hk_picture *p, const char *watched) {
   int64_t first = 0, all = 0;
   for (int64_t g = 0; g < hooke_system_group_count(p->system); g++) {
     const int64_t end = first + hooke_system_group_size(p->system, g);
@@ -25,7 +25,7 @@ static int64_t choose(struct hooke_picture *p, const char *watched) {
       open += !p->shut[k];
     }
     const int64_t room = HOOKE_NEEDS_PICTURE_SPRINGS - p->drawn_count;
-    if (open <= room || all == 0) hooke_picture_take_evenly(p, first, end, room);
+    if (open <= room || all == 0) hk_picture_take_evenly(p, first, end, room);
     all += open;
     first = end;
   }
@@ -35,27 +35,27 @@ static int64_t choose(struct hooke_picture *p, const char *watched) {
 /* ---- where they are ---- */
 
 /* Positions at a frame of a path, as rows of all particles of the system; those not watched stay zero. */
-static double *spread(const hooke_needs *needs, const struct hooke_needs_path *path, int64_t frame) {
-  double *q = hooke_new(3 * hooke_system_particle_count(needs->system), sizeof *q);
+static double *spread(const hooke_needs *needs, const struct hk_needs_path *path, int64_t frame) {
+  double *q = hk_new(3 * hooke_system_particle_count(needs->system), sizeof *q);
   for (int64_t k = 0; k < 3 * needs->watch_count && q; k++)
     q[3 * needs->watch[k / 3] + k % 3] = path->position[3 * needs->watch_count * frame + k];
   return q;
 }
 
-static int32_t add_positions(struct hooke_text *data, const hooke_needs *needs, const struct hooke_picture *p,
+static int32_t add_positions(struct hk_text *data, const hooke_needs *needs, const struct hk_picture *p,
                              int64_t frame) {
-  int64_t *list = hooke_picture_list(p);
+  int64_t *list = hk_picture_list(p);
   double *full = spread(needs, &needs->path, frame), *lean = spread(needs, &needs->lean_path, frame);
   const int32_t ready = list && full && lean;
   if (ready) {
-    const double scale = hooke_picture_scale(full, list, p->shown_count);
-    hooke_picture_add_particles(data, p, list);
-    hooke_picture_add_vectors(data, "position", full, list, p->shown_count, scale);
-    hooke_picture_add_vectors(data, "lean", lean, list, p->shown_count, scale);
+    const double scale = hk_picture_scale(full, list, p->shown_count);
+    hk_picture_add_particles(data, p, list);
+    hk_picture_add_vectors(data, "position", full, list, p->shown_count, scale);
+    hk_picture_add_vectors(data, "lean", lean, list, p->shown_count, scale);
   }
-  hooke_free(list);
-  hooke_free(full);
-  hooke_free(lean);
+  hk_free(list);
+  hk_free(full);
+  hk_free(lean);
   return ready ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
@@ -68,28 +68,28 @@ static int64_t last_frame(const hooke_needs *needs) {
   return (needs->lean_path.recorded < frames ? needs->lean_path.recorded : frames) - 1;
 }
 
-static int32_t add(struct hooke_text *data, const hooke_needs *needs, struct hooke_picture *p,
+static int32_t add(struct hk_text *data, const hooke_needs *needs, struct hk_picture *p,
                    const char *watched) {
   const int64_t frame = last_frame(needs), springs = choose(p, watched);
-  hooke_text_open(data, "picture", '{');
-  hooke_text_number(data, "time", (double)frame * needs->every);
-  hooke_text_number(data, "springs", (double)springs);
-  hooke_picture_add_springs(data, p);
+  hk_text_open(data, "picture", '{');
+  hk_text_number(data, "time", (double)frame * needs->every);
+  hk_text_number(data, "springs", (double)springs);
+  hk_picture_add_springs(data, p);
   for (int64_t k = 0; k < needs->watch_count; k++) {
-    if (p->drawn_count == 0) hooke_picture_show(p, needs->watch[k]);
+    if (p->drawn_count == 0) hk_picture_show(p, needs->watch[k]);
   }
   const int32_t status = add_positions(data, needs, p, frame);
-  hooke_text_close(data, '}');
+  hk_text_close(data, '}');
   return status;
 }
 
-void hooke_needs_picture_add(struct hooke_text *data, const hooke_needs *needs) {
-  struct hooke_picture p;
+void hk_needs_picture_add(struct hk_text *data, const hooke_needs *needs) {
+  struct hk_picture p;
   if (needs->lean_path.position == NULL) return;
-  int32_t status = hooke_picture_create(needs->system, &p);
+  int32_t status = hk_picture_create(needs->system, &p);
   char *watched = find_watched(needs);
   if (status == HOOKE_OK) status = watched ? add(data, needs, &p, watched) : HOOKE_NO_MEMORY;
   if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
-  hooke_picture_release(&p);
-  hooke_free(watched);
+  hk_picture_release(&p);
+  hk_free(watched);
 }

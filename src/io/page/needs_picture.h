@@ -10,6 +10,6 @@ enum { HOOKE_NEEDS_PICTURE_SPRINGS = 9000 };
 
 /* Adds "picture": the watched particles in both systems, and the springs between them; nothing while there is no lean system.
  * Failures go to the text's status. */
-void hooke_needs_picture_add(struct hooke_text *data, const hooke_needs *needs);
+void hk_needs_picture_add(struct hk_text *data, const hooke_needs *needs);
 
 #endif

@@ -6,96 +6,95 @@
 
 static const double POSITION_DIGITS = 6.0; /* against the extent */
 
-int32_t hooke_picture_create(const hooke_system *system, struct hooke_picture *picture) {
-  *picture = (struct hooke_picture){.system = system};
+int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture) {
+  *picture = (struct hk_picture){.system = system};
   picture->spring_count = hooke_system_spring_count(system);
-  picture->ends = hooke_new(2 * picture->spring_count, sizeof *picture->ends);
-  picture->drawn = hooke_new(picture->spring_count, 1);
-  picture->shut = hooke_new(picture->spring_count, 1);
-  picture->place = hooke_new(hooke_system_particle_count(system), sizeof *picture->place);
+  picture->ends = hk_new(2 * picture->spring_count, sizeof *picture->ends);
+  picture->drawn = hk_new(picture->spring_count, 1);
+  picture->shut = hk_new(picture->spring_count, 1);
+  picture->place = hk_new(hooke_system_particle_count(system), sizeof *picture->place);
   if (!picture->ends || !picture->drawn || !picture->shut || !picture->place) return HOOKE_NO_MEMORY;
   return hooke_system_spring_ends(system, picture->ends);
 }
 
-void hooke_picture_release(struct hooke_picture *picture) {
-  hooke_free(picture->ends);
-  hooke_free(picture->drawn);
-  hooke_free(picture->shut);
-  hooke_free(picture->place);
+void hk_picture_release(struct hk_picture *picture) {
+  hk_free(picture->ends);
+  hk_free(picture->drawn);
+  hk_free(picture->shut);
+  hk_free(picture->place);
 }
 
-void hooke_picture_take(struct hooke_picture *picture, int64_t spring) {
+void hk_picture_take(struct hk_picture *picture, int64_t spring) {
   picture->drawn_count += !picture->drawn[spring];
   picture->drawn[spring] = 1;
 }
 
-void hooke_picture_take_evenly(struct hooke_picture *picture, int64_t first, int64_t end, int64_t room) {
+void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room) {
   int64_t left = 0, seen = 0;
   for (int64_t k = first; k < end; k++)
     left += !picture->drawn[k] && !picture->shut[k];
   for (int64_t k = first; k < end; k++) {
     if (picture->drawn[k] || picture->shut[k]) continue;
-    if (left <= room || seen * room / left != (seen + 1) * room / left) hooke_picture_take(picture, k);
+    if (left <= room || seen * room / left != (seen + 1) * room / left) hk_picture_take(picture, k);
     seen++;
   }
 }
 
-void hooke_picture_show(struct hooke_picture *picture, int64_t particle) {
+void hk_picture_show(struct hk_picture *picture, int64_t particle) {
   if (picture->place[particle] == 0) picture->place[particle] = ++picture->shown_count;
 }
 
-void hooke_picture_add_springs(struct hooke_text *data, struct hooke_picture *picture) {
-  hooke_text_open(data, "spring", '[');
+void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture) {
+  hk_text_open(data, "spring", '[');
   for (int64_t k = 0; k < picture->spring_count; k++) {
-    if (picture->drawn[k]) hooke_text_number(data, NULL, (double)k);
+    if (picture->drawn[k]) hk_text_number(data, NULL, (double)k);
   }
-  hooke_text_close(data, ']');
-  hooke_text_open(data, "ends", '[');
+  hk_text_close(data, ']');
+  hk_text_open(data, "ends", '[');
   for (int64_t k = 0; k < 2 * picture->spring_count; k++) {
     if (!picture->drawn[k / 2]) continue;
-    hooke_picture_show(picture, picture->ends[k]);
-    hooke_text_number(data, NULL, (double)(picture->place[picture->ends[k]] - 1));
+    hk_picture_show(picture, picture->ends[k]);
+    hk_text_number(data, NULL, (double)(picture->place[picture->ends[k]] - 1));
   }
-  hooke_text_close(data, ']');
+  hk_text_close(data, ']');
 }
 
-int64_t *hooke_picture_list(const struct hooke_picture *picture) {
+int64_t *hk_picture_list(const struct hk_picture *picture) {
   const int64_t all = hooke_system_particle_count(picture->system);
-  int64_t *list = hooke_new(picture->shown_count, sizeof *list);
+  int64_t *list = hk_new(picture->shown_count, sizeof *list);
   for (int64_t k = 0; k < all && list; k++) {
     if (picture->place[k] > 0) list[picture->place[k] - 1] = k;
   }
   return list;
 }
 
-void hooke_picture_add_particles(struct hooke_text *data, const struct hooke_picture *picture,
-                                 const int64_t *list) {
+void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list) {
   const double *weight = hooke_system_inverse_mass(picture->system);
-  hooke_text_open(data, "particle", '[');
+  hk_text_open(data, "particle", '[');
   for (int64_t k = 0; k < picture->shown_count; k++)
-    hooke_text_number(data, NULL, (double)list[k]);
-  hooke_text_close(data, ']');
-  hooke_text_open(data, "held", '[');
+    hk_text_number(data, NULL, (double)list[k]);
+  hk_text_close(data, ']');
+  hk_text_open(data, "held", '[');
   for (int64_t k = 0; k < picture->shown_count; k++)
-    hooke_text_number(data, NULL, weight[list[k]] == 0.0);
-  hooke_text_close(data, ']');
+    hk_text_number(data, NULL, weight[list[k]] == 0.0);
+  hk_text_close(data, ']');
 }
 
 /* Short as text. */
-static void add_rounded(struct hooke_text *data, double value, double scale) {
+static void add_rounded(struct hk_text *data, double value, double scale) {
   const double rounded = rint(value * scale) / scale;
-  hooke_text_number(data, NULL, isfinite(rounded) ? rounded + 0.0 : value);
+  hk_text_number(data, NULL, isfinite(rounded) ? rounded + 0.0 : value);
 }
 
-void hooke_picture_add_vectors(struct hooke_text *data, const char *key, const double *vectors,
-                               const int64_t *list, int64_t count, double scale) {
-  hooke_text_open(data, key, '[');
+void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
+                            int64_t count, double scale) {
+  hk_text_open(data, key, '[');
   for (int64_t k = 0; k < 3 * count && vectors; k++)
     add_rounded(data, vectors[3 * list[k / 3] + k % 3], scale);
-  hooke_text_close(data, ']');
+  hk_text_close(data, ']');
 }
 
-double hooke_picture_scale(const double *position, const int64_t *list, int64_t count) {
+double hk_picture_scale(const double *position, const int64_t *list, int64_t count) {
   double extent = 0.0;
   for (int axis = 0; axis < 3; axis++) {
     double low = INFINITY, high = -INFINITY;

@@ -5,7 +5,7 @@
 #include "hooke/system.h"
 #include "io/file/text.h"
 
-struct hooke_picture {
+struct hk_picture {
   const hooke_system *system;
   int64_t spring_count, drawn_count;
   int64_t *ends;       /* 2 spring_count */
@@ -16,28 +16,27 @@ struct hooke_picture {
 };
 
 /* Nothing is drawn yet. On failure, too, release it. HOOKE_NO_MEMORY. */
-int32_t hooke_picture_create(const hooke_system *system, struct hooke_picture *picture);
-void hooke_picture_release(struct hooke_picture *picture);
+int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture);
+void hk_picture_release(struct hk_picture *picture);
 
 /* Draws a spring. */
-void hooke_picture_take(struct hooke_picture *picture, int64_t spring);
+void hk_picture_take(struct hk_picture *picture, int64_t spring);
 /* Draws of the springs from `first` up to `end` those that are left and not shut, evenly as many as there is room for. */
-void hooke_picture_take_evenly(struct hooke_picture *picture, int64_t first, int64_t end, int64_t room);
+void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room);
 /* Tells of a particle, whether it has springs that are drawn or not. */
-void hooke_picture_show(struct hooke_picture *picture, int64_t particle);
+void hk_picture_show(struct hk_picture *picture, int64_t particle);
 
 /* "spring" and "ends": the springs that are drawn by number, and the places of their ends. */
-void hooke_picture_add_springs(struct hooke_text *data, struct hooke_picture *picture);
+void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture);
 /* The particles told of, in the order of their places; the caller frees it. NULL: no memory. */
-int64_t *hooke_picture_list(const struct hooke_picture *picture);
+int64_t *hk_picture_list(const struct hk_picture *picture);
 /* "particle" and "held": the number of each in that list, and whether it is pinned or driven. */
-void hooke_picture_add_particles(struct hooke_text *data, const struct hooke_picture *picture,
-                                 const int64_t *list);
+void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list);
 
 /* Vectors as rows of x y z under `key`, those at the places of a list, rounded to whole multiples of 1/scale; none of NULL. */
-void hooke_picture_add_vectors(struct hooke_text *data, const char *key, const double *vectors,
-                               const int64_t *list, int64_t count, double scale);
+void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
+                            int64_t count, double scale);
 /* A scale that leaves six digits of the extent of positions; infinity: none is to be rounded. */
-double hooke_picture_scale(const double *position, const int64_t *list, int64_t count);
+double hk_picture_scale(const double *position, const int64_t *list, int64_t count);
 
 #endif

@@ -13,50 +13,50 @@
 
 /* ---- the page ---- */
 
-static int32_t add_data(struct hooke_text *page, const struct hooke_report *report) {
-  struct hooke_text data = {.bytes = NULL};
-  hooke_text_open(&data, NULL, '{');
-  hooke_text_word(&data, "scene", report->scene);
-  hooke_report_add_facts(&data);
+static int32_t add_data(struct hk_text *page, const struct hk_report *report) {
+  struct hk_text data = {.bytes = NULL};
+  hk_text_open(&data, NULL, '{');
+  hk_text_word(&data, "scene", report->scene);
+  hk_report_add_facts(&data);
   report->add_data(&data, report->ctx);
-  hooke_text_close(&data, '}');
-  if (data.status == HOOKE_OK) hooke_text_add(page, data.bytes, data.length);
+  hk_text_close(&data, '}');
+  if (data.status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
   const int32_t status = data.status != HOOKE_OK ? data.status : page->status;
-  hooke_text_release(&data);
+  hk_text_release(&data);
   return status;
 }
 
 /* A file of the report that is called as the report, and `ending`. */
-static int32_t add_own(struct hooke_text *page, const struct hooke_report *report, const char *ending) {
+static int32_t add_own(struct hk_text *page, const struct hk_report *report, const char *ending) {
   char name[64];
   snprintf(name, sizeof name, "%s%s", report->name, ending);
-  return hooke_share_read(name, page);
+  return hk_share_read(name, page);
 }
 
 /* What stands in the form as {{name}}: a part of the report, or a file that all reports have. */
-static int32_t add_part(const char *name, struct hooke_text *page, void *ctx) {
-  const struct hooke_report *report = ctx;
+static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
+  const struct hk_report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
   if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
-  return hooke_share_read(name, page);
+  return hk_share_read(name, page);
 }
 
-int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
-  struct hooke_text page = {.bytes = NULL};
-  struct hooke_report copy = *report;
-  int32_t status = hooke_form_fill("page.html", add_part, &copy, &page);
-  if (status == HOOKE_OK) status = hooke_place_write(path, page.bytes, page.length);
-  hooke_text_release(&page);
+int32_t hk_report_write(const struct hk_report *report, const char *path) {
+  struct hk_text page = {.bytes = NULL};
+  struct hk_report copy = *report;
+  int32_t status = hk_form_fill("page.html", add_part, &copy, &page);
+  if (status == HOOKE_OK) status = hk_place_write(path, page.bytes, page.length);
+  hk_text_release(&page);
   return status;
 }
 
 #else
 
-int32_t hooke_report_write(const struct hooke_report *report, const char *path) {
+int32_t hk_report_write(const struct hk_report *report, const char *path) {
   (void)report, (void)path;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_NOT_BUILT, NULL,
       "reports need Chart.js (on Debian: apt-get install libjs-chart.js, then configure again), and "
       "this build of the library is without it");

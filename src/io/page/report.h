@@ -4,20 +4,20 @@
 
 #include "io/file/text.h"
 
-struct hooke_report {
+struct hk_report {
   const char *name;  /* its files in share/hooke: <name>.html, <name>.js, <name>_tables.js */
   const char *scene; /* the name over it */
-  void (*add_data)(struct hooke_text *data, const void *ctx); /* adds its keys to a JSON object */
+  void (*add_data)(struct hk_text *data, const void *ctx); /* adds its keys to a JSON object */
   const void *ctx;
 };
 
 /* Writes the page. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
-int32_t hooke_report_write(const struct hooke_report *report, const char *path);
+int32_t hk_report_write(const struct hk_report *report, const char *path);
 
 /* Adds a step [s]; "none" where nothing limits it (infinity). */
-void hooke_report_add_step(struct hooke_text *data, const char *key, double step);
+void hk_report_add_step(struct hk_text *data, const char *key, double step);
 
 /* Adds date, machine and versions. */
-void hooke_report_add_facts(struct hooke_text *data);
+void hk_report_add_facts(struct hk_text *data);
 
 #endif

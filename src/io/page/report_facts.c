@@ -16,7 +16,7 @@ static int32_t find_processor(char *name, size_t size) {
   name[0] = '\0';
   FILE *file = fopen("/proc/cpuinfo", "r");
   if (file == NULL && errno == ENOMEM)
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to describe the machine");
+    return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to describe the machine");
   if (file == NULL) return HOOKE_OK;
   while (name[0] == '\0' && fgets(line, sizeof line, file)) {
     const char *colon = strchr(line, ':');
@@ -28,47 +28,47 @@ static int32_t find_processor(char *name, size_t size) {
   return HOOKE_OK;
 }
 
-static void add_machine(struct hooke_text *text) {
+static void add_machine(struct hk_text *text) {
   char processor[256], kernel[160] = "";
   struct utsname name;
   if (text->status == HOOKE_OK) text->status = find_processor(processor, sizeof processor);
   if (text->status != HOOKE_OK) return;
   if (uname(&name) == 0) snprintf(kernel, sizeof kernel, "%.64s, %.64s", name.sysname, name.machine);
   const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-  hooke_text_open(text, "machine", '{');
-  hooke_text_word(text, "processor", processor[0] ? processor : NULL);
-  hooke_text_number(text, "cores", cores > 0 ? (double)cores : NAN);
-  hooke_text_word(text, "system", kernel);
-  hooke_text_close(text, '}');
+  hk_text_open(text, "machine", '{');
+  hk_text_word(text, "processor", processor[0] ? processor : NULL);
+  hk_text_number(text, "cores", cores > 0 ? (double)cores : NAN);
+  hk_text_word(text, "system", kernel);
+  hk_text_close(text, '}');
 }
 
-static void add_versions(struct hooke_text *text) {
+static void add_versions(struct hk_text *text) {
   static const char *const facts[] = {"sundials", "cholmod", "lapack",  "gsl",          "arpack", "hdf5",
                                       "jansson",  "chartjs", "threejs", "instructions", "licence"};
-  hooke_text_open(text, "versions", '{');
-  hooke_text_word(text, "hooke", hooke_version());
+  hk_text_open(text, "versions", '{');
+  hk_text_word(text, "hooke", hooke_version());
   for (int k = 0; k < (int)(sizeof facts / sizeof facts[0]); k++)
-    hooke_text_word(text, facts[k], hooke_build_fact(facts[k]));
-  hooke_text_close(text, '}');
+    hk_text_word(text, facts[k], hooke_build_fact(facts[k]));
+  hk_text_close(text, '}');
 }
 
-static void add_date(struct hooke_text *text) {
+static void add_date(struct hk_text *text) {
   char date[32] = "";
   const time_t now = time(NULL);
   struct tm parts;
   if (gmtime_r(&now, &parts)) strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &parts);
-  hooke_text_word(text, "date", date);
+  hk_text_word(text, "date", date);
 }
 
-void hooke_report_add_facts(struct hooke_text *text) {
+void hk_report_add_facts(struct hk_text *text) {
   add_date(text);
   add_machine(text);
   add_versions(text);
 }
 
-void hooke_report_add_step(struct hooke_text *data, const char *key, double step) {
+void hk_report_add_step(struct hk_text *data, const char *key, double step) {
   if (step == INFINITY)
-    hooke_text_word(data, key, "none");
+    hk_text_word(data, key, "none");
   else
-    hooke_text_number(data, key, step);
+    hk_text_number(data, key, step);
 }

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     {.name = "frames",
      .type = HOOKE_OPTION_NUMBER,
      .low = 2,
@@ -36,39 +36,39 @@ static const struct hooke_option_row rows[] = {
      .fallback = "50",
      .doc = "size of the page at most, which frames are left out for"},
 };
-static const struct hooke_option_table table = {"view", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"view", HOOKE_OPTION_ROWS(rows)};
 
-const char *const hooke_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
+const char *const hk_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
 
 int32_t hooke_view_options_create(hooke_options **options) {
-  return hooke_options_create(&table, options);
+  return hk_options_create(&table, options);
 }
 
 /* ---- reading ---- */
 
 static int32_t refuse(const struct hooke_view *view, const char *what) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", hooke_record_path(view->record), what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", hk_record_path(view->record), what);
 }
 
-int32_t hooke_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t count,
-                        int64_t columns, double **values) {
+int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t count,
+                     int64_t columns, double **values) {
   int64_t there, wide;
-  const char *path = hooke_record_path(view->record);
-  const int32_t status = hooke_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
+  const char *path = hk_record_path(view->record);
+  const int32_t status = hk_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
   if (status != HOOKE_OK) return status;
   if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
-  hooke_free(*values);
+  hk_free(*values);
   *values = NULL;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "%s: dataset %s has %lld rows of %lld numbers, which do not fit the other datasets", path,
-                    dataset, (long long)there, (long long)wide);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s: dataset %s has %lld rows of %lld numbers, which do not fit the other datasets", path,
+                 dataset, (long long)there, (long long)wide);
 }
 
 /* Springs as the file has them, with ends that there are. */
 static int32_t read_ends(struct hooke_view *view, double **ends) {
   int64_t wide = 0;
-  int32_t status = hooke_array_read(hooke_record_path(view->record), "/connectivity/springs", 0, 0, ends,
-                                    &view->springs_there, &wide);
+  int32_t status = hk_array_read(hk_record_path(view->record), "/connectivity/springs", 0, 0, ends,
+                                 &view->springs_there, &wide);
   if (status == HOOKE_OK && view->springs_there > 0 && wide != 2)
     status = refuse(view, "dataset /connectivity/springs has not two ends in a row");
   for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++) {
@@ -80,8 +80,8 @@ static int32_t read_ends(struct hooke_view *view, double **ends) {
 
 static int32_t read_species(struct hooke_view *view, double **species) {
   int64_t wide = 0;
-  const int32_t status = hooke_array_read(hooke_record_path(view->record), "/particles/all/species", 0, 0,
-                                          species, &view->particles_there, &wide);
+  const int32_t status = hk_array_read(hk_record_path(view->record), "/particles/all/species", 0, 0, species,
+                                       &view->particles_there, &wide);
   return status == HOOKE_OK && wide != 1 ? refuse(view, "dataset /particles/all/species is no column")
                                          : status;
 }
@@ -91,28 +91,26 @@ static int32_t read_columns(struct hooke_view *view) {
                                                          "/observables/potential_energy/value",
                                                          "/observables/total_energy/value"};
   view->frames_there = hooke_record_frame_count(view->record);
-  int32_t status =
-      hooke_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
+  int32_t status = hk_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
-    status = hooke_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
+    status = hk_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
   return status;
 }
 
 /* Files of before there were rest lengths in them have those of their first frame. */
 static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
-  int32_t status =
-      hooke_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
+  int32_t status = hk_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   double *q = NULL;
-  status = hooke_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
-  view->rest_length = hooke_new(view->springs_there, sizeof(double));
+  status = hk_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
+  view->rest_length = hk_new(view->springs_there, sizeof(double));
   if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {
     const double *a = q + 3 * (int64_t)ends[2 * k], *b = q + 3 * (int64_t)ends[2 * k + 1];
     view->rest_length[k] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
   }
   view->by_first_frame = 1;
-  hooke_free(q);
+  hk_free(q);
   return status;
 }
 
@@ -126,10 +124,10 @@ static int64_t stride_for(int64_t count, int64_t room) {
 /* Particles in their order: the ends of springs that are shown, those that are held, and those without any spring. */
 static int32_t choose_particles(struct hooke_view *view, const double *ends, const double *species) {
   const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
-  char *tied = hooke_new(all, 1);
-  int64_t *place = hooke_new(all, sizeof *place), loose = 0;
-  view->particle = hooke_new(all, sizeof *view->particle);
-  view->mark = hooke_new(all, 1);
+  char *tied = hk_new(all, 1);
+  int64_t *place = hk_new(all, sizeof *place), loose = 0;
+  view->particle = hk_new(all, sizeof *view->particle);
+  view->mark = hk_new(all, 1);
   int32_t status = tied && place && view->particle && view->mark ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++)
     tied[(int64_t)ends[k]] |= (k / 2 % view->spring_stride == 0) ? 2 : 1;
@@ -148,8 +146,8 @@ static int32_t choose_particles(struct hooke_view *view, const double *ends, con
   }
   for (int64_t k = 0; k < 2 * view->springs && status == HOOKE_OK; k++)
     view->end[k] = place[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
-  hooke_free(place);
-  hooke_free(tied);
+  hk_free(place);
+  hk_free(tied);
   return status;
 }
 
@@ -157,8 +155,8 @@ static int32_t choose_springs(struct hooke_view *view) {
   const int64_t room = (int64_t)hooke_options_number(view->options, "springs");
   view->spring_stride = stride_for(view->springs_there, room);
   view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
-  view->spring = hooke_new(view->springs, sizeof *view->spring);
-  view->end = hooke_new(2 * view->springs, sizeof *view->end);
+  view->spring = hk_new(view->springs, sizeof *view->spring);
+  view->end = hk_new(2 * view->springs, sizeof *view->end);
   if (!view->spring || !view->end) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs; k++)
     view->spring[k] = k * view->spring_stride;
@@ -169,12 +167,12 @@ static int32_t choose_springs(struct hooke_view *view) {
 static int32_t measure_page(const struct hooke_view *view, double *bytes) {
   static const char *const parts[] = {"view.html", "view.css",       "view.js", "view_scene.js",
                                       "three.js",  "three_orbit.js", "chart.js"};
-  struct hooke_text text = {.bytes = NULL};
+  struct hk_text text = {.bytes = NULL};
   int32_t status = HOOKE_OK;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
-    status = hooke_share_read(parts[k], &text);
-  *bytes = (double)(text.length + hooke_base64_length(8 * view->springs + view->particles)) + 20e3;
-  hooke_text_release(&text);
+    status = hk_share_read(parts[k], &text);
+  *bytes = (double)(text.length + hk_base64_length(8 * view->springs + view->particles)) + 20e3;
+  hk_text_release(&text);
   return status;
 }
 
@@ -185,11 +183,11 @@ static int32_t choose_frames(struct hooke_view *view) {
   const int32_t status = measure_page(view, &fixed);
   if (status != HOOKE_OK) return status;
   const double size = 1e6 * hooke_options_number(view->options, "size");
-  const double each = (double)hooke_base64_length(hooke_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
+  const double each = (double)hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
   const int64_t least = view->frames_there < 2 ? view->frames_there : 2;
   double room = floor((size - fixed) / each);
   if (room < (double)least) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, "size",
         "%g MB are too few for this trajectory: its page takes %.3g MB and %.3g MB for each frame; allow "
         "%.3g MB or more, or draw fewer springs",
@@ -212,8 +210,8 @@ static int32_t choose(struct hooke_view *view) {
   if (status == HOOKE_OK) status = choose_springs(view);
   if (status == HOOKE_OK) status = choose_particles(view, ends, species);
   if (status == HOOKE_OK) status = choose_frames(view);
-  hooke_free(species);
-  hooke_free(ends);
+  hk_free(species);
+  hk_free(ends);
   return status;
 }
 
@@ -221,14 +219,14 @@ static int32_t choose(struct hooke_view *view) {
 
 static int32_t check_built(void) {
   if (hooke_build_fact("threejs")[0] && hooke_build_fact("chartjs")[0]) return HOOKE_OK;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_NOT_BUILT, NULL,
       "pages that play a trajectory need three.js and Chart.js (on Debian: apt-get install libjs-three "
       "libjs-chart.js, then configure again), and this build of the library is without");
 }
 
 static int32_t check_record(const struct hooke_view *view) {
-  if (!hooke_record_is_run(view->record)) {
+  if (!hk_record_is_run(view->record)) {
     return refuse(view,
                   "holds several runs, and a view shows one; write the one to look at with 'hooke run -o'");
   }
@@ -239,18 +237,18 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
   *out = NULL;
   int32_t status = check_built();
   if (status != HOOKE_OK) return status;
-  struct hooke_view *view = hooke_handle_new("hooke_view", sizeof *view);
+  struct hooke_view *view = hk_handle_new("hooke_view", sizeof *view);
   if (view == NULL) return HOOKE_NO_MEMORY;
   view->record = record;
   view->bytes = NAN;
-  if (options && hooke_options_table(options) != &table)
-    status = hooke_fail(HOOKE_BAD_CALL, "options", "are not those of hooke_view_options_create()");
+  if (options && hk_options_table(options) != &table)
+    status = hk_fail(HOOKE_BAD_CALL, "options", "are not those of hooke_view_options_create()");
   if (status == HOOKE_OK) status = check_record(view);
   if (status == HOOKE_OK)
     status =
         options ? hooke_options_copy(options, &view->options) : hooke_view_options_create(&view->options);
   if (status == HOOKE_OK) status = choose(view);
-  if (status == HOOKE_OK) status = hooke_view_find_strain(view);
+  if (status == HOOKE_OK) status = hk_view_find_strain(view);
   if (status == HOOKE_OK)
     *out = view;
   else
@@ -261,15 +259,15 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
 void hooke_view_destroy(hooke_view *view) {
   if (view == NULL) return;
   hooke_options_destroy(view->options);
-  hooke_free(view->rest_length);
-  hooke_free(view->spring);
-  hooke_free(view->end);
-  hooke_free(view->particle);
-  hooke_free(view->mark);
-  hooke_free(view->time);
+  hk_free(view->rest_length);
+  hk_free(view->spring);
+  hk_free(view->end);
+  hk_free(view->particle);
+  hk_free(view->mark);
+  hk_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
-    hooke_free(view->energy[k]);
-  hooke_handle_free(view);
+    hk_free(view->energy[k]);
+  hk_handle_free(view);
 }
 
 double hooke_view_number(const hooke_view *view, const char *what) {

@@ -9,7 +9,7 @@
 #include "hooke/io.h"
 
 enum { HOOKE_VIEW_ENERGIES = 3 };
-extern const char *const hooke_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
+extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
 
 /* How a particle is marked. */
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
@@ -33,30 +33,29 @@ struct hooke_view {
 };
 
 /* Number of the k-th frame that is shown: the last one is always among them. */
-int64_t hooke_view_frame(const struct hooke_view *view, int64_t k);
+int64_t hk_view_frame(const struct hooke_view *view, int64_t k);
 
 /* A column of numbers, or `columns` of them, from the file; the caller frees it. */
-int32_t hooke_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t rows,
-                        int64_t columns, double **values);
+int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t rows,
+                     int64_t columns, double **values);
 
 /* ---- frames as bytes ---- */
 
 /* Where 0 and 65535 of the three coordinates are. */
-struct hooke_view_box {
+struct hk_view_box {
   double low[3], high[3];
 };
 
-int64_t hooke_view_frame_bytes(const struct hooke_view *view);
+int64_t hk_view_frame_bytes(const struct hooke_view *view);
 
 /* Coordinates of the particles as 16-bit numbers, lowest byte first, x y z in turn, then a byte for the strain of each
  * spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
-int32_t hooke_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes,
-                        struct hooke_view_box *box);
+int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
 
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */
-double hooke_view_strain(const struct hooke_view *view, const double *q, int64_t k);
+double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k);
 
 /* Finds `strain`, strain_low and strain_high. */
-int32_t hooke_view_find_strain(struct hooke_view *view);
+int32_t hk_view_find_strain(struct hooke_view *view);
 
 #endif

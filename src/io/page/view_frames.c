@@ -15,16 +15,16 @@ static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
-int64_t hooke_view_frame(const struct hooke_view *view, int64_t k) {
+int64_t hk_view_frame(const struct hooke_view *view, int64_t k) {
   const int64_t frame = k * view->frame_stride;
   return frame < view->frames_there ? frame : view->frames_there - 1;
 }
 
-int64_t hooke_view_frame_bytes(const struct hooke_view *view) {
+int64_t hk_view_frame_bytes(const struct hooke_view *view) {
   return 6 * view->particles + view->springs;
 }
 
-double hooke_view_strain(const struct hooke_view *view, const double *q, int64_t k) {
+double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k) {
   const double rest = view->rest_length[view->spring[k]];
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
@@ -34,7 +34,7 @@ double hooke_view_strain(const struct hooke_view *view, const double *q, int64_t
 
 /* ---- the box ---- */
 
-static void find_box(const struct hooke_view *view, const double *q, struct hooke_view_box *box) {
+static void find_box(const struct hooke_view *view, const double *q, struct hk_view_box *box) {
   for (int axis = 0; axis < 3; axis++) {
     double low = INFINITY, high = -INFINITY;
     for (int64_t k = 0; k < view->particles; k++) {
@@ -73,7 +73,7 @@ static double largest_of_most(struct hooke_view *view, const double *q, double *
   const int64_t stride = 1 + (view->springs - 1) / LOOKED_AT;
   int64_t count = 0;
   for (int64_t k = 0; k < view->springs; k++) {
-    const double strain = hooke_view_strain(view, q, k);
+    const double strain = hk_view_strain(view, q, k);
     if (!isfinite(strain)) continue;
     view->strain_low = fmin(view->strain_low, strain);
     view->strain_high = fmax(view->strain_high, strain);
@@ -83,7 +83,7 @@ static double largest_of_most(struct hooke_view *view, const double *q, double *
 }
 
 static double extent_of(const struct hooke_view *view, const double *q) {
-  struct hooke_view_box box;
+  struct hk_view_box box;
   double extent = 0.0;
   find_box(view, q, &box);
   for (int axis = 0; axis < 3; axis++)
@@ -96,9 +96,9 @@ static int blew_up(const struct hooke_view *view) {
   return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
 }
 
-int32_t hooke_view_find_strain(struct hooke_view *view) {
-  double *sizes = hooke_new(LOOKED_AT + 1, sizeof *sizes);
-  double *largest = hooke_new(view->frames, sizeof *largest);
+int32_t hk_view_find_strain(struct hooke_view *view) {
+  double *sizes = hk_new(LOOKED_AT + 1, sizeof *sizes);
+  double *largest = hk_new(view->frames, sizeof *largest);
   int32_t status = sizes && largest ? HOOKE_OK : HOOKE_NO_MEMORY;
   int64_t count = 0;
   double widest = INFINITY;
@@ -106,21 +106,21 @@ int32_t hooke_view_find_strain(struct hooke_view *view) {
   view->strain_high = -INFINITY;
   for (int64_t k = 0; k < view->frames && view->springs > 0 && status == HOOKE_OK; k++) {
     double *q = NULL;
-    status = hooke_view_read(view, position, hooke_view_frame(view, k), view->particles_there, 3, &q);
+    status = hk_view_read(view, position, hk_view_frame(view, k), view->particles_there, 3, &q);
     if (status == HOOKE_OK) {
       const double most = largest_of_most(view, q, sizes), extent = extent_of(view, q);
       if (k == 0 && extent > 0.0 && blew_up(view)) widest = WIDENED * extent;
       if (extent <= widest) largest[count++] = most;
     }
-    hooke_free(q);
+    hk_free(q);
   }
   if (status == HOOKE_OK) {
     const double most = quantile(largest, count, FRAME_SHARE);
     const double any = fmax(-view->strain_low, view->strain_high); /* where most springs are slack */
     view->strain = most > 0.0 ? round_up(most) : any > 0.0 ? round_up(any) : 1.0;
   }
-  hooke_free(largest);
-  hooke_free(sizes);
+  hk_free(largest);
+  hk_free(sizes);
   return status;
 }
 
@@ -140,10 +140,9 @@ static uint8_t colour_of(const struct hooke_view *view, double strain) {
   return (uint8_t)fmin(fmax(place, 0.0), 2 * MIDDLE);
 }
 
-int32_t hooke_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes,
-                        struct hooke_view_box *box) {
+int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
   double *q = NULL;
-  const int32_t status = hooke_view_read(view, position, frame, view->particles_there, 3, &q);
+  const int32_t status = hk_view_read(view, position, frame, view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;
   find_box(view, q, box);
   for (int64_t k = 0; k < 3 * view->particles; k++) {
@@ -152,7 +151,7 @@ int32_t hooke_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *b
     *bytes++ = (uint8_t)(place >> 8);
   }
   for (int64_t k = 0; k < view->springs; k++)
-    *bytes++ = colour_of(view, hooke_view_strain(view, q, k));
-  hooke_free(q);
+    *bytes++ = colour_of(view, hk_view_strain(view, q, k));
+  hk_free(q);
   return HOOKE_OK;
 }

@@ -20,9 +20,9 @@
 /* ---- what it says ---- */
 
 /* Title and upward direction are those of the scene; where it cannot be read any more there are none. */
-static void add_scene(struct hooke_text *data, const struct hooke_view *view, const char *title) {
+static void add_scene(struct hk_text *data, const struct hooke_view *view, const char *title) {
   hooke_scene *scene = NULL;
-  const char *path = hooke_record_path(view->record), *slash = strrchr(path, '/');
+  const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
   const double *gravity = NULL;
   const int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, &scene) : HOOKE_BAD_VALUE;
@@ -31,58 +31,57 @@ static void add_scene(struct hooke_text *data, const struct hooke_view *view, co
     gravity = hooke_scene_system(scene)->gravity;
     if (title == NULL && hooke_scene_title(scene)[0]) title = hooke_scene_title(scene);
   }
-  hooke_text_word(data, "title", title ? title : slash ? slash + 1 : path);
-  hooke_text_word(data, "file", slash ? slash + 1 : path);
-  hooke_text_open(data, "gravity", '[');
+  hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
+  hk_text_word(data, "file", slash ? slash + 1 : path);
+  hk_text_open(data, "gravity", '[');
   for (int k = 0; k < 3; k++)
-    hooke_text_number(data, NULL, gravity ? gravity[k] : 0.0);
-  hooke_text_close(data, ']');
+    hk_text_number(data, NULL, gravity ? gravity[k] : 0.0);
+  hk_text_close(data, ']');
   hooke_scene_destroy(scene);
 }
 
-static void add_run(struct hooke_text *data, const struct hooke_view *view) {
+static void add_run(struct hk_text *data, const struct hooke_view *view) {
   static const char *const numbers[] = {"step", "rtol", "atol", "duration"};
   const hooke_options *run = hooke_record_options(view->record);
   const char *method = hooke_options_text(run, "method");
   const int adaptive = hooke_method_is_adaptive(method) == 1;
-  hooke_text_word(data, "method", method);
-  hooke_text_word(data, "status", hooke_record_text(view->record, "status"));
+  hk_text_word(data, "method", method);
+  hk_text_word(data, "status", hooke_record_text(view->record, "status"));
   for (int k = 0; k < COUNT_OF(numbers); k++) {
     const int applies = adaptive ? k > 0 : k == 0 || k == 3;
     if (applies && hooke_options_number_count(run, numbers[k]) > 0)
-      hooke_text_number(data, numbers[k], hooke_options_number(run, numbers[k]));
+      hk_text_number(data, numbers[k], hooke_options_number(run, numbers[k]));
   }
 }
 
-static void add_counts(struct hooke_text *data, const struct hooke_view *view) {
+static void add_counts(struct hk_text *data, const struct hooke_view *view) {
   static const char *const counts[] = {"frames",        "frames_there",  "frame_stride",    "springs",
                                        "springs_there", "spring_stride", "particles_there", "particles",
                                        "time_last",     "strain",        "strain_low",      "strain_high"};
   for (int k = 0; k < COUNT_OF(counts); k++)
-    hooke_text_number(data, counts[k], hooke_view_number(view, counts[k]));
-  hooke_text_number(data, "loose_there", (double)view->loose_there);
-  hooke_text_number(data, "loose_stride", (double)view->loose_stride);
-  hooke_text_flag(data, "by_first_frame", view->by_first_frame);
+    hk_text_number(data, counts[k], hooke_view_number(view, counts[k]));
+  hk_text_number(data, "loose_there", (double)view->loose_there);
+  hk_text_number(data, "loose_stride", (double)view->loose_stride);
+  hk_text_flag(data, "by_first_frame", view->by_first_frame);
 }
 
-static void add_column(struct hooke_text *data, const struct hooke_view *view, const char *key,
+static void add_column(struct hk_text *data, const struct hooke_view *view, const char *key,
                        const double *column) {
-  hooke_text_open(data, key, '[');
+  hk_text_open(data, key, '[');
   for (int64_t k = 0; k < view->frames; k++)
-    hooke_text_number(data, NULL, column[hooke_view_frame(view, k)]);
-  hooke_text_close(data, ']');
+    hk_text_number(data, NULL, column[hk_view_frame(view, k)]);
+  hk_text_close(data, ']');
 }
 
-static void add_boxes(struct hooke_text *data, const struct hooke_view *view,
-                      const struct hooke_view_box *box) {
-  hooke_text_open(data, "box", '[');
+static void add_boxes(struct hk_text *data, const struct hooke_view *view, const struct hk_view_box *box) {
+  hk_text_open(data, "box", '[');
   for (int64_t k = 0; k < view->frames; k++) {
-    hooke_text_open(data, NULL, '[');
+    hk_text_open(data, NULL, '[');
     for (int axis = 0; axis < 6; axis++)
-      hooke_text_number(data, NULL, axis < 3 ? box[k].low[axis] : box[k].high[axis - 3]);
-    hooke_text_close(data, ']');
+      hk_text_number(data, NULL, axis < 3 ? box[k].low[axis] : box[k].high[axis - 3]);
+    hk_text_close(data, ']');
   }
-  hooke_text_close(data, ']');
+  hk_text_close(data, ']');
 }
 
 /* ---- its parts ---- */
@@ -90,74 +89,74 @@ static void add_boxes(struct hooke_text *data, const struct hooke_view *view,
 struct page {
   const struct hooke_view *view;
   const char *title;
-  struct hooke_view_box *box; /* of each frame; known once the frames are added */
+  struct hk_view_box *box; /* of each frame; known once the frames are added */
 };
 
-static int32_t add_data(const struct page *page, struct hooke_text *text) {
-  struct hooke_text all = {.bytes = NULL}, *data = &all;
+static int32_t add_data(const struct page *page, struct hk_text *text) {
+  struct hk_text all = {.bytes = NULL}, *data = &all;
   const struct hooke_view *view = page->view;
-  hooke_text_open(data, NULL, '{');
+  hk_text_open(data, NULL, '{');
   add_scene(data, view, page->title);
   add_run(data, view);
   add_counts(data, view);
   add_column(data, view, "time", view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
-    add_column(data, view, hooke_view_energy[k], view->energy[k]);
+    add_column(data, view, hk_view_energy[k], view->energy[k]);
   add_boxes(data, view, page->box);
-  hooke_report_add_facts(data);
-  hooke_text_close(data, '}');
+  hk_report_add_facts(data);
+  hk_text_close(data, '}');
   const int32_t status = data->status;
-  if (status == HOOKE_OK) hooke_text_add(text, data->bytes, data->length);
-  hooke_text_release(data);
+  if (status == HOOKE_OK) hk_text_add(text, data->bytes, data->length);
+  hk_text_release(data);
   return status == HOOKE_OK ? text->status : status;
 }
 
 /* The places of the two ends of each spring, as 32-bit numbers, lowest byte first, then the marks of the particles. */
-static int32_t add_fixed(const struct page *page, struct hooke_text *text) {
+static int32_t add_fixed(const struct page *page, struct hk_text *text) {
   const struct hooke_view *view = page->view;
   const int64_t count = 8 * view->springs + view->particles;
-  uint8_t *bytes = hooke_new(count, 1), *at = bytes;
+  uint8_t *bytes = hk_new(count, 1), *at = bytes;
   if (bytes == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 2 * view->springs; k++) {
     for (int shift = 0; shift < 32; shift += 8)
       *at++ = (uint8_t)(view->end[k] >> shift & 255);
   }
   if (view->particles > 0) memcpy(at, view->mark, (size_t)view->particles);
-  hooke_base64_add(text, bytes, count);
-  hooke_free(bytes);
+  hk_base64_add(text, bytes, count);
+  hk_free(bytes);
   return text->status;
 }
 
 /* Each frame takes the same length, so that the page can take one by its number. */
-static int32_t add_frames(const struct page *page, struct hooke_text *text) {
+static int32_t add_frames(const struct page *page, struct hk_text *text) {
   const struct hooke_view *view = page->view;
-  const int64_t count = hooke_view_frame_bytes(view);
-  uint8_t *bytes = hooke_new(count, 1);
+  const int64_t count = hk_view_frame_bytes(view);
+  uint8_t *bytes = hk_new(count, 1);
   int32_t status = bytes ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
-    status = hooke_view_pack(view, hooke_view_frame(view, k), bytes, &page->box[k]);
-    hooke_base64_add(text, bytes, status == HOOKE_OK ? count : 0);
+    status = hk_view_pack(view, hk_view_frame(view, k), bytes, &page->box[k]);
+    hk_base64_add(text, bytes, status == HOOKE_OK ? count : 0);
   }
-  hooke_free(bytes);
+  hk_free(bytes);
   return status == HOOKE_OK ? text->status : status;
 }
 
-static int32_t add_part(const char *name, struct hooke_text *text, void *ctx) {
+static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
   const struct page *page = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, text);
   if (strcmp(name, "fixed") == 0) return add_fixed(page, text);
   if (strcmp(name, "frames") == 0) return add_frames(page, text);
-  return hooke_share_read(name, text);
+  return hk_share_read(name, text);
 }
 
 int32_t hooke_view_write(hooke_view *view, const char *path, const char *title) {
-  struct hooke_text text = {.bytes = NULL};
+  struct hk_text text = {.bytes = NULL};
   struct page page = {.view = view, .title = title};
-  page.box = hooke_new(view->frames, sizeof *page.box);
-  int32_t status = page.box ? hooke_form_fill("view.html", add_part, &page, &text) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hooke_place_write(path, text.bytes, text.length);
+  page.box = hk_new(view->frames, sizeof *page.box);
+  int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, &text) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = hk_place_write(path, text.bytes, text.length);
   if (status == HOOKE_OK) view->bytes = (double)text.length;
-  hooke_text_release(&text);
-  hooke_free(page.box);
+  hk_text_release(&text);
+  hk_free(page.box);
   return status;
 }

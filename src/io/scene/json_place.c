@@ -89,7 +89,7 @@ static const char *find_element(const char *array, const char *end, const char *
   return element;
 }
 
-const char *hooke_json_find(const char *text, int64_t length, const char *path, int32_t key) {
+const char *hk_json_find(const char *text, int64_t length, const char *path, int32_t key) {
   const char *end = text + length;
   const char *value = skip_space(text, end);
   while (*path && value < end) {
@@ -108,7 +108,7 @@ const char *hooke_json_find(const char *text, int64_t length, const char *path, 
   return value;
 }
 
-void hooke_json_line(const char *text, const char *at, int64_t *line, int64_t *column) {
+void hk_json_line(const char *text, const char *at, int64_t *line, int64_t *column) {
   *line = 1;
   *column = 1;
   for (const char *c = text; c < at; c++) {

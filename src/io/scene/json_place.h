@@ -7,9 +7,9 @@
 
 /* The value at `path`, or of its longest beginning that exists; with `key` not 0 the key that leads there.
  * `text` is valid JSON. */
-const char *hooke_json_find(const char *text, int64_t length, const char *path, int32_t key);
+const char *hk_json_find(const char *text, int64_t length, const char *path, int32_t key);
 
 /* Line and column (from 1, in characters) of a place in the text. */
-void hooke_json_line(const char *text, const char *at, int64_t *line, int64_t *column);
+void hk_json_line(const char *text, const char *at, int64_t *line, int64_t *column);
 
 #endif

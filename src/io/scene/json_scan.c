@@ -15,11 +15,11 @@ static int is_space(char c) {
 /* ---- the guard ---- */
 
 static int32_t refuse_byte(unsigned char c) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "byte 0x%02x is not UTF-8; allowed: JSON in UTF-8", c);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "byte 0x%02x is not UTF-8; allowed: JSON in UTF-8", c);
 }
 
 /* Follows the bytes of one character (RFC 3629: no surrogates, no overlong forms). */
-static int32_t follow_utf8(struct hooke_json_guard *guard, unsigned char c) {
+static int32_t follow_utf8(struct hk_json_guard *guard, unsigned char c) {
   if (guard->pending) {
     if (c < guard->lowest || c > guard->highest) return refuse_byte(guard->first);
     guard->pending--;
@@ -45,38 +45,37 @@ static int32_t follow_utf8(struct hooke_json_guard *guard, unsigned char c) {
 
 static int32_t refuse_start(char c) {
   if ((unsigned char)c == 0xEF)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "starts with a byte order mark or text; allowed: one JSON object, starting with {");
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "starts with a byte order mark or text; allowed: one JSON object, starting with {");
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(&c, (unsigned char)c < 0x80, shown);
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "starts with \"%s\"; allowed: one JSON object, starting with {",
-                    shown);
+  hk_option_show(&c, (unsigned char)c < 0x80, shown);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "starts with \"%s\"; allowed: one JSON object, starting with {",
+                 shown);
 }
 
 /* Nothing in a scene is an empty array or object inside an array, and millions of them would fill the memory.
  */
-static int32_t follow_bracket(struct hooke_json_guard *guard, char c) {
+static int32_t follow_bracket(struct hk_json_guard *guard, char c) {
   if (c == '{' || c == '[') {
     if (++guard->depth > DEEPEST)
-      return hooke_fail(HOOKE_BAD_VALUE, NULL, "nested %d levels deep; allowed: up to %d", DEEPEST + 1,
-                        DEEPEST);
+      return hk_fail(HOOKE_BAD_VALUE, NULL, "nested %d levels deep; allowed: up to %d", DEEPEST + 1, DEEPEST);
     guard->arrays = guard->arrays << 1 | (c == '[');
     guard->lists += c == '[';
     guard->objects += c == '{';
   } else if (c == '}' || c == ']') {
     if ((guard->arrays & 1) != (c == ']'))
-      return hooke_fail(HOOKE_BAD_VALUE, NULL, "%c closes nothing; allowed: brackets in pairs", c);
+      return hk_fail(HOOKE_BAD_VALUE, NULL, "%c closes nothing; allowed: brackets in pairs", c);
     guard->depth--;
     guard->arrays >>= 1;
     if ((guard->arrays & 1) && (guard->last == '[' || guard->last == '{'))
-      return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                        "nothing between %c and %c; allowed in an array: values that are not empty",
-                        guard->last, c);
+      return hk_fail(HOOKE_BAD_VALUE, NULL,
+                     "nothing between %c and %c; allowed in an array: values that are not empty", guard->last,
+                     c);
   }
   return HOOKE_OK;
 }
 
-static int32_t follow_structure(struct hooke_json_guard *guard, char c) {
+static int32_t follow_structure(struct hk_json_guard *guard, char c) {
   if (guard->in_string) {
     if (guard->escaped)
       guard->escaped = 0;
@@ -89,8 +88,8 @@ static int32_t follow_structure(struct hooke_json_guard *guard, char c) {
   if (is_space(c)) return HOOKE_OK;
   if (!guard->started && c != '{') return refuse_start(c);
   if (guard->started && guard->depth == 0)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "text after the end; allowed: one JSON object and nothing after it");
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "text after the end; allowed: one JSON object and nothing after it");
   guard->started = 1;
   if (c == '"') guard->in_string = 1;
   guard->values += c == ',' || c == '[' || c == '{';
@@ -99,12 +98,12 @@ static int32_t follow_structure(struct hooke_json_guard *guard, char c) {
   return status;
 }
 
-int32_t hooke_json_guard_feed(struct hooke_json_guard *guard, const char *bytes, int64_t count) {
+int32_t hk_json_guard_feed(struct hk_json_guard *guard, const char *bytes, int64_t count) {
   if (guard->line == 0) guard->line = 1;
   for (int64_t k = 0; k < count; k++) {
     char c = bytes[k];
     if (follow_utf8(guard, (unsigned char)c)) return HOOKE_BAD_VALUE;
-    if (c == '\0') return hooke_fail(HOOKE_BAD_VALUE, NULL, "a NUL byte; allowed: JSON in UTF-8");
+    if (c == '\0') return hk_fail(HOOKE_BAD_VALUE, NULL, "a NUL byte; allowed: JSON in UTF-8");
     if (follow_structure(guard, c)) return HOOKE_BAD_VALUE;
     if (c == '\n') {
       guard->line++;
@@ -114,17 +113,17 @@ int32_t hooke_json_guard_feed(struct hooke_json_guard *guard, const char *bytes,
   return HOOKE_OK;
 }
 
-double hooke_json_guard_bytes(const struct hooke_json_guard *guard, int64_t length) {
+double hk_json_guard_bytes(const struct hk_json_guard *guard, int64_t length) {
   /* measured with jansson 2.14; the text is there, while it grows up to three times, and once more as texts in it */
   static const double per_value = 64.0, per_list = 144.0, per_object = 400.0, per_byte = 4.0;
   return per_value * (double)guard->values + per_list * (double)guard->lists +
          per_object * (double)guard->objects + per_byte * (double)length;
 }
 
-int32_t hooke_json_guard_end(const struct hooke_json_guard *guard) {
+int32_t hk_json_guard_end(const struct hk_json_guard *guard) {
   if (guard->pending) return refuse_byte(guard->first);
   if (!guard->started)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "is empty; allowed: one JSON object, starting with {");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "is empty; allowed: one JSON object, starting with {");
   return HOOKE_OK;
 }
 
@@ -181,13 +180,12 @@ static int32_t check_real(const char *token, int64_t length, const char *shown) 
   if (length < SAFE_LENGTH && !memchr(token, 'e', (size_t)length) && !memchr(token, 'E', (size_t)length))
     return HOOKE_OK;
   double value;
-  switch (hooke_number_parse(token, length, &value)) {
+  switch (hk_number_parse(token, length, &value)) {
   case HOOKE_NUMBER_TOO_LARGE:
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s is beyond the largest number; allowed: up to 1.797e308",
-                      shown);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s is beyond the largest number; allowed: up to 1.797e308", shown);
   case HOOKE_NUMBER_TOO_SMALL:
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s would become 0; allowed: 0, or numbers from 4.94e-324 up",
-                      shown);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s would become 0; allowed: 0, or numbers from 4.94e-324 up",
+                   shown);
   case HOOKE_NUMBER_NO_MEMORY:
     return HOOKE_NO_MEMORY;
   case HOOKE_NUMBER_FINE:
@@ -199,32 +197,31 @@ static int32_t check_real(const char *token, int64_t length, const char *shown) 
 
 static int32_t check_token(const char *token, int64_t length) {
   int real = 0;
-  if (hooke_option_has_word("true false null", token, length)) return HOOKE_OK;
+  if (hk_option_has_word("true false null", token, length)) return HOOKE_OK;
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(token, length, shown);
+  hk_option_show(token, length, shown);
   if (!is_json_number(token, length, &real))
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "%s is not JSON; allowed: a finite decimal number, \"text\", true, false or null",
-                      shown);
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "%s is not JSON; allowed: a finite decimal number, \"text\", true, false or null", shown);
   if (real) return check_real(token, length, shown);
   if (fits_64_bits(token, length)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "%s is too large; allowed: whole numbers of 64 bits, or with a point or exponent", shown);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s is too large; allowed: whole numbers of 64 bits, or with a point or exponent", shown);
 }
 
 static int32_t refuse_stray(const char *c, const char *end) {
   if (*c == '/')
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a comment is not JSON; allowed: only JSON (RFC 8259)");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "a comment is not JSON; allowed: only JSON (RFC 8259)");
   int64_t length = 1;
   while (c + length < end && ((unsigned char)c[length] & 0xC0) == 0x80)
     length++;
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(c, length, shown);
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "%s is not JSON; allowed: { } [ ] : , numbers, \"text\", true, false, null", shown);
+  hk_option_show(c, length, shown);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s is not JSON; allowed: { } [ ] : , numbers, \"text\", true, false, null", shown);
 }
 
-int32_t hooke_json_check_tokens(const char *text, int64_t length, const char **at) {
+int32_t hk_json_check_tokens(const char *text, int64_t length, const char **at) {
   const char *end = text + length;
   for (const char *c = text; c < end; c++) {
     if (*c == '"') {

@@ -7,7 +7,7 @@
 /* Follows a text that comes in pieces, so that a hopeless one is refused before it is in memory: not UTF-8,
  * NUL bytes, not an object, nested too deep, full of empty brackets, too much for the memory. `line` and `column` (from 1, in
  * characters) are those of the last character seen. All zeros is the start. */
-struct hooke_json_guard {
+struct hk_json_guard {
   int64_t line, column, depth;
   int32_t started, in_string, escaped;
   uint64_t arrays;                      /* one bit a level, the innermost lowest: 1 for an array */
@@ -19,13 +19,13 @@ struct hooke_json_guard {
 };
 
 /* What `length` bytes of text, followed so far, need at most when they are parsed [bytes]. */
-double hooke_json_guard_bytes(const struct hooke_json_guard *guard, int64_t length);
+double hk_json_guard_bytes(const struct hk_json_guard *guard, int64_t length);
 
-int32_t hooke_json_guard_feed(struct hooke_json_guard *guard, const char *bytes, int64_t count);
-int32_t hooke_json_guard_end(const struct hooke_json_guard *guard);
+int32_t hk_json_guard_feed(struct hk_json_guard *guard, const char *bytes, int64_t count);
+int32_t hk_json_guard_end(const struct hk_json_guard *guard);
 
 /* Checks numbers and bare words: numbers that a double cannot hold, or that would become 0, and words such as
  * NaN. On failure `at` is where it is. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hooke_json_check_tokens(const char *text, int64_t length, const char **at);
+int32_t hk_json_check_tokens(const char *text, int64_t length, const char **at);
 
 #endif

@@ -10,39 +10,39 @@
 
 #include <string.h>
 
-int32_t hooke_mesh_check_alone(const hooke_options *options) {
+int32_t hk_mesh_check_alone(const hooke_options *options) {
   static const char *const others[] = {"vertices", "triangles"};
   for (int k = 0; k < 2; k++) {
     if (hooke_options_is_set(options, others[k]))
-      return hooke_fail(HOOKE_BAD_VALUE, others[k],
-                        "belongs to a mesh without a file; allowed: a file, or vertices and triangles");
+      return hk_fail(HOOKE_BAD_VALUE, others[k],
+                     "belongs to a mesh without a file; allowed: a file, or vertices and triangles");
   }
   return HOOKE_OK;
 }
 
 /* The same checks as when the part is added, while it is known which line is to blame. */
-static int32_t check_surface(const hooke_options *options, const struct hooke_obj *obj, int64_t *line) {
-  struct hooke_surface surface;
-  struct hooke_surface_fault fault;
+static int32_t check_surface(const hooke_options *options, const struct hk_obj *obj, int64_t *line) {
+  struct hk_surface surface;
+  struct hk_surface_fault fault;
   char text[256];
-  int32_t status = hooke_surface_create(options, &surface, &fault);
-  hooke_surface_release(&surface);
+  int32_t status = hk_surface_create(options, &surface, &fault);
+  hk_surface_release(&surface);
   if (fault.trouble == HOOKE_SURFACE_FINE) return status;
-  hooke_surface_describe(&fault, 1, obj->triangle_line, text, sizeof text);
+  hk_surface_describe(&fault, 1, obj->triangle_line, text, sizeof text);
   *line = fault.trouble == HOOKE_SURFACE_UNUSED ? obj->vertex_line[fault.vertex[0]]
                                                 : obj->triangle_line[fault.triangle[0]];
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
 }
 
 static int32_t read_text(const char *text, int64_t length, hooke_options *options, int64_t *line) {
-  struct hooke_obj obj;
-  int32_t status = hooke_obj_parse(text, length, &obj, line);
+  struct hk_obj obj;
+  int32_t status = hk_obj_parse(text, length, &obj, line);
   if (status == HOOKE_OK) {
     *line = 0;
     status = hooke_mesh_set(options, obj.vertex_count, obj.vertex, obj.triangle_count, obj.triangle);
   }
   if (status == HOOKE_OK) status = check_surface(options, &obj, line);
-  hooke_obj_release(&obj);
+  hk_obj_release(&obj);
   return status;
 }
 
@@ -53,39 +53,38 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
   hooke_options_unset(options, "vertices");
   hooke_options_unset(options, "triangles");
   if (status == HOOKE_NO_MEMORY) return status;
-  hooke_option_show(name, (int64_t)strlen(name), shown);
-  return line > 0 ? hooke_fail_before(status, "%s:%lld: ", shown, (long long)line)
-                  : hooke_fail_before(status, "%s: ", shown);
+  hk_option_show(name, (int64_t)strlen(name), shown);
+  return line > 0 ? hk_fail_before(status, "%s:%lld: ", shown, (long long)line)
+                  : hk_fail_before(status, "%s: ", shown);
 }
 
-int32_t hooke_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
-                         hooke_options *options) {
+int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
+                      hooke_options *options) {
   int64_t line = 0;
-  int32_t status = hooke_mesh_check_alone(options);
+  int32_t status = hk_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = hooke_room_require(memory_limit, hooke_obj_bytes(text, length), "the mesh");
+  status = hk_room_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   return finish(status, line, name, options);
 }
 
-int32_t hooke_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
+int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char *text = NULL;
   int64_t length = 0;
-  int32_t status = hooke_mesh_check_alone(options);
+  int32_t status = hk_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = hooke_scene_read_file(path, NULL, &text, &length);
-  status = status == HOOKE_OK ? hooke_mesh_parse(text, length, name, memory_limit, options)
+  status = hk_scene_read_file(path, NULL, &text, &length);
+  status = status == HOOKE_OK ? hk_mesh_parse(text, length, name, memory_limit, options)
                               : finish(status, 0, name, options);
-  hooke_free(text);
+  hk_free(text);
   return status;
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  if (path == NULL || options == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no options given");
-  if (hooke_options_find(hooke_options_table(options), "triangles") == NULL)
-    return hooke_fail(
+  if (path == NULL || options == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no path or no options given");
+  if (hk_options_find(hk_options_table(options), "triangles") == NULL)
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
-  return hooke_mesh_read_as(path, path, 0.0, options);
+  return hk_mesh_read_as(path, path, 0.0, options);
 }

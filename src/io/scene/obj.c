@@ -15,7 +15,7 @@ static const char allowed[] =
 struct reader {
   const char *at, *end;
   int64_t line;
-  struct hooke_obj *obj;
+  struct hk_obj *obj;
 };
 
 /* A word of a line. */
@@ -86,23 +86,23 @@ static int is(const struct word *word, const char *text) {
 
 static int32_t refuse(const struct word *word, const char *what) {
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(word->text, word->length, shown);
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "\"%s\" is not allowed; %s", shown, what);
+  hk_option_show(word->text, word->length, shown);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "\"%s\" is not allowed; %s", shown, what);
 }
 
 /* ---- lists that grow ---- */
 
 static int32_t grow(void **block, int64_t used, int64_t *capacity, size_t size, void **lines) {
   const int64_t wanted = *capacity > 0 ? 2 * *capacity : 1024;
-  int32_t status = hooke_grow(block, used, wanted, size);
-  if (status == HOOKE_OK) status = hooke_grow(lines, used, wanted, sizeof(int32_t));
+  int32_t status = hk_grow(block, used, wanted, size);
+  if (status == HOOKE_OK) status = hk_grow(lines, used, wanted, sizeof(int32_t));
   if (status == HOOKE_OK) *capacity = wanted;
   return status;
 }
 
-static int32_t add_vertex(struct hooke_obj *obj, const double *place, int64_t line) {
+static int32_t add_vertex(struct hk_obj *obj, const double *place, int64_t line) {
   if (obj->vertex_count == INT32_MAX)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "one vertex too many; allowed: up to 2147483647");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "one vertex too many; allowed: up to 2147483647");
   if (obj->vertex_count == obj->vertex_capacity) {
     const int32_t status = grow((void **)&obj->vertex, obj->vertex_count, &obj->vertex_capacity,
                                 3 * sizeof(double), (void **)&obj->vertex_line);
@@ -113,9 +113,9 @@ static int32_t add_vertex(struct hooke_obj *obj, const double *place, int64_t li
   return HOOKE_OK;
 }
 
-static int32_t add_triangle(struct hooke_obj *obj, int64_t a, int64_t b, int64_t c, int64_t line) {
+static int32_t add_triangle(struct hk_obj *obj, int64_t a, int64_t b, int64_t c, int64_t line) {
   if (obj->triangle_count == INT32_MAX / 3)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "one triangle too many; allowed: up to 715827882");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "one triangle too many; allowed: up to 715827882");
   if (obj->triangle_count == obj->triangle_capacity) {
     const int32_t status = grow((void **)&obj->triangle, obj->triangle_count, &obj->triangle_capacity,
                                 3 * sizeof(int64_t), (void **)&obj->triangle_line);
@@ -135,12 +135,12 @@ static int32_t read_vertex(struct reader *reader, int64_t line) {
   int count = 0;
   for (struct word word; next_word(reader, &word); count++) {
     if (count == 7) return refuse(&word, "allowed: x y z, which a weight and a colour may follow");
-    const enum hooke_number_result result = hooke_number_parse(word.text, word.length, &number[count]);
+    const enum hk_number_result result = hk_number_parse(word.text, word.length, &number[count]);
     if (result == HOOKE_NUMBER_NO_MEMORY) return HOOKE_NO_MEMORY;
     if (result != HOOKE_NUMBER_FINE) return refuse(&word, "allowed: a finite decimal number");
   }
   if (count < 3)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a vertex of %d numbers; allowed: x y z, three numbers", count);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "a vertex of %d numbers; allowed: x y z, three numbers", count);
   return add_vertex(reader->obj, number, line);
 }
 
@@ -162,10 +162,9 @@ static int32_t read_corner(const struct reader *reader, const struct word *word,
   *vertex = negative ? count - number : number - 1;
   if (number > 0 && number <= count) return HOOKE_OK;
   if (count == 0) return refuse(word, "there is no vertex before this line");
-  return hooke_fail(
-      HOOKE_BAD_VALUE, NULL,
-      "there is no vertex %s%lld yet; allowed: 1 to %lld, or -1 to -%lld from the last one back",
-      negative ? "-" : "", (long long)number, (long long)count, (long long)count);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "there is no vertex %s%lld yet; allowed: 1 to %lld, or -1 to -%lld from the last one back",
+                 negative ? "-" : "", (long long)number, (long long)count, (long long)count);
 }
 
 static int32_t read_face(struct reader *reader, int64_t line) {
@@ -179,8 +178,8 @@ static int32_t read_face(struct reader *reader, int64_t line) {
     before = vertex;
   }
   if (status == HOOKE_OK && corners < 3)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "a face of %lld corners; allowed: three or more",
-                      (long long)corners);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "a face of %lld corners; allowed: three or more",
+                   (long long)corners);
   return status;
 }
 
@@ -207,9 +206,9 @@ static int32_t read_line(struct reader *reader) {
   return status;
 }
 
-int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj, int64_t *line) {
+int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64_t *line) {
   struct reader reader = {.at = text, .end = text + length, .line = 1, .obj = obj};
-  *obj = (struct hooke_obj){.vertex_count = 0};
+  *obj = (struct hk_obj){.vertex_count = 0};
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && reader.at < reader.end) {
     status = read_line(&reader);
@@ -217,13 +216,13 @@ int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj,
   }
   *line = reader.line;
   if (status != HOOKE_OK || obj->triangle_count > 0) return status;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "the file ends with %lld vertices and no face; allowed: faces, lines \"f 1 2 3\"",
-                    (long long)obj->vertex_count);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "the file ends with %lld vertices and no face; allowed: faces, lines \"f 1 2 3\"",
+                 (long long)obj->vertex_count);
 }
 
 /* A vertex is a line, a triangle at least a blank before its last corner. */
-double hooke_obj_bytes(const char *text, int64_t length) {
+double hk_obj_bytes(const char *text, int64_t length) {
   static const double per_vertex = 200.0, per_triangle = 340.0;
   double vertices = 0.0, triangles = 0.0;
   int in_face = 0;
@@ -239,10 +238,10 @@ double hooke_obj_bytes(const char *text, int64_t length) {
   return per_vertex * vertices + per_triangle * triangles + 3.0 * (double)length;
 }
 
-void hooke_obj_release(struct hooke_obj *obj) {
-  hooke_free(obj->vertex);
-  hooke_free(obj->triangle);
-  hooke_free(obj->vertex_line);
-  hooke_free(obj->triangle_line);
-  *obj = (struct hooke_obj){.vertex_count = 0};
+void hk_obj_release(struct hk_obj *obj) {
+  hk_free(obj->vertex);
+  hk_free(obj->triangle);
+  hk_free(obj->vertex_line);
+  hk_free(obj->triangle_line);
+  *obj = (struct hk_obj){.vertex_count = 0};
 }

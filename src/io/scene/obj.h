@@ -4,7 +4,7 @@
 
 #include "hooke/base.h"
 
-struct hooke_obj {
+struct hk_obj {
   int64_t vertex_count, triangle_count;
   int64_t vertex_capacity, triangle_capacity;
   double *vertex;                       /* 3 vertex_count */
@@ -14,9 +14,9 @@ struct hooke_obj {
 
 /* Reads `length` bytes. On failure `line` is that of the trouble, and the message is without the name of the file.
  * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; to be released in each case. */
-int32_t hooke_obj_parse(const char *text, int64_t length, struct hooke_obj *obj, int64_t *line);
+int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64_t *line);
 /* What reading `length` bytes of such a file into a mesh needs at most [bytes]. */
-double hooke_obj_bytes(const char *text, int64_t length);
-void hooke_obj_release(struct hooke_obj *obj);
+double hk_obj_bytes(const char *text, int64_t length);
+void hk_obj_release(struct hk_obj *obj);
 
 #endif

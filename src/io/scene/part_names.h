@@ -4,24 +4,24 @@
 
 #include "hooke/base.h"
 
-struct hooke_named_part {
+struct hk_named_part {
   char *name; /* owned */
   int64_t number, first, count;
 };
 
-struct hooke_part_names {
+struct hk_part_names {
   int64_t count;
-  struct hooke_named_part *part; /* by number */
-  struct hooke_named_part **sorted;
+  struct hk_named_part *part; /* by number */
+  struct hk_named_part **sorted;
 };
 
 /* Room for `count` parts, to be named one by one and then sorted. HOOKE_NO_MEMORY. */
-int32_t hooke_part_names_create(int64_t count, struct hooke_part_names *names);
-int32_t hooke_part_names_set(struct hooke_part_names *names, int64_t number, const char *name);
-void hooke_part_names_sort(struct hooke_part_names *names);
-void hooke_part_names_release(struct hooke_part_names *names);
+int32_t hk_part_names_create(int64_t count, struct hk_part_names *names);
+int32_t hk_part_names_set(struct hk_part_names *names, int64_t number, const char *name);
+void hk_part_names_sort(struct hk_part_names *names);
+void hk_part_names_release(struct hk_part_names *names);
 
 /* The first part of this name; NULL if there is none. */
-struct hooke_named_part *hooke_part_names_find(const struct hooke_part_names *names, const char *name);
+struct hk_named_part *hk_part_names_find(const struct hk_part_names *names, const char *name);
 
 #endif

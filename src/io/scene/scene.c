@@ -23,34 +23,34 @@ static const char *short_name(const char *name, const char **dots) {
 
 static int32_t in_file(int32_t status, const char *name) {
   const char *dots, *shown = short_name(name, &dots);
-  return hooke_fail_before(status, "%s%s: ", dots, shown);
+  return hk_fail_before(status, "%s%s: ", dots, shown);
 }
 
 static int32_t in_line(int32_t status, const char *name, int64_t line, int64_t column) {
   const char *dots, *shown = short_name(name, &dots);
   if (column < 1) column = 1; /* at the end of a line, before its first character */
-  return hooke_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
+  return hk_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
 }
 
 static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
   int64_t line, column;
-  hooke_json_line(scene->text, at, &line, &column);
+  hk_json_line(scene->text, at, &line, &column);
   return in_line(status, scene->name, line, column);
 }
 
 static int32_t at_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
-  return in_text(status, scene, hooke_json_find(scene->text, scene->length, hooke_fail_place(), at_key));
+  return in_text(status, scene, hk_json_find(scene->text, scene->length, hk_fail_place(), at_key));
 }
 
 /* The text is in `scene` and passed the guard. */
 static int32_t read_text(hooke_scene *scene, const char *folder) {
   const char *at = NULL;
-  int32_t status = hooke_json_check_tokens(scene->text, scene->length, &at);
+  int32_t status = hk_json_check_tokens(scene->text, scene->length, &at);
   if (status == HOOKE_BAD_VALUE) return in_text(status, scene, at);
   if (status) return status;
-  struct hooke_scene_trouble trouble = {0};
-  status = hooke_scene_build(scene, folder, &trouble);
-  if (status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hooke_fail_place()[0] == '\0')) return status;
+  struct hk_scene_trouble trouble = {0};
+  status = hk_scene_build(scene, folder, &trouble);
+  if (status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hk_fail_place()[0] == '\0')) return status;
   if (trouble.line) return in_line(status, scene->name, trouble.line, trouble.column);
   return at_place(status, scene, trouble.at_key);
 }
@@ -59,14 +59,14 @@ static int32_t require_jansson(void) {
 #if HOOKE_HAVE_JANSSON
   return HOOKE_OK;
 #else
-  return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson, which this one is not");
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson, which this one is not");
 #endif
 }
 
 static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
-  hooke_scene *scene = hooke_handle_new("hooke_scene", sizeof *scene);
-  if (scene && (scene->name = hooke_copy_text(name)) == NULL) {
-    hooke_handle_free(scene);
+  hooke_scene *scene = hk_handle_new("hooke_scene", sizeof *scene);
+  if (scene && (scene->name = hk_copy_text(name)) == NULL) {
+    hk_handle_free(scene);
     return NULL;
   }
   if (scene && limits) {
@@ -92,10 +92,10 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
   int32_t status = hooke_record_open(path, &record);
   if (status != HOOKE_OK) return status;
   const char *text = hooke_record_text(record, "scene");
-  char *folder = hooke_scene_folder(path);
+  char *folder = hk_scene_folder(path);
   if (folder == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && text[0] == '\0')
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
+    status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
   if (status == HOOKE_OK)
     status = hooke_scene_parse_within(text, (int64_t)strlen(text), path, folder, limits, scene);
   if (status == HOOKE_OK) {
@@ -109,7 +109,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
       *scene = NULL;
     }
   }
-  hooke_free(folder);
+  hk_free(folder);
   hooke_record_close(record);
   return status;
 }
@@ -121,21 +121,21 @@ int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
 int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene) {
   HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
-  if (path == NULL || scene == NULL) return hooke_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
+  if (path == NULL || scene == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
   if (require_jansson()) return HOOKE_NOT_BUILT;
-  if (hooke_record_is_one(path)) return load_record(path, limits, scene);
+  if (hk_record_is_one(path)) return load_record(path, limits, scene);
   hooke_scene *made = new_scene(path, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_json_guard guard = {.memory_limit = made->memory_limit};
-  int32_t status = hooke_scene_read_file(path, &guard, &made->text, &made->length);
+  struct hk_json_guard guard = {.memory_limit = made->memory_limit};
+  int32_t status = hk_scene_read_file(path, &guard, &made->text, &made->length);
   if (status == HOOKE_BAD_VALUE && guard.line)
     in_line(status, path, guard.line, guard.column);
   else if (status)
     in_file(status, path);
   if (status == HOOKE_OK) {
-    char *folder = hooke_scene_folder(path);
+    char *folder = hk_scene_folder(path);
     status = folder ? read_text(made, folder) : HOOKE_NO_MEMORY;
-    hooke_free(folder);
+    hk_free(folder);
   }
   return finish(status, made, scene);
 }
@@ -149,18 +149,18 @@ int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *n
                                  const hooke_options *limits, hooke_scene **scene) {
   if (scene) *scene = NULL;
   if (text == NULL || length < 0 || scene == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
   if (require_jansson()) return HOOKE_NOT_BUILT;
   if (name == NULL) name = "scene";
-  struct hooke_json_guard guard = {0};
-  int32_t status = hooke_json_guard_feed(&guard, text, length);
-  if (status == HOOKE_OK) status = hooke_json_guard_end(&guard);
+  struct hk_json_guard guard = {0};
+  int32_t status = hk_json_guard_feed(&guard, text, length);
+  if (status == HOOKE_OK) status = hk_json_guard_end(&guard);
   if (status) return in_line(status, name, guard.line, guard.column);
   hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  status = hooke_room_require(made->memory_limit, hooke_json_guard_bytes(&guard, length), "this scene");
+  status = hk_room_require(made->memory_limit, hk_json_guard_bytes(&guard, length), "this scene");
   if (status) return finish(in_file(status, name), made, scene);
-  made->text = hooke_new(length + 1, 1);
+  made->text = hk_new(length + 1, 1);
   made->length = length;
   if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);
   memcpy(made->text, text, (size_t)length);
@@ -176,10 +176,10 @@ void hooke_scene_destroy(hooke_scene *scene) {
   if (scene == NULL) return;
   hooke_system_destroy(scene->system);
   hooke_options_destroy(scene->run);
-  hooke_free(scene->title);
-  hooke_free(scene->text);
-  hooke_free(scene->name);
-  hooke_handle_free(scene);
+  hk_free(scene->title);
+  hk_free(scene->text);
+  hk_free(scene->name);
+  hk_handle_free(scene);
 }
 
 hooke_system *hooke_scene_system(hooke_scene *scene) {

@@ -17,55 +17,52 @@
 static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
-static int32_t refuse_open(int number, const struct hooke_json_guard *guard) {
-  if (number == ENOMEM) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
+static int32_t refuse_open(int number, const struct hk_json_guard *guard) {
+  if (number == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
   const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
   if (number == EINVAL)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "is not a regular file; allowed: a %sfile, no pipe and no device",
-                      guard ? "scene " : "");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "is not a regular file; allowed: a %sfile, no pipe and no device",
+                   guard ? "scene " : "");
   char reason[HOOKE_ERROR_SIZE];
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
-                    hooke_print_error(number, reason), guard ? "scene " : "");
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
+                 hk_print_error(number, reason), guard ? "scene " : "");
 }
 
 /* Reads up to the end; `text` has `capacity` bytes, the last kept for the NUL. */
-static int32_t read_all(FILE *file, struct hooke_json_guard *guard, char **text, int64_t *length) {
+static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, int64_t *length) {
   int64_t capacity = first_piece;
   char reason[HOOKE_ERROR_SIZE];
   *length = 0;
-  *text = hooke_new(capacity, 1);
+  *text = hk_new(capacity, 1);
   if (*text == NULL) return HOOKE_NO_MEMORY;
   for (;;) {
     errno = 0;
     int64_t got = (int64_t)fread(*text + *length, 1, (size_t)(capacity - *length - 1), file);
     if (got == 0 && ferror(file)) {
-      return hooke_fail(HOOKE_IO_FAILED, NULL, "reading broke off after %lld bytes: %s", (long long)*length,
-                        hooke_print_error(errno, reason));
+      return hk_fail(HOOKE_IO_FAILED, NULL, "reading broke off after %lld bytes: %s", (long long)*length,
+                     hk_print_error(errno, reason));
     }
     if (got == 0) break;
-    if (guard && hooke_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
+    if (guard && hk_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
-    if (guard &&
-        hooke_room_require(guard->memory_limit, hooke_json_guard_bytes(guard, *length), "this scene"))
+    if (guard && hk_room_require(guard->memory_limit, hk_json_guard_bytes(guard, *length), "this scene"))
       return HOOKE_NO_MEMORY;
     if (*length > largest_file)
-      return hooke_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",
-                        guard ? "keep long arrays in HDF5 files" : "allowed: up to that");
+      return hk_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",
+                     guard ? "keep long arrays in HDF5 files" : "allowed: up to that");
     if (*length < capacity - 1) continue;
-    int32_t status = hooke_grow((void **)text, *length, 2 * capacity, 1);
+    int32_t status = hk_grow((void **)text, *length, 2 * capacity, 1);
     if (status) return status;
     capacity *= 2;
   }
   (*text)[*length] = '\0';
-  return guard ? hooke_json_guard_end(guard) : HOOKE_OK;
+  return guard ? hk_json_guard_end(guard) : HOOKE_OK;
 }
 
-int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, char **text,
-                              int64_t *length) {
+int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length) {
   HOOKE_KEEP_ERRNO;
   *text = NULL;
-  const int descriptor = hooke_place_open(path);
+  const int descriptor = hk_place_open(path);
   FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
   if (file == NULL) {
     const int number = errno;
@@ -75,17 +72,17 @@ int32_t hooke_scene_read_file(const char *path, struct hooke_json_guard *guard, 
   int32_t status = read_all(file, guard, text, length);
   fclose(file);
   if (status) {
-    hooke_free(*text);
+    hk_free(*text);
     *text = NULL;
   }
   return status;
 }
 
-char *hooke_scene_folder(const char *path) {
+char *hk_scene_folder(const char *path) {
   const char *slash = strrchr(path, '/');
-  if (slash == NULL) return hooke_copy_text(".");
-  if (slash == path) return hooke_copy_text("/");
-  char *folder = hooke_copy_text(path);
+  if (slash == NULL) return hk_copy_text(".");
+  if (slash == path) return hk_copy_text("/");
+  char *folder = hk_copy_text(path);
   if (folder) folder[slash - path] = '\0';
   return folder;
 }
@@ -104,46 +101,46 @@ static int is_inside(const char *folder, const char *path) {
   return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
-int32_t hooke_scene_find_any(const char *folder, const char *file, char **path) {
+int32_t hk_scene_find_any(const char *folder, const char *file, char **path) {
   const char *base = file[0] == '/' ? "" : folder ? folder : ".";
   const size_t room = strlen(base) + strlen(file) + 2;
-  *path = hooke_new((int64_t)room, 1);
+  *path = hk_new((int64_t)room, 1);
   if (*path) snprintf(*path, room, "%s%s%s", base, base[0] ? "/" : "", file);
   return *path ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hooke_scene_find_file(const char *folder, const char *file, char **path) {
+int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
   HOOKE_KEEP_ERRNO;
   char shown[HOOKE_OPTION_SHOWN], reason[HOOKE_ERROR_SIZE];
-  hooke_option_show(file, (int64_t)strlen(file), shown);
+  hk_option_show(file, (int64_t)strlen(file), shown);
   *path = NULL;
   if (folder == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "\"%s\" is not allowed; this scene has no folder to take files from", shown);
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "\"%s\" is not allowed; this scene has no folder to take files from", shown);
   if (file[0] == '\0' || file[0] == '/' || climbs(file))
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "\"%s\" is not allowed; allowed: a path inside the scene's folder, relative and without ..", shown);
   size_t room = strlen(folder) + strlen(file) + 2;
-  char *joined = hooke_new((int64_t)room, 1);
+  char *joined = hk_new((int64_t)room, 1);
   if (joined == NULL) return HOOKE_NO_MEMORY;
   snprintf(joined, room, "%s/%s", folder, file);
   char *real_folder = realpath(folder, NULL);
   char *real_file = real_folder ? realpath(joined, NULL) : NULL;
   int32_t status = HOOKE_OK;
   if (real_file == NULL && errno == ENOMEM)
-    status = hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
+    status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
   else if (real_file == NULL)
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL,
-                        "\"%s\" cannot be opened: %s; allowed: a file in the scene's folder", shown,
-                        hooke_print_error(errno, reason));
+    status =
+        hk_fail(HOOKE_BAD_VALUE, NULL, "\"%s\" cannot be opened: %s; allowed: a file in the scene's folder",
+                shown, hk_print_error(errno, reason));
   else if (!is_inside(real_folder, real_file))
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL,
-                        "\"%s\" leads out of the scene's folder; allowed: a file inside it", shown);
-  else if ((*path = hooke_copy_text(real_file)) == NULL)
+    status = hk_fail(HOOKE_BAD_VALUE, NULL,
+                     "\"%s\" leads out of the scene's folder; allowed: a file inside it", shown);
+  else if ((*path = hk_copy_text(real_file)) == NULL)
     status = HOOKE_NO_MEMORY;
   free(real_folder);
   free(real_file);
-  hooke_free(joined);
+  hk_free(joined);
   return status;
 }

@@ -42,10 +42,10 @@ static int ran_out_of_memory(const json_error_t *error) {
 }
 
 static int32_t no_memory(void) {
-  return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
+  return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
 }
 
-static int32_t syntax_error(const json_error_t *error, struct hooke_scene_trouble *trouble) {
+static int32_t syntax_error(const json_error_t *error, struct hk_scene_trouble *trouble) {
   enum json_error_code code = json_error_code(error);
   if (ran_out_of_memory(error)) return no_memory();
   char text[JSON_ERROR_TEXT_LENGTH];
@@ -55,7 +55,7 @@ static int32_t syntax_error(const json_error_t *error, struct hooke_scene_troubl
     if ((unsigned char)*c < 32 || *c == 127) *c = '?';
   trouble->line = error->line > 0 ? error->line : 1;
   trouble->column = error->column;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
 }
 
 struct source {
@@ -76,7 +76,7 @@ static size_t give_byte(void *buffer, size_t size, void *ctx) {
 }
 
 /* NULL, with the failure in `status`, if it cannot be had. */
-static json_t *load(const char *text, int64_t length, struct hooke_scene_trouble *trouble, int32_t *status) {
+static json_t *load(const char *text, int64_t length, struct hk_scene_trouble *trouble, int32_t *status) {
   struct source source = {.next = text, .left = length};
   const int kept = errno;
   json_error_t error;
@@ -100,21 +100,21 @@ static json_t *load(const char *text, int64_t length, struct hooke_scene_trouble
 static int32_t check_version(const json_t *root) {
   const json_t *version = json_object_get(root, "hooke");
   if (version == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, "hooke",
-                      "is required but missing; allowed: 1, the version of the format");
-  if (!json_is_integer(version)) return hooke_scene_refuse(version, "hooke", "1, the version of the format");
+    return hk_fail(HOOKE_BAD_VALUE, "hooke",
+                   "is required but missing; allowed: 1, the version of the format");
+  if (!json_is_integer(version)) return hk_scene_refuse(version, "hooke", "1, the version of the format");
   if (json_integer_value(version) == 1) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "hooke", "%lld is not a known version of the format; allowed: 1",
-                    (long long)json_integer_value(version));
+  return hk_fail(HOOKE_BAD_VALUE, "hooke", "%lld is not a known version of the format; allowed: 1",
+                 (long long)json_integer_value(version));
 }
 
-static int32_t read_top(struct hooke_scene_reader *reader, const json_t *root) {
+static int32_t read_top(struct hk_scene_reader *reader, const json_t *root) {
   hooke_options *options = NULL;
   int32_t status = hooke_scene_options_create("scene", &options);
-  if (status == HOOKE_OK) status = hooke_scene_read_options(reader, root, other_keys, options);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, root, other_keys, options);
   if (status == HOOKE_OK) status = hooke_scene_options_apply(options, reader->scene->system);
   if (status == HOOKE_OK &&
-      (reader->scene->title = hooke_copy_text(hooke_options_text(options, "title"))) == NULL)
+      (reader->scene->title = hk_copy_text(hooke_options_text(options, "title"))) == NULL)
     status = HOOKE_NO_MEMORY;
   hooke_options_destroy(options);
   return status;
@@ -129,46 +129,45 @@ static int32_t check_method(const hooke_options *run) {
     size_t used = strlen(methods);
     snprintf(methods + used, sizeof methods - used, "%s%s", k ? ", " : "", hooke_method_name(k));
   }
-  hooke_option_show(method, (int64_t)strlen(method), shown);
-  return hooke_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method; allowed: %s", shown, methods);
+  hk_option_show(method, (int64_t)strlen(method), shown);
+  return hk_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method; allowed: %s", shown, methods);
 }
 
-static int32_t read_run(struct hooke_scene_reader *reader, const json_t *run) {
+static int32_t read_run(struct hk_scene_reader *reader, const json_t *run) {
   int32_t status = hooke_run_options_create(&reader->scene->run);
   if (status || run == NULL) return status;
-  status = hooke_scene_require_object(run, NULL);
-  if (status == HOOKE_OK) status = hooke_scene_read_some_options(reader, run, NULL, reader->scene->run);
+  status = hk_scene_require_object(run, NULL);
+  if (status == HOOKE_OK) status = hk_scene_read_some_options(reader, run, NULL, reader->scene->run);
   if (status == HOOKE_OK) status = check_method(reader->scene->run);
-  return status ? hooke_fail_within(status, "run") : HOOKE_OK;
+  return status ? hk_fail_within(status, "run") : HOOKE_OK;
 }
 
 /* Particles first, then parts, so that springs can name them all. */
-static int32_t read_scene(struct hooke_scene_reader *reader, const json_t *root) {
+static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
   const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
   const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
   int32_t status = check_version(root);
   if (status == HOOKE_OK) status = read_top(reader, root);
-  if (status == HOOKE_OK && particles) status = hooke_scene_add_particles(reader, particles);
-  if (status == HOOKE_OK && parts) status = hooke_scene_add_parts(reader, parts);
+  if (status == HOOKE_OK && particles) status = hk_scene_add_particles(reader, particles);
+  if (status == HOOKE_OK && parts) status = hk_scene_add_parts(reader, parts);
   if (status == HOOKE_OK && hooke_system_particle_count(reader->scene->system) == 0)
-    status =
-        hooke_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
-  if (status == HOOKE_OK && springs) status = hooke_scene_add_springs(reader, springs);
-  if (status == HOOKE_OK && driven) status = hooke_scene_add_driven(reader, driven);
+    status = hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
+  if (status == HOOKE_OK && springs) status = hk_scene_add_springs(reader, springs);
+  if (status == HOOKE_OK && driven) status = hk_scene_add_driven(reader, driven);
   if (status == HOOKE_OK) status = read_run(reader, json_object_get(root, "run"));
   return status;
 }
 
-int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble) {
   HOOKE_KEEP_ERRNO;
   int32_t status;
   json_t *root = load(scene->text, scene->length, trouble, &status);
   if (root == NULL) return status;
-  struct hooke_scene_reader reader = {.scene = scene, .folder = folder};
+  struct hk_scene_reader reader = {.scene = scene, .folder = folder};
   status = hooke_system_create(&scene->system);
   if (status == HOOKE_OK) status = hooke_system_limit_memory(scene->system, scene->memory_limit);
   if (status == HOOKE_OK) status = read_scene(&reader, root);
-  hooke_part_names_release(&reader.parts);
+  hk_part_names_release(&reader.parts);
   json_decref(root);
   trouble->at_key = reader.at_key;
   return status;
@@ -186,9 +185,9 @@ static int names_file(const json_t *value) {
   return 0;
 }
 
-int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_scene_trouble trouble = {0};
+  struct hk_scene_trouble trouble = {0};
   int32_t status;
   *names = 0;
   *title = NULL;
@@ -197,21 +196,21 @@ int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) 
   if (root == NULL) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
   const char *found = json_string_value(json_object_get(root, "title"));
   *names = names_file(root);
-  if (*names && (*title = hooke_copy_text(found ? found : "")) == NULL) status = HOOKE_NO_MEMORY;
+  if (*names && (*title = hk_copy_text(found ? found : "")) == NULL) status = HOOKE_NO_MEMORY;
   json_decref(root);
   return status;
 }
 
 #else
 
-int32_t hooke_scene_build(hooke_scene *scene, const char *folder, struct hooke_scene_trouble *trouble) {
+int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble) {
   (void)scene;
   (void)folder;
   (void)trouble;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
 }
 
-int32_t hooke_scene_names_files(const char *text, int32_t *names, char **title) {
+int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
   (void)text;
   *names = 0;
   *title = NULL;

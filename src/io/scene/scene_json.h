@@ -8,54 +8,54 @@
 
 struct json_t; /* of jansson */
 
-struct hooke_scene_reader {
+struct hk_scene_reader {
   hooke_scene *scene;
   const char *folder; /* NULL: no files */
   int32_t at_key;     /* 1 if the last failure is about a key rather than its value */
-  struct hooke_part_names parts;
+  struct hk_part_names parts;
 };
 
 /* ---- scene_json_values.c ---- */
 
 /* Sets `options` from the keys of an object, row by row of their table; keys in `others` (words separated by
  * blanks) are left to the caller. Then checks that nothing required is missing. */
-int32_t hooke_scene_read_options(struct hooke_scene_reader *reader, const struct json_t *object,
-                                 const char *others, hooke_options *options);
+int32_t hk_scene_read_options(struct hk_scene_reader *reader, const struct json_t *object, const char *others,
+                              hooke_options *options);
 /* The same without the last check. */
-int32_t hooke_scene_read_some_options(struct hooke_scene_reader *reader, const struct json_t *object,
-                                      const char *others, hooke_options *options);
+int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const struct json_t *object,
+                                   const char *others, hooke_options *options);
 
 /* Fails unless `value` is an object, an array, a text; `place` may be NULL. */
-int32_t hooke_scene_require_object(const struct json_t *value, const char *place);
-int32_t hooke_scene_require_array(const struct json_t *value, const char *place, const char *allowed);
-int32_t hooke_scene_require_text(const struct json_t *value, const char *place);
+int32_t hk_scene_require_object(const struct json_t *value, const char *place);
+int32_t hk_scene_require_array(const struct json_t *value, const char *place, const char *allowed);
+int32_t hk_scene_require_text(const struct json_t *value, const char *place);
 
 /* "is a number, 3; allowed: ..." */
-int32_t hooke_scene_refuse(const struct json_t *value, const char *place, const char *allowed);
+int32_t hk_scene_refuse(const struct json_t *value, const char *place, const char *allowed);
 
 /* After a failure about number k of a list `name`: its place becomes that of the k-th element of the array
  * that is not a word. Returns `status`. */
-int32_t hooke_scene_place_number(int32_t status, const struct json_t *array, const char *name);
+int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const char *name);
 
 /* ---- scene_json_array.c ---- */
 
 /* The path of a file that the scene names, for the caller to free. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hooke_scene_reader_file(const struct hooke_scene_reader *reader, const char *file, char **path);
+int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
 /* The numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the
  * caller frees `numbers`. */
-int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const struct json_t *value,
-                                 const struct hooke_option_row *row, double **numbers, int64_t *count);
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
+                              const struct hk_option_row *row, double **numbers, int64_t *count);
 
 /* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
-int32_t hooke_scene_read_particles(struct hooke_scene_reader *reader, const struct json_t *value,
-                                   int32_t columns, int64_t **particles, int64_t *count);
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct json_t *value, int32_t columns,
+                                int64_t **particles, int64_t *count);
 
 /* ---- scene_json_pieces.c: what the keys of the same name add to the system ---- */
 
-int32_t hooke_scene_add_particles(struct hooke_scene_reader *reader, const struct json_t *particles);
-int32_t hooke_scene_add_parts(struct hooke_scene_reader *reader, const struct json_t *parts);
-int32_t hooke_scene_add_springs(struct hooke_scene_reader *reader, const struct json_t *springs);
-int32_t hooke_scene_add_driven(struct hooke_scene_reader *reader, const struct json_t *driven);
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const struct json_t *particles);
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const struct json_t *parts);
+int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const struct json_t *springs);
+int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const struct json_t *driven);
 
 #endif

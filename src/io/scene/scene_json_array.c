@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_option_row source_rows[] = {
+static const struct hk_option_row source_rows[] = {
     {.name = "file", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "HDF5 file, relative to the scene"},
     {.name = "dataset", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "path of the data set in the file"},
     {.name = "frame",
@@ -22,27 +22,27 @@ static const struct hooke_option_row source_rows[] = {
      .doc = "which frame of a trajectory; -1 is the last"},
 };
 
-static const struct hooke_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
+static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
 
-int32_t hooke_scene_reader_file(const struct hooke_scene_reader *reader, const char *file, char **path) {
-  return (reader->scene->outside ? hooke_scene_find_any : hooke_scene_find_file)(reader->folder, file, path);
+int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path) {
+  return (reader->scene->outside ? hk_scene_find_any : hk_scene_find_file)(reader->folder, file, path);
 }
 
 /* ---- data sets ---- */
 
-static int32_t read_dataset(const struct hooke_scene_reader *reader, const hooke_options *source,
+static int32_t read_dataset(const struct hk_scene_reader *reader, const hooke_options *source,
                             double **numbers, int64_t *rows, int64_t *columns) {
   char *path = NULL;
-  int32_t status = hooke_scene_reader_file(reader, hooke_options_text(source, "file"), &path);
-  if (status) return hooke_fail_within(status, "file");
+  int32_t status = hk_scene_reader_file(reader, hooke_options_text(source, "file"), &path);
+  if (status) return hk_fail_within(status, "file");
   int32_t has_frame = hooke_options_is_set(source, "frame");
   int64_t frame = has_frame ? (int64_t)hooke_options_number(source, "frame") : 0;
-  status = hooke_array_read_within(reader->scene->memory_limit, path, hooke_options_text(source, "dataset"),
-                                   frame, has_frame, numbers, rows, columns);
-  hooke_free(path);
+  status = hk_array_read_within(reader->scene->memory_limit, path, hooke_options_text(source, "dataset"),
+                                frame, has_frame, numbers, rows, columns);
+  hk_free(path);
   /* a file that a scene names and that cannot be used is the scene's fault */
-  if (status == HOOKE_IO_FAILED) return hooke_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_fail_message());
-  if (status == HOOKE_BAD_VALUE) return hooke_fail(HOOKE_BAD_VALUE, "dataset", "%s", hooke_fail_message());
+  if (status == HOOKE_IO_FAILED) return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hk_fail_message());
+  if (status == HOOKE_BAD_VALUE) return hk_fail(HOOKE_BAD_VALUE, "dataset", "%s", hk_fail_message());
   return status;
 }
 
@@ -50,23 +50,22 @@ static int32_t read_dataset(const struct hooke_scene_reader *reader, const hooke
 static int32_t check_dataset(const double *numbers, int64_t rows, int64_t columns, int32_t wanted,
                              int32_t whole) {
   if (wanted > 1 ? columns != wanted : (columns != 1 && rows != 1))
-    return hooke_fail(HOOKE_BAD_VALUE, "dataset", "%lld rows of %lld numbers; allowed: rows of %d",
-                      (long long)rows, (long long)columns, wanted > 1 ? (int)wanted : 1);
+    return hk_fail(HOOKE_BAD_VALUE, "dataset", "%lld rows of %lld numbers; allowed: rows of %d",
+                   (long long)rows, (long long)columns, wanted > 1 ? (int)wanted : 1);
   for (int64_t k = 0; k < rows * columns; k++) {
     if (isfinite(numbers[k]) && (!whole || numbers[k] == rint(numbers[k]))) continue;
-    return hooke_fail(HOOKE_BAD_VALUE, "dataset", "%g in row %lld, column %lld; allowed: %s numbers",
-                      numbers[k], (long long)(k / columns), (long long)(k % columns),
-                      whole ? "whole" : "finite");
+    return hk_fail(HOOKE_BAD_VALUE, "dataset", "%g in row %lld, column %lld; allowed: %s numbers", numbers[k],
+                   (long long)(k / columns), (long long)(k % columns), whole ? "whole" : "finite");
   }
   return HOOKE_OK;
 }
 
-static int32_t numbers_from_file(struct hooke_scene_reader *reader, const json_t *value, int32_t wanted,
+static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t wanted,
                                  int32_t whole, double **numbers, int64_t *count) {
   int64_t rows = 0, columns = 0;
   hooke_options *source = NULL;
-  int32_t status = hooke_options_create(&source_table, &source);
-  if (status == HOOKE_OK) status = hooke_scene_read_options(reader, value, NULL, source);
+  int32_t status = hk_options_create(&source_table, &source);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, value, NULL, source);
   if (status == HOOKE_OK) status = read_dataset(reader, source, numbers, &rows, &columns);
   hooke_options_destroy(source);
   if (status == HOOKE_OK) status = check_dataset(*numbers, rows, columns, wanted, whole);
@@ -78,7 +77,7 @@ static int32_t numbers_from_file(struct hooke_scene_reader *reader, const json_t
 
 static int32_t read_number(const json_t *value, int32_t whole, double *number) {
   if (whole ? !json_is_integer(value) : !json_is_number(value))
-    return hooke_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
+    return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
   *number = json_number_value(value);
   return HOOKE_OK;
 }
@@ -87,18 +86,18 @@ static int32_t require_row(const json_t *value, int64_t columns, const char *wha
   if (json_is_array(value) && (int64_t)json_array_size(value) == columns) return HOOKE_OK;
   char allowed[64];
   snprintf(allowed, sizeof allowed, "a row of %lld %s", (long long)columns, what);
-  return hooke_scene_refuse(value, NULL, allowed);
+  return hk_scene_refuse(value, NULL, allowed);
 }
 
-static int32_t read_rows(const json_t *value, const struct hooke_option_row *row, double *numbers) {
+static int32_t read_rows(const json_t *value, const struct hk_option_row *row, double *numbers) {
   int64_t columns = row->columns;
   for (size_t r = 0; r < json_array_size(value); r++) {
     const json_t *item = json_array_get(value, r);
     int32_t status = require_row(item, columns, row->whole ? "whole numbers" : "numbers");
-    if (status) return hooke_fail_within(status, "[%zu]", r);
+    if (status) return hk_fail_within(status, "[%zu]", r);
     for (int64_t c = 0; c < columns; c++) {
       status = read_number(json_array_get(item, (size_t)c), row->whole, numbers++);
-      if (status) return hooke_fail_within(status, "[%zu][%lld]", r, (long long)c);
+      if (status) return hk_fail_within(status, "[%zu][%lld]", r, (long long)c);
     }
   }
   return HOOKE_OK;
@@ -107,13 +106,13 @@ static int32_t read_rows(const json_t *value, const struct hooke_option_row *row
 static int32_t read_list(const json_t *value, int32_t whole, double *numbers) {
   for (size_t k = 0; k < json_array_size(value); k++) {
     int32_t status = read_number(json_array_get(value, k), whole, &numbers[k]);
-    if (status) return hooke_fail_within(status, "[%zu]", k);
+    if (status) return hk_fail_within(status, "[%zu]", k);
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t *value,
-                                 const struct hooke_option_row *row, double **numbers, int64_t *count) {
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *value,
+                              const struct hk_option_row *row, double **numbers, int64_t *count) {
   int32_t status;
   *numbers = NULL;
   *count = 1;
@@ -122,7 +121,7 @@ int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t
   } else {
     int64_t columns = row->columns > 1 ? row->columns : 1;
     if (json_is_array(value)) *count = columns * (int64_t)json_array_size(value);
-    *numbers = hooke_new(*count, sizeof(double));
+    *numbers = hk_new(*count, sizeof(double));
     if (*numbers == NULL) return HOOKE_NO_MEMORY;
     if (!json_is_array(value))
       status = read_number(value, row->whole, *numbers);
@@ -132,7 +131,7 @@ int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t
       status = read_list(value, row->whole, *numbers);
   }
   if (status) {
-    hooke_free(*numbers);
+    hk_free(*numbers);
     *numbers = NULL;
   }
   return status;
@@ -143,53 +142,52 @@ int32_t hooke_scene_read_numbers(struct hooke_scene_reader *reader, const json_t
 static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
 
 /* "rope0, cloth1", up to the room that there is. */
-static void list_parts(const struct hooke_part_names *parts, char *names, size_t size) {
+static void list_parts(const struct hk_part_names *parts, char *names, size_t size) {
   names[0] = '\0';
   for (int64_t k = 0; k < parts->count; k++) {
     char shown[HOOKE_OPTION_SHOWN];
     const size_t used = strlen(names);
-    hooke_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
+    hk_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
     const int fits = used + strlen(shown) + strlen(", , ...") < size;
     snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
     if (!fits) return;
   }
 }
 
-static int32_t find_in_part(const struct hooke_scene_reader *reader, const char *name, int64_t index,
+static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
                             int64_t *particle) {
   char names[256], shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(name, (int64_t)strlen(name), shown);
-  const struct hooke_named_part *part = hooke_part_names_find(&reader->parts, name);
+  hk_option_show(name, (int64_t)strlen(name), shown);
+  const struct hk_named_part *part = hk_part_names_find(&reader->parts, name);
   if (part && index >= 0 && index < part->count) {
     *particle = part->first + index;
     return HOOKE_OK;
   }
   if (part)
-    return hooke_fail(HOOKE_BAD_VALUE, "[1]", "part \"%s\" has no particle %lld; allowed: 0 to %lld", shown,
-                      (long long)index, (long long)part->count - 1);
+    return hk_fail(HOOKE_BAD_VALUE, "[1]", "part \"%s\" has no particle %lld; allowed: 0 to %lld", shown,
+                   (long long)index, (long long)part->count - 1);
   list_parts(&reader->parts, names, sizeof names);
-  return hooke_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
-                    names[0] ? names : "none, as this scene has no parts");
+  return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
+                 names[0] ? names : "none, as this scene has no parts");
 }
 
-static int32_t read_particle(const struct hooke_scene_reader *reader, const json_t *value,
-                             int64_t *particle) {
+static int32_t read_particle(const struct hk_scene_reader *reader, const json_t *value, int64_t *particle) {
   if (json_is_array(value)) {
     const json_t *name = json_array_get(value, 0), *index = json_array_get(value, 1);
     if (json_array_size(value) == 2 && json_is_string(name) && json_is_integer(index))
       return find_in_part(reader, json_string_value(name), json_integer_value(index), particle);
-    return hooke_scene_refuse(value, NULL, particle_allowed);
+    return hk_scene_refuse(value, NULL, particle_allowed);
   }
-  if (!json_is_integer(value)) return hooke_scene_refuse(value, NULL, particle_allowed);
+  if (!json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
   int64_t count = hooke_system_particle_count(reader->scene->system);
   *particle = json_integer_value(value);
   if (*particle >= 0 && *particle < count) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld",
-                    (long long)*particle, (long long)count - 1);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)*particle,
+                 (long long)count - 1);
 }
 
 /* Numbers become particles where they stand: large scenes have no memory for both. */
-static int32_t particles_from_file(struct hooke_scene_reader *reader, const json_t *value, int32_t columns,
+static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
                                    int64_t **particles, int64_t *count) {
   _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
   double *numbers = NULL;
@@ -200,8 +198,8 @@ static int32_t particles_from_file(struct hooke_scene_reader *reader, const json
     double number;
     memcpy(&number, place, sizeof number);
     if (number < 0 || number >= (double)particle_count) {
-      status = hooke_fail(HOOKE_BAD_VALUE, "dataset", "there is no particle %.17g; allowed: 0 to %lld",
-                          number, (long long)particle_count - 1);
+      status = hk_fail(HOOKE_BAD_VALUE, "dataset", "there is no particle %.17g; allowed: 0 to %lld", number,
+                       (long long)particle_count - 1);
     } else {
       const int64_t particle = (int64_t)number;
       memcpy(place, &particle, sizeof particle);
@@ -211,46 +209,46 @@ static int32_t particles_from_file(struct hooke_scene_reader *reader, const json
   return status;
 }
 
-static int32_t particles_from_array(const struct hooke_scene_reader *reader, const json_t *value,
+static int32_t particles_from_array(const struct hk_scene_reader *reader, const json_t *value,
                                     int32_t columns, int64_t *particles) {
   for (size_t r = 0; r < json_array_size(value); r++) {
     const json_t *item = json_array_get(value, r);
     if (columns == 0) {
       int32_t status = read_particle(reader, item, &particles[r]);
-      if (status) return hooke_fail_within(status, "[%zu]", r);
+      if (status) return hk_fail_within(status, "[%zu]", r);
       continue;
     }
     int32_t status = require_row(item, columns, "particles, numbers or [\"part\", index]");
-    if (status) return hooke_fail_within(status, "[%zu]", r);
+    if (status) return hk_fail_within(status, "[%zu]", r);
     for (int32_t c = 0; c < columns; c++) {
       status = read_particle(reader, json_array_get(item, (size_t)c), particles++);
-      if (status) return hooke_fail_within(status, "[%zu][%d]", r, (int)c);
+      if (status) return hk_fail_within(status, "[%zu][%d]", r, (int)c);
     }
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_scene_read_particles(struct hooke_scene_reader *reader, const json_t *value, int32_t columns,
-                                   int64_t **particles, int64_t *count) {
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
+                                int64_t **particles, int64_t *count) {
   int32_t status;
   *particles = NULL;
   *count = 0;
   if (json_is_object(value)) {
     status = particles_from_file(reader, value, columns, particles, count);
   } else {
-    status = hooke_scene_require_array(value, NULL, columns ? "an array of pairs" : "an array of particles");
+    status = hk_scene_require_array(value, NULL, columns ? "an array of pairs" : "an array of particles");
     if (status) return status;
     *count = (int64_t)json_array_size(value) * (columns ? columns : 1);
-    *particles = hooke_new(*count, sizeof(int64_t));
+    *particles = hk_new(*count, sizeof(int64_t));
     status = *particles ? particles_from_array(reader, value, columns, *particles) : HOOKE_NO_MEMORY;
   }
   if (status) {
-    hooke_free(*particles);
+    hk_free(*particles);
     *particles = NULL;
   }
   return status;
 }
 
 #else
-typedef int hooke_scene_json_array_without_jansson;
+typedef int hk_scene_json_array_without_jansson;
 #endif

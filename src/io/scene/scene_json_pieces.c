@@ -17,23 +17,22 @@ enum { LIST_SIZE = 256 };
 static int32_t read_text(const json_t *object, const char *key, const char **text) {
   const json_t *value = json_object_get(object, key);
   if (value == NULL) return HOOKE_OK;
-  int32_t status = hooke_scene_require_text(value, key);
+  int32_t status = hk_scene_require_text(value, key);
   if (status == HOOKE_OK) *text = json_string_value(value);
   return status;
 }
 
 /* Calls `add` for every object of an array. */
-typedef int32_t add_one(struct hooke_scene_reader *reader, const json_t *object, int64_t index);
+typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, int64_t index);
 
-static int32_t for_each(struct hooke_scene_reader *reader, const json_t *array, const char *name,
-                        add_one *add) {
-  int32_t status = hooke_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
+static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name, add_one *add) {
+  int32_t status = hk_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
   if (status) return status;
   for (size_t k = 0; k < json_array_size(array); k++) {
     const json_t *object = json_array_get(array, k);
-    status = hooke_scene_require_object(object, NULL);
+    status = hk_scene_require_object(object, NULL);
     if (status == HOOKE_OK) status = add(reader, object, (int64_t)k);
-    if (status) return hooke_fail_within(status, "%s[%zu]", name, k);
+    if (status) return hk_fail_within(status, "%s[%zu]", name, k);
   }
   return HOOKE_OK;
 }
@@ -43,38 +42,38 @@ static int32_t for_each(struct hooke_scene_reader *reader, const json_t *array, 
 static int32_t pin(hooke_system *system, const hooke_options *options) {
   int64_t count = hooke_options_number_count(options, "pinned");
   const double *numbers = hooke_options_numbers(options, "pinned");
-  int64_t *particles = hooke_new(count, sizeof *particles);
+  int64_t *particles = hk_new(count, sizeof *particles);
   if (particles == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++)
     particles[k] = (int64_t)numbers[k];
   int32_t status = hooke_system_pin(system, count, particles);
-  hooke_free(particles);
+  hk_free(particles);
   return status;
 }
 
-static int32_t add_particles(struct hooke_scene_reader *reader, const json_t *particles,
+static int32_t add_particles(struct hk_scene_reader *reader, const json_t *particles,
                              hooke_options *options) {
-  int32_t status = hooke_scene_read_options(reader, particles, NULL, options);
+  int32_t status = hk_scene_read_options(reader, particles, NULL, options);
   if (status) return status;
   int64_t n = hooke_options_number_count(options, "position") / 3;
   const double *velocity = hooke_options_numbers(options, "velocity");
   int64_t velocities = hooke_options_number_count(options, "velocity") / 3;
   if (velocity && velocities != n)
-    return hooke_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
-                      (long long)velocities, (long long)n);
+    return hk_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
+                   (long long)velocities, (long long)n);
   status = hooke_system_add_particles(reader->scene->system, n, hooke_options_numbers(options, "position"),
                                       velocity, hooke_options_number_count(options, "mass"),
                                       hooke_options_numbers(options, "mass"), NULL);
   return status ? status : pin(reader->scene->system, options);
 }
 
-int32_t hooke_scene_add_particles(struct hooke_scene_reader *reader, const json_t *particles) {
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *particles) {
   hooke_options *options = NULL;
-  int32_t status = hooke_scene_require_object(particles, NULL);
+  int32_t status = hk_scene_require_object(particles, NULL);
   if (status == HOOKE_OK) status = hooke_scene_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
-  return status ? hooke_fail_within(status, "particles") : HOOKE_OK;
+  return status ? hk_fail_within(status, "particles") : HOOKE_OK;
 }
 
 /* ---- parts ---- */
@@ -87,101 +86,100 @@ static int32_t read_kind(const json_t *object, const char **kind) {
   }
   int32_t status = read_text(object, "kind", kind);
   if (status) return status;
-  if (*kind == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);
+  if (*kind == NULL) return hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);
   for (int64_t k = 0; k < hooke_part_kind_count(); k++)
     if (strcmp(hooke_part_kind(k), *kind) == 0) return HOOKE_OK;
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(*kind, (int64_t)strlen(*kind), shown);
-  return hooke_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
+  hk_option_show(*kind, (int64_t)strlen(*kind), shown);
+  return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
 }
 
 /* The names of all parts, before the first is built; an unnamed part is called by its kind and number. What is wrong with one
  * is said when it is built. */
-static int32_t note_names(struct hooke_scene_reader *reader, const json_t *parts) {
-  int32_t status = hooke_part_names_create((int64_t)json_array_size(parts), &reader->parts);
+static int32_t note_names(struct hk_scene_reader *reader, const json_t *parts) {
+  int32_t status = hk_part_names_create((int64_t)json_array_size(parts), &reader->parts);
   for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {
     const json_t *object = json_array_get(parts, (size_t)k);
     const char *name = json_string_value(json_object_get(object, "name"));
     const char *kind = json_string_value(json_object_get(object, "kind"));
     char made[LIST_SIZE];
     snprintf(made, sizeof made, "%s%lld", kind ? kind : "", (long long)k);
-    status = hooke_part_names_set(&reader->parts, k, name && name[0] ? name : made);
+    status = hk_part_names_set(&reader->parts, k, name && name[0] ? name : made);
   }
-  if (status == HOOKE_OK) hooke_part_names_sort(&reader->parts);
+  if (status == HOOKE_OK) hk_part_names_sort(&reader->parts);
   return status;
 }
 
-static int32_t check_name(const struct hooke_scene_reader *reader, int64_t index) {
+static int32_t check_name(const struct hk_scene_reader *reader, int64_t index) {
   const char *name = reader->parts.part[index].name;
-  const struct hooke_named_part *first = hooke_part_names_find(&reader->parts, name);
+  const struct hk_named_part *first = hk_part_names_find(&reader->parts, name);
   if (first->number == index) return HOOKE_OK;
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(name, (int64_t)strlen(name), shown);
-  return hooke_fail(HOOKE_BAD_VALUE, "name",
-                    "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
-                    (long long)first->number);
+  hk_option_show(name, (int64_t)strlen(name), shown);
+  return hk_fail(HOOKE_BAD_VALUE, "name",
+                 "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
+                 (long long)first->number);
 }
 
 /* The file of a mesh becomes its vertices and triangles, so that a system does not hang on files. */
-static int32_t read_file(const struct hooke_scene_reader *reader, hooke_options *options) {
+static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *options) {
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
-  int32_t status = hooke_mesh_check_alone(options);
+  int32_t status = hk_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = hooke_scene_reader_file(reader, file, &path);
-  if (status == HOOKE_OK) status = hooke_mesh_read_as(path, file, reader->scene->memory_limit, options);
-  hooke_free(path);
+  status = hk_scene_reader_file(reader, file, &path);
+  if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
+  hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
-  if (hooke_fail_place()[0]) return status;
+  if (hk_fail_place()[0]) return status;
   /* a file that a scene names and that cannot be used is the scene's fault */
-  return hooke_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
+  return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
 
-static int32_t add_part(struct hooke_scene_reader *reader, const json_t *object, int64_t index) {
+static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   const char *kind = NULL, *name = "";
   hooke_options *options = NULL;
   int32_t status = read_kind(object, &kind);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status == HOOKE_OK) status = check_name(reader, index);
   if (status == HOOKE_OK) status = hooke_part_options_create(kind, &options);
-  if (status == HOOKE_OK) status = hooke_scene_read_options(reader, object, "kind name", options);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, "kind name", options);
   if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
-    struct hooke_named_part *part = &reader->parts.part[index];
+    struct hk_named_part *part = &reader->parts.part[index];
     status = hooke_system_add_part(reader->scene->system, kind, name, options, &part->first, &part->count);
-    if (status) hooke_scene_place_number(status, json_object_get(object, "pinned"), "pinned");
+    if (status) hk_scene_place_number(status, json_object_get(object, "pinned"), "pinned");
   }
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hooke_scene_add_parts(struct hooke_scene_reader *reader, const json_t *parts) {
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) {
   const int32_t status = note_names(reader, parts);
   return status == HOOKE_OK ? for_each(reader, parts, "parts", add_part) : status;
 }
 
 /* ---- springs ---- */
 
-static int32_t add_group(struct hooke_scene_reader *reader, const json_t *object, hooke_options *options) {
+static int32_t add_group(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
   const char *name = "";
   int64_t *ends = NULL, count = 0;
-  int32_t status = hooke_scene_read_options(reader, object, "name between", options);
+  int32_t status = hk_scene_read_options(reader, object, "name between", options);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status) return status;
   const json_t *between = json_object_get(object, "between");
   if (between == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, "between",
-                      "is required but missing; allowed: an array of pairs of particles");
-  status = hooke_scene_read_particles(reader, between, 2, &ends, &count);
-  if (status) return hooke_fail_within(status, "between");
+    return hk_fail(HOOKE_BAD_VALUE, "between",
+                   "is required but missing; allowed: an array of pairs of particles");
+  status = hk_scene_read_particles(reader, between, 2, &ends, &count);
+  if (status) return hk_fail_within(status, "between");
   status = hooke_system_add_springs(reader->scene->system, name, count / 2, ends, options);
-  hooke_free(ends);
+  hk_free(ends);
   return status;
 }
 
-static int32_t add_springs(struct hooke_scene_reader *reader, const json_t *object, int64_t index) {
+static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
   hooke_options *options = NULL;
   int32_t status = hooke_spring_options_create(&options);
@@ -190,7 +188,7 @@ static int32_t add_springs(struct hooke_scene_reader *reader, const json_t *obje
   return status;
 }
 
-int32_t hooke_scene_add_springs(struct hooke_scene_reader *reader, const json_t *springs) {
+int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
   return for_each(reader, springs, "springs", add_springs);
 }
 
@@ -211,11 +209,11 @@ static int32_t check_drive(const hooke_options *options) {
     int32_t set = hooke_options_is_set(options, keys[k].key);
     int32_t belongs = strcmp(motion, keys[k].motion) == 0;
     if (set && !belongs)
-      return hooke_fail(HOOKE_BAD_VALUE, keys[k].key, "belongs to motion \"%s\"; allowed with \"%s\": %s",
-                        keys[k].motion, motion,
-                        strcmp(motion, "table") == 0 ? "time, position" : "amplitude, frequency, phase");
+      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "belongs to motion \"%s\"; allowed with \"%s\": %s",
+                     keys[k].motion, motion,
+                     strcmp(motion, "table") == 0 ? "time, position" : "amplitude, frequency, phase");
     if (!set && belongs && keys[k].required)
-      return hooke_fail(HOOKE_BAD_VALUE, keys[k].key, "is required with motion \"%s\" but missing", motion);
+      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "is required with motion \"%s\" but missing", motion);
   }
   return HOOKE_OK;
 }
@@ -230,29 +228,28 @@ static int32_t drive(hooke_system *system, const hooke_options *options, int64_t
   int64_t samples = hooke_options_number_count(options, "time");
   int64_t rows = hooke_options_number_count(options, "position") / 3;
   if (rows != samples)
-    return hooke_fail(HOOKE_BAD_VALUE, "position", "%lld rows given; allowed: %lld, one for each time",
-                      (long long)rows, (long long)samples);
+    return hk_fail(HOOKE_BAD_VALUE, "position", "%lld rows given; allowed: %lld, one for each time",
+                   (long long)rows, (long long)samples);
   return hooke_system_drive_table(system, count, particles, samples, hooke_options_numbers(options, "time"),
                                   hooke_options_numbers(options, "position"));
 }
 
-static int32_t read_drive(struct hooke_scene_reader *reader, const json_t *object, hooke_options *options) {
+static int32_t read_drive(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
   int64_t *particles = NULL, count = 0;
-  int32_t status = hooke_scene_read_options(reader, object, "particles", options);
+  int32_t status = hk_scene_read_options(reader, object, "particles", options);
   if (status == HOOKE_OK) status = check_drive(options);
   if (status) return status;
   const json_t *list = json_object_get(object, "particles");
   if (list == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, "particles",
-                      "is required but missing; allowed: an array of particles");
-  status = hooke_scene_read_particles(reader, list, 0, &particles, &count);
-  if (status) return hooke_fail_within(status, "particles");
+    return hk_fail(HOOKE_BAD_VALUE, "particles", "is required but missing; allowed: an array of particles");
+  status = hk_scene_read_particles(reader, list, 0, &particles, &count);
+  if (status) return hk_fail_within(status, "particles");
   status = drive(reader->scene->system, options, count, particles);
-  hooke_free(particles);
+  hk_free(particles);
   return status;
 }
 
-static int32_t add_driven(struct hooke_scene_reader *reader, const json_t *object, int64_t index) {
+static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
   hooke_options *options = NULL;
   int32_t status = hooke_scene_options_create("driven", &options);
@@ -261,10 +258,10 @@ static int32_t add_driven(struct hooke_scene_reader *reader, const json_t *objec
   return status;
 }
 
-int32_t hooke_scene_add_driven(struct hooke_scene_reader *reader, const json_t *driven) {
+int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const json_t *driven) {
   return for_each(reader, driven, "driven", add_driven);
 }
 
 #else
-typedef int hooke_scene_json_pieces_without_jansson;
+typedef int hk_scene_json_pieces_without_jansson;
 #endif

@@ -26,14 +26,14 @@ static void describe(const json_t *value, char *text) {
     snprintf(text, TEXT_SIZE, "an array of %zu", json_array_size(value));
     break;
   case JSON_STRING:
-    hooke_option_show(json_string_value(value), (int64_t)json_string_length(value), shown);
+    hk_option_show(json_string_value(value), (int64_t)json_string_length(value), shown);
     snprintf(text, TEXT_SIZE, "\"%s\"", shown);
     break;
   case JSON_INTEGER:
     snprintf(text, TEXT_SIZE, "%lld", (long long)json_integer_value(value));
     break;
   case JSON_REAL:
-    hooke_number_print(json_real_value(value), shown);
+    hk_number_print(json_real_value(value), shown);
     /* 3.0 is not 3 where a whole number is asked for */
     snprintf(text, TEXT_SIZE, "%s%s", shown, strpbrk(shown, ".e") ? "" : ".0");
     break;
@@ -49,30 +49,30 @@ static void describe(const json_t *value, char *text) {
   }
 }
 
-int32_t hooke_scene_refuse(const json_t *value, const char *place, const char *allowed) {
+int32_t hk_scene_refuse(const json_t *value, const char *place, const char *allowed) {
   char given[TEXT_SIZE];
   describe(value, given);
-  return hooke_fail(HOOKE_BAD_VALUE, place, "%s is not allowed; allowed: %s", given, allowed);
+  return hk_fail(HOOKE_BAD_VALUE, place, "%s is not allowed; allowed: %s", given, allowed);
 }
 
-static int32_t refuse_for_row(const json_t *value, const char *place, const struct hooke_option_row *row) {
+static int32_t refuse_for_row(const json_t *value, const char *place, const struct hk_option_row *row) {
   char allowed[TEXT_SIZE], with_unit[TEXT_SIZE + NAME_SIZE];
-  hooke_option_describe(row, allowed, sizeof allowed);
+  hk_option_describe(row, allowed, sizeof allowed);
   const char *unit = row->unit ? row->unit : "";
   snprintf(with_unit, sizeof with_unit, "%s%s%s%s", allowed, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-  return hooke_scene_refuse(value, place, with_unit);
+  return hk_scene_refuse(value, place, with_unit);
 }
 
-int32_t hooke_scene_require_object(const json_t *value, const char *place) {
-  return json_is_object(value) ? HOOKE_OK : hooke_scene_refuse(value, place, "an object { ... }");
+int32_t hk_scene_require_object(const json_t *value, const char *place) {
+  return json_is_object(value) ? HOOKE_OK : hk_scene_refuse(value, place, "an object { ... }");
 }
 
-int32_t hooke_scene_require_array(const json_t *value, const char *place, const char *allowed) {
-  return json_is_array(value) ? HOOKE_OK : hooke_scene_refuse(value, place, allowed);
+int32_t hk_scene_require_array(const json_t *value, const char *place, const char *allowed) {
+  return json_is_array(value) ? HOOKE_OK : hk_scene_refuse(value, place, allowed);
 }
 
-int32_t hooke_scene_require_text(const json_t *value, const char *place) {
-  return json_is_string(value) ? HOOKE_OK : hooke_scene_refuse(value, place, "a text");
+int32_t hk_scene_require_text(const json_t *value, const char *place) {
+  return json_is_string(value) ? HOOKE_OK : hk_scene_refuse(value, place, "a text");
 }
 
 /* A key that can be written in a place as it is. */
@@ -82,21 +82,21 @@ static int is_plain(const char *key) {
          strspn(key, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == length;
 }
 
-static int32_t unknown_key(struct hooke_scene_reader *reader, const struct hooke_option_table *table,
+static int32_t unknown_key(struct hk_scene_reader *reader, const struct hk_option_table *table,
                            const char *others, const char *key) {
   reader->at_key = is_plain(key);
-  return hooke_option_unknown(table, others, is_plain(key) ? key : NULL, "key", key);
+  return hk_option_unknown(table, others, is_plain(key) ? key : NULL, "key", key);
 }
 
 /* ---- one value ---- */
 
-static int is_word_of(const json_t *value, const struct hooke_option_row *row) {
+static int is_word_of(const json_t *value, const struct hk_option_row *row) {
   return json_is_string(value) &&
-         hooke_option_has_word(row->words, json_string_value(value), (int64_t)json_string_length(value));
+         hk_option_has_word(row->words, json_string_value(value), (int64_t)json_string_length(value));
 }
 
-int32_t hooke_scene_place_number(int32_t status, const json_t *array, const char *name) {
-  const char *place = hooke_fail_place();
+int32_t hk_scene_place_number(int32_t status, const json_t *array, const char *name) {
+  const char *place = hk_fail_place();
   size_t length = strlen(name);
   if (status != HOOKE_BAD_VALUE || !json_is_array(array) || strncmp(place, name, length) != 0) return status;
   if (place[length] != '[' && place[length] != '\0') return status;
@@ -105,54 +105,53 @@ int32_t hooke_scene_place_number(int32_t status, const json_t *array, const char
     if (json_is_string(json_array_get(array, k)) || number-- > 0) continue;
     char found[NAME_SIZE];
     snprintf(found, sizeof found, "%s[%zu]", name, k);
-    return hooke_fail(status, found, "%s", hooke_fail_message());
+    return hk_fail(status, found, "%s", hk_fail_message());
   }
   return status;
 }
 
-static int32_t set_numbers(struct hooke_scene_reader *reader, const json_t *value,
-                           const struct hooke_option_row *row, const char *name, hooke_options *options) {
+static int32_t set_numbers(struct hk_scene_reader *reader, const json_t *value,
+                           const struct hk_option_row *row, const char *name, hooke_options *options) {
   double *numbers = NULL;
   int64_t count = 0;
-  int32_t status = hooke_scene_read_numbers(reader, value, row, &numbers, &count);
-  if (status) return hooke_fail_within(status, "%s", name);
+  int32_t status = hk_scene_read_numbers(reader, value, row, &numbers, &count);
+  if (status) return hk_fail_within(status, "%s", name);
   status = hooke_options_set_numbers(options, name, count, numbers);
-  hooke_free(numbers);
+  hk_free(numbers);
   /* one number in brackets is still an element */
   int element = json_is_array(value) && count == 1 && row->min_count <= 1;
-  return element ? hooke_scene_place_number(status, value, name) : status;
+  return element ? hk_scene_place_number(status, value, name) : status;
 }
 
 /* Words and numbers mixed: the numbers first, then the words one by one. */
-static int32_t set_mixed(struct hooke_scene_reader *reader, const json_t *value,
-                         const struct hooke_option_row *row, const char *name, hooke_options *options) {
+static int32_t set_mixed(struct hk_scene_reader *reader, const json_t *value, const struct hk_option_row *row,
+                         const char *name, hooke_options *options) {
   json_t *only_numbers = json_array();
-  if (only_numbers == NULL) return hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", name);
+  if (only_numbers == NULL) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", name);
   int32_t status = HOOKE_OK;
   for (size_t k = 0; status == HOOKE_OK && k < json_array_size(value); k++) {
     json_t *item = json_array_get(value, k);
     if (is_word_of(item, row)) continue;
     if (!json_is_integer(item)) {
       refuse_for_row(item, NULL, row);
-      status = hooke_fail_within(HOOKE_BAD_VALUE, "%s[%zu]", name, k);
+      status = hk_fail_within(HOOKE_BAD_VALUE, "%s[%zu]", name, k);
     } else if (json_array_append(only_numbers, item)) {
-      status = hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", name);
+      status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for %s", name);
     }
   }
   if (status == HOOKE_OK) {
     status = set_numbers(reader, only_numbers, row, name, options);
-    if (status) hooke_scene_place_number(status, value, name);
+    if (status) hk_scene_place_number(status, value, name);
   }
   json_decref(only_numbers);
   for (size_t k = 0; status == HOOKE_OK && k < json_array_size(value); k++)
     if (is_word_of(json_array_get(value, k), row))
-      status = hooke_options_add_word(options, name, json_string_value(json_array_get(value, k)));
+      status = hk_options_add_word(options, name, json_string_value(json_array_get(value, k)));
   return status;
 }
 
-static int32_t read_numbers_row(struct hooke_scene_reader *reader, const json_t *value,
-                                const struct hooke_option_row *row, const char *name,
-                                hooke_options *options) {
+static int32_t read_numbers_row(struct hk_scene_reader *reader, const json_t *value,
+                                const struct hk_option_row *row, const char *name, hooke_options *options) {
   if (is_word_of(value, row)) return hooke_options_set_text(options, name, json_string_value(value));
   if (row->word_lists && json_is_array(value)) return set_mixed(reader, value, row, name, options);
   int may_be_one = json_is_number(value) && row->columns <= 1 && row->min_count == 1;
@@ -161,12 +160,12 @@ static int32_t read_numbers_row(struct hooke_scene_reader *reader, const json_t 
   return refuse_for_row(value, name, row);
 }
 
-static int32_t read_object(struct hooke_scene_reader *reader, const json_t *object,
-                           const struct hooke_option_table *table, const char *prefix, const char *others,
+static int32_t read_object(struct hk_scene_reader *reader, const json_t *object,
+                           const struct hk_option_table *table, const char *prefix, const char *others,
                            hooke_options *options);
 
-static int32_t read_family(struct hooke_scene_reader *reader, const json_t *value,
-                           const struct hooke_option_row *row, const char *name, hooke_options *options) {
+static int32_t read_family(struct hk_scene_reader *reader, const json_t *value,
+                           const struct hk_option_row *row, const char *name, hooke_options *options) {
   if (!json_is_object(value)) return refuse_for_row(value, name, row);
   char prefix[NAME_SIZE + 2];
   snprintf(prefix, sizeof prefix, "%s.", name);
@@ -174,8 +173,8 @@ static int32_t read_family(struct hooke_scene_reader *reader, const json_t *valu
   return status ? status : read_object(reader, value, row->family, prefix, NULL, options);
 }
 
-static int32_t read_row(struct hooke_scene_reader *reader, const json_t *value,
-                        const struct hooke_option_row *row, const char *name, hooke_options *options) {
+static int32_t read_row(struct hk_scene_reader *reader, const json_t *value, const struct hk_option_row *row,
+                        const char *name, hooke_options *options) {
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
     if (row->whole ? !json_is_integer(value) : !json_is_number(value)) break;
@@ -197,17 +196,17 @@ static int32_t read_row(struct hooke_scene_reader *reader, const json_t *value,
 
 /* ---- all of an object ---- */
 
-static int32_t read_object(struct hooke_scene_reader *reader, const json_t *object,
-                           const struct hooke_option_table *table, const char *prefix, const char *others,
+static int32_t read_object(struct hk_scene_reader *reader, const json_t *object,
+                           const struct hk_option_table *table, const char *prefix, const char *others,
                            hooke_options *options) {
   const char *key;
   json_t *value;
   json_object_foreach((json_t *)object, key, value) {
-    if (hooke_option_has_word(others, key, (int64_t)strlen(key))) continue;
-    const struct hooke_option_row *row = strchr(key, '.') ? NULL : hooke_options_find(table, key);
+    if (hk_option_has_word(others, key, (int64_t)strlen(key))) continue;
+    const struct hk_option_row *row = strchr(key, '.') ? NULL : hk_options_find(table, key);
     if (row == NULL) {
       int32_t status = unknown_key(reader, table, others, key);
-      return prefix[0] ? hooke_fail_within(status, "%.*s", (int)strlen(prefix) - 1, prefix) : status;
+      return prefix[0] ? hk_fail_within(status, "%.*s", (int)strlen(prefix) - 1, prefix) : status;
     }
     char name[NAME_SIZE];
     snprintf(name, sizeof name, "%s%s", prefix, row->name);
@@ -217,17 +216,17 @@ static int32_t read_object(struct hooke_scene_reader *reader, const json_t *obje
   return HOOKE_OK;
 }
 
-int32_t hooke_scene_read_some_options(struct hooke_scene_reader *reader, const json_t *object,
-                                      const char *others, hooke_options *options) {
-  return read_object(reader, object, hooke_options_table(options), "", others, options);
+int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const json_t *object, const char *others,
+                                   hooke_options *options) {
+  return read_object(reader, object, hk_options_table(options), "", others, options);
 }
 
-int32_t hooke_scene_read_options(struct hooke_scene_reader *reader, const json_t *object, const char *others,
-                                 hooke_options *options) {
-  int32_t status = hooke_scene_read_some_options(reader, object, others, options);
-  return status ? status : hooke_options_check_required(options);
+int32_t hk_scene_read_options(struct hk_scene_reader *reader, const json_t *object, const char *others,
+                              hooke_options *options) {
+  int32_t status = hk_scene_read_some_options(reader, object, others, options);
+  return status ? status : hk_options_check_required(options);
 }
 
 #else
-typedef int hooke_scene_json_values_without_jansson;
+typedef int hk_scene_json_values_without_jansson;
 #endif

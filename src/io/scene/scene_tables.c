@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static const struct hooke_option_row scene_rows[] = {
+static const struct hk_option_row scene_rows[] = {
     {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
     {.name = "gravity",
      .type = HOOKE_OPTION_NUMBERS,
@@ -20,9 +20,9 @@ static const struct hooke_option_row scene_rows[] = {
      .doc = "ether drag f = -c v on every free particle"},
 };
 
-static const struct hooke_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
+static const struct hk_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
 
-static const struct hooke_option_row particle_rows[] = {
+static const struct hk_option_row particle_rows[] = {
     {.name = "position",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "m",
@@ -51,9 +51,9 @@ static const struct hooke_option_row particle_rows[] = {
      .doc = "numbers of particles that are held still"},
 };
 
-static const struct hooke_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};
+static const struct hk_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};
 
-static const struct hooke_option_row drive_rows[] = {
+static const struct hk_option_row drive_rows[] = {
     {.name = "motion",
      .type = HOOKE_OPTION_CHOICE,
      .words = "harmonic table",
@@ -84,9 +84,9 @@ static const struct hooke_option_row drive_rows[] = {
      .doc = "table: displacement at each time"},
 };
 
-static const struct hooke_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
+static const struct hk_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
 
-static const struct hooke_option_row limit_rows[] = {
+static const struct hk_option_row limit_rows[] = {
     {.name = "memory",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "GB",
@@ -100,22 +100,22 @@ static const struct hooke_option_row limit_rows[] = {
      .doc = "the scene may name files anywhere, and not in its folder alone"},
 };
 
-static const struct hooke_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
+static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
 
 int32_t hooke_scene_options_create(const char *what, hooke_options **options) {
-  static const struct hooke_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
-                                                            &limit_table};
+  static const struct hk_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
+                                                         &limit_table};
   *options = NULL;
   for (size_t k = 0; what && k < sizeof tables / sizeof tables[0]; k++)
-    if (strcmp(tables[k]->name, what) == 0) return hooke_options_create(tables[k], options);
-  return hooke_fail(HOOKE_BAD_VALUE, "what",
-                    "there is no table called \"%s\"; allowed: scene, particles, driven, limits",
-                    what ? what : "");
+    if (strcmp(tables[k]->name, what) == 0) return hk_options_create(tables[k], options);
+  return hk_fail(HOOKE_BAD_VALUE, "what",
+                 "there is no table called \"%s\"; allowed: scene, particles, driven, limits",
+                 what ? what : "");
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
-  if (options == NULL || hooke_options_table(options) != &scene_table) {
-    return hooke_fail(
+  if (options == NULL || hk_options_table(options) != &scene_table) {
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of a scene; make them with hooke_scene_options_create(\"scene\", ...)");
   }

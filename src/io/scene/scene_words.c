@@ -3,64 +3,64 @@
 #include <stdio.h>
 #include <string.h>
 
-void hooke_scene_add_numbers(struct hooke_text *text, const char *key, int64_t count, int32_t columns,
-                             const double *value) {
+void hk_scene_add_numbers(struct hk_text *text, const char *key, int64_t count, int32_t columns,
+                          const double *value) {
   const int64_t width = columns > 0 ? columns : count;
-  hooke_text_open(text, key, '[');
+  hk_text_open(text, key, '[');
   for (int64_t first = 0; first < count; first += width) {
-    if (columns > 0) hooke_text_open(text, NULL, '[');
+    if (columns > 0) hk_text_open(text, NULL, '[');
     for (int64_t k = first; k < first + width; k++)
-      hooke_text_number(text, NULL, value[k]);
-    if (columns > 0) hooke_text_close(text, ']');
+      hk_text_number(text, NULL, value[k]);
+    if (columns > 0) hk_text_close(text, ']');
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
 /* Words that may stand among numbers, one or an array of them. */
-static void add_list(struct hooke_text *text, const struct hooke_option_row *row, const char *words,
-                     int64_t count, const double *number) {
+static void add_list(struct hk_text *text, const struct hk_option_row *row, const char *words, int64_t count,
+                     const double *number) {
   const int32_t single = strchr(words, ' ') == NULL;
   if (count == 0 && single) {
-    hooke_text_word(text, row->name, words);
+    hk_text_word(text, row->name, words);
     return;
   }
-  hooke_text_open(text, row->name, '[');
+  hk_text_open(text, row->name, '[');
   while (*(words += strspn(words, " "))) {
     char word[32];
     const size_t length = strcspn(words, " ");
     snprintf(word, sizeof word, "%.*s", (int)length, words);
-    hooke_text_word(text, NULL, word);
+    hk_text_word(text, NULL, word);
     words += length;
   }
   for (int64_t k = 0; k < count; k++)
-    hooke_text_number(text, NULL, number[k]);
-  hooke_text_close(text, ']');
+    hk_text_number(text, NULL, number[k]);
+  hk_text_close(text, ']');
 }
 
-static void add_value(struct hooke_text *text, const hooke_options *options, const char *name,
-                      const struct hooke_option_row *row) {
+static void add_value(struct hk_text *text, const hooke_options *options, const char *name,
+                      const struct hk_option_row *row) {
   const int64_t count = hooke_options_number_count(options, name);
   const double *number = hooke_options_numbers(options, name);
   const char *words = hooke_options_text(options, name);
   if (row->type == HOOKE_OPTION_FLAG) {
-    hooke_text_flag(text, row->name, number[0] != 0.0);
+    hk_text_flag(text, row->name, number[0] != 0.0);
   } else if (row->type == HOOKE_OPTION_NUMBER) {
-    hooke_text_number(text, row->name, number[0]);
+    hk_text_number(text, row->name, number[0]);
   } else if (row->type != HOOKE_OPTION_NUMBERS) {
-    hooke_text_word(text, row->name, words);
+    hk_text_word(text, row->name, words);
   } else if (words[0]) {
     add_list(text, row, words, count, number);
   } else if (count == 1 && row->min_count == 1 && row->max_count != 1) {
-    hooke_text_number(text, row->name, number[0]);
+    hk_text_number(text, row->name, number[0]);
   } else {
-    hooke_scene_add_numbers(text, row->name, count, row->columns, number);
+    hk_scene_add_numbers(text, row->name, count, row->columns, number);
   }
 }
 
-static void add_table(struct hooke_text *text, const hooke_options *options,
-                      const struct hooke_option_table *table, const char *prefix, const char *left_out) {
+static void add_table(struct hk_text *text, const hooke_options *options, const struct hk_option_table *table,
+                      const char *prefix, const char *left_out) {
   for (int32_t k = 0; k < table->row_count; k++) {
-    const struct hooke_option_row *row = &table->rows[k];
+    const struct hk_option_row *row = &table->rows[k];
     char name[128];
     snprintf(name, sizeof name, "%s%s", prefix, row->name);
     if (!hooke_options_is_set(options, name) || (left_out && strcmp(name, left_out) == 0)) continue;
@@ -68,13 +68,13 @@ static void add_table(struct hooke_text *text, const hooke_options *options,
       add_value(text, options, name, row);
       continue;
     }
-    hooke_text_open(text, row->name, '{');
+    hk_text_open(text, row->name, '{');
     snprintf(name, sizeof name, "%s%s.", prefix, row->name);
     add_table(text, options, row->family, name, left_out);
-    hooke_text_close(text, '}');
+    hk_text_close(text, '}');
   }
 }
 
-void hooke_scene_add_options(struct hooke_text *text, const hooke_options *options, const char *left_out) {
-  add_table(text, options, hooke_options_table(options), "", left_out);
+void hk_scene_add_options(struct hk_text *text, const hooke_options *options, const char *left_out) {
+  add_table(text, options, hk_options_table(options), "", left_out);
 }

@@ -6,10 +6,10 @@
 #include "io/file/text.h"
 
 /* An array of numbers, in rows of `columns` (0: flat). */
-void hooke_scene_add_numbers(struct hooke_text *text, const char *key, int64_t count, int32_t columns,
-                             const double *value);
+void hk_scene_add_numbers(struct hk_text *text, const char *key, int64_t count, int32_t columns,
+                          const double *value);
 
 /* Every option that is set, under its key, but for `left_out` (may be NULL). */
-void hooke_scene_add_options(struct hooke_text *text, const hooke_options *options, const char *left_out);
+void hk_scene_add_options(struct hk_text *text, const hooke_options *options, const char *left_out);
 
 #endif

@@ -20,13 +20,13 @@ struct numbering {
 };
 
 static void release(struct numbering *numbering) {
-  hooke_free(numbering->number);
-  hooke_free(numbering->in_part);
+  hk_free(numbering->number);
+  hk_free(numbering->in_part);
 }
 
 static int32_t find_numbers(const hooke_system *system, struct numbering *numbering) {
-  numbering->number = hooke_new(system->particle_count, sizeof *numbering->number);
-  numbering->in_part = hooke_new(system->particle_count, 1);
+  numbering->number = hk_new(system->particle_count, sizeof *numbering->number);
+  numbering->in_part = hk_new(system->particle_count, 1);
   if (!numbering->number || !numbering->in_part) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < system->part_count; k++)
     memset(numbering->in_part + system->part[k].first, 1, (size_t)system->part[k].count);
@@ -43,17 +43,16 @@ static int32_t find_numbers(const hooke_system *system, struct numbering *number
 
 /* ---- particles ---- */
 
-static void add_rows(struct hooke_text *text, const char *key, const hooke_system *system,
+static void add_rows(struct hk_text *text, const char *key, const hooke_system *system,
                      const struct numbering *numbering, const double *value) {
-  hooke_text_open(text, key, '[');
+  hk_text_open(text, key, '[');
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) hooke_scene_add_numbers(text, NULL, 3, 0, value + 3 * p);
+    if (!numbering->in_part[p]) hk_scene_add_numbers(text, NULL, 3, 0, value + 3 * p);
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
-static void add_masses(struct hooke_text *text, const hooke_system *system,
-                       const struct numbering *numbering) {
+static void add_masses(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
   int64_t first = 0;
   int32_t same = 1;
   while (numbering->in_part[first])
@@ -61,17 +60,17 @@ static void add_masses(struct hooke_text *text, const hooke_system *system,
   for (int64_t p = first; p < system->particle_count; p++)
     same &= numbering->in_part[p] || memcmp(&system->mass[p], &system->mass[first], sizeof(double)) == 0;
   if (same) {
-    hooke_text_number(text, "mass", system->mass[first]);
+    hk_text_number(text, "mass", system->mass[first]);
     return;
   }
-  hooke_text_open(text, "mass", '[');
+  hk_text_open(text, "mass", '[');
   for (int64_t p = first; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) hooke_text_number(text, NULL, system->mass[p]);
+    if (!numbering->in_part[p]) hk_text_number(text, NULL, system->mass[p]);
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
-static void add_particles(struct hooke_text *text, const hooke_system *system,
+static void add_particles(struct hk_text *text, const hooke_system *system,
                           const struct numbering *numbering) {
   int64_t moving = 0, pinned = 0;
   for (int64_t p = 0; p < system->particle_count; p++) {
@@ -80,119 +79,117 @@ static void add_particles(struct hooke_text *text, const hooke_system *system,
       moving += system->velocity[3 * p + a] != 0.0 || signbit(system->velocity[3 * p + a]);
     pinned += system->held[p] == HOOKE_HELD_PINNED;
   }
-  hooke_text_open(text, "particles", '{');
+  hk_text_open(text, "particles", '{');
   add_rows(text, "position", system, numbering, system->position);
   if (moving) add_rows(text, "velocity", system, numbering, system->velocity);
   add_masses(text, system, numbering);
-  if (pinned) hooke_text_open(text, "pinned", '[');
+  if (pinned) hk_text_open(text, "pinned", '[');
   for (int64_t p = 0; p < system->particle_count && pinned; p++) {
     if (!numbering->in_part[p] && system->held[p] == HOOKE_HELD_PINNED)
-      hooke_text_number(text, NULL, (double)numbering->number[p]);
+      hk_text_number(text, NULL, (double)numbering->number[p]);
   }
-  if (pinned) hooke_text_close(text, ']');
-  hooke_text_close(text, '}');
+  if (pinned) hk_text_close(text, ']');
+  hk_text_close(text, '}');
 }
 
 /* ---- parts ---- */
 
 /* Pins beyond those of its options are listed with them, by number. */
-static void add_pins(struct hooke_text *text, const hooke_system *system,
-                     const struct hooke_part_record *part) {
-  hooke_text_open(text, "pinned", '[');
+static void add_pins(struct hk_text *text, const hooke_system *system, const struct hk_part_record *part) {
+  hk_text_open(text, "pinned", '[');
   for (int64_t p = 0; p < part->count; p++) {
-    if (system->held[part->first + p] == HOOKE_HELD_PINNED) hooke_text_number(text, NULL, (double)p);
+    if (system->held[part->first + p] == HOOKE_HELD_PINNED) hk_text_number(text, NULL, (double)p);
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
-static void add_parts(struct hooke_text *text, const hooke_system *system) {
-  hooke_text_open(text, "parts", '[');
+static void add_parts(struct hk_text *text, const hooke_system *system) {
+  hk_text_open(text, "parts", '[');
   for (int64_t k = 0; k < system->part_count; k++) {
-    const struct hooke_part_record *part = &system->part[k];
-    const int32_t as_given = hooke_part_record_pinned(system, part) == part->pinned;
-    hooke_text_open(text, NULL, '{');
-    hooke_text_word(text, "kind", part->kind);
-    hooke_text_word(text, "name", part->name);
-    hooke_scene_add_options(text, part->options, as_given ? NULL : "pinned");
+    const struct hk_part_record *part = &system->part[k];
+    const int32_t as_given = hk_part_record_pinned(system, part) == part->pinned;
+    hk_text_open(text, NULL, '{');
+    hk_text_word(text, "kind", part->kind);
+    hk_text_word(text, "name", part->name);
+    hk_scene_add_options(text, part->options, as_given ? NULL : "pinned");
     if (!as_given) add_pins(text, system, part);
-    hooke_text_close(text, '}');
+    hk_text_close(text, '}');
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
 /* ---- springs ---- */
 
 enum material { KAPPA, GAMMA, REST_LENGTH };
 
-static double material_of(const struct hooke_spring *spring, enum material what) {
+static double material_of(const struct hk_spring *spring, enum material what) {
   return what == KAPPA ? spring->kappa : what == GAMMA ? spring->gamma : spring->rest_length;
 }
 
 /* One number where all springs of the group have the same. */
-static void add_material(struct hooke_text *text, const char *key, const struct hooke_springs *springs,
+static void add_material(struct hk_text *text, const char *key, const struct hk_springs *springs,
                          int64_t first, int64_t count, enum material what) {
   double one = NAN;
   for (int32_t pass = 0; pass < 2; pass++) {
     int32_t same = 1;
-    if (pass == 1) hooke_text_open(text, key, '[');
+    if (pass == 1) hk_text_open(text, key, '[');
     for (int64_t r = 0; r < springs->run_count; r++) {
-      const struct hooke_run *run = &springs->run[r];
+      const struct hk_run *run = &springs->run[r];
       if (run->first < first || run->first >= first + count) continue;
       for (int64_t k = 0; k < run->count; k++) {
-        const struct hooke_spring spring = hooke_run_spring(run, k);
+        const struct hk_spring spring = hk_run_spring(run, k);
         const double value = material_of(&spring, what);
         if (run->first == first && k == 0) one = value;
         same &= memcmp(&value, &one, sizeof value) == 0;
-        if (pass == 1) hooke_text_number(text, NULL, value);
+        if (pass == 1) hk_text_number(text, NULL, value);
       }
     }
     if (pass == 0 && same) {
-      hooke_text_number(text, key, one);
+      hk_text_number(text, key, one);
       return;
     }
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
-static void add_pairs(struct hooke_text *text, const struct hooke_springs *springs,
+static void add_pairs(struct hk_text *text, const struct hk_springs *springs,
                       const struct numbering *numbering, int64_t first, int64_t count, int32_t *pull_only) {
-  hooke_text_open(text, "between", '[');
+  hk_text_open(text, "between", '[');
   for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
+    const struct hk_run *run = &springs->run[r];
     if (run->first < first || run->first >= first + count) continue;
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       const double pair[2] = {(double)numbering->number[spring.head], (double)numbering->number[spring.tail]};
-      hooke_scene_add_numbers(text, NULL, 2, 0, pair);
+      hk_scene_add_numbers(text, NULL, 2, 0, pair);
       *pull_only = spring.pull_only;
     }
   }
-  hooke_text_close(text, ']');
+  hk_text_close(text, ']');
 }
 
-static void add_springs(struct hooke_text *text, const hooke_system *system,
-                        const struct numbering *numbering) {
-  const struct hooke_springs *springs = &system->springs;
+static void add_springs(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  const struct hk_springs *springs = &system->springs;
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
-    const struct hooke_group *group = &system->group[g];
+    const struct hk_group *group = &system->group[g];
     int32_t pull_only = 0;
     if (group->from_part) continue;
-    hooke_text_open(text, NULL, '{');
-    if (group->name[0]) hooke_text_word(text, "name", group->name);
+    hk_text_open(text, NULL, '{');
+    if (group->name[0]) hk_text_word(text, "name", group->name);
     add_pairs(text, springs, numbering, first, group->count, &pull_only);
     if (group->count == 0) { /* what it had was dropped */
-      hooke_text_number(text, "stiffness", 0.0);
+      hk_text_number(text, "stiffness", 0.0);
     } else if (group->options) {
-      hooke_scene_add_options(text, group->options, NULL);
+      hk_scene_add_options(text, group->options, NULL);
     } else {
-      hooke_text_word(text, "law", "length");
+      hk_text_word(text, "law", "length");
       add_material(text, "stiffness", springs, first, group->count, KAPPA);
       add_material(text, "damping", springs, first, group->count, GAMMA);
       add_material(text, "rest_length", springs, first, group->count, REST_LENGTH);
-      if (pull_only) hooke_text_flag(text, "compression", 0);
+      if (pull_only) hk_text_flag(text, "compression", 0);
     }
-    hooke_text_close(text, '}');
+    hk_text_close(text, '}');
   }
 }
 
@@ -205,23 +202,23 @@ static int32_t has_groups(const hooke_system *system) {
 
 /* ---- drives ---- */
 
-static void add_drive(struct hooke_text *text, const struct hooke_drive_group *drive,
+static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
                       const struct numbering *numbering) {
-  hooke_text_open(text, NULL, '{');
-  hooke_text_open(text, "particles", '[');
+  hk_text_open(text, NULL, '{');
+  hk_text_open(text, "particles", '[');
   for (int64_t k = 0; k < drive->count; k++)
-    hooke_text_number(text, NULL, (double)numbering->number[drive->particle[k]]);
-  hooke_text_close(text, ']');
-  hooke_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
+    hk_text_number(text, NULL, (double)numbering->number[drive->particle[k]]);
+  hk_text_close(text, ']');
+  hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
   if (drive->kind == HOOKE_DRIVE_TABLE) {
-    hooke_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
-    hooke_scene_add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
+    hk_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
+    hk_scene_add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
   } else {
-    hooke_scene_add_numbers(text, "amplitude", 3, 0, drive->amplitude);
-    hooke_text_number(text, "frequency", drive->frequency);
-    hooke_text_number(text, "phase", drive->phase);
+    hk_scene_add_numbers(text, "amplitude", 3, 0, drive->amplitude);
+    hk_text_number(text, "frequency", drive->frequency);
+    hk_text_number(text, "phase", drive->phase);
   }
-  hooke_text_close(text, '}');
+  hk_text_close(text, '}');
 }
 
 /* What a scene has no word for. */
@@ -229,103 +226,103 @@ static int32_t check_words(const hooke_system *system) {
   int32_t callbacks = system->force != NULL;
   for (int64_t g = 0; g < system->bending_group_count; g++) {
     if (system->bending_group[g].from_part || system->bending_group[g].count == 0) continue;
-    return hooke_fail(HOOKE_UNSUITED, NULL,
-                      "a scene file has bending in its parts alone, and this system has triples of its own");
+    return hk_fail(HOOKE_UNSUITED, NULL,
+                   "a scene file has bending in its parts alone, and this system has triples of its own");
   }
   for (int64_t g = 0; g < system->altitude_group_count; g++) {
     if (system->altitude_group[g].from_part || system->altitude_group[g].count == 0) continue;
-    return hooke_fail(
+    return hk_fail(
         HOOKE_UNSUITED, NULL,
         "a scene file has altitude springs in its parts alone, and this system has tetrahedra of its own");
   }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
   if (!callbacks) return HOOKE_OK;
-  return hooke_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
+  return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
 }
 
 /* ---- the scene ---- */
 
-static void add_scene(struct hooke_text *text, const hooke_system *system, const char *title,
+static void add_scene(struct hk_text *text, const hooke_system *system, const char *title,
                       const hooke_options *run, const struct numbering *numbering) {
-  hooke_text_open(text, NULL, '{');
-  hooke_text_number(text, "hooke", 1.0);
-  if (title && title[0]) hooke_text_word(text, "title", title);
-  if (system->has_gravity) hooke_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
-  if (system->drag != 0.0) hooke_text_number(text, "drag", system->drag);
+  hk_text_open(text, NULL, '{');
+  hk_text_number(text, "hooke", 1.0);
+  if (title && title[0]) hk_text_word(text, "title", title);
+  if (system->has_gravity) hk_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
+  if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
   if (numbering->alone > 0) add_particles(text, system, numbering);
   if (has_groups(system)) {
-    hooke_text_open(text, "springs", '[');
+    hk_text_open(text, "springs", '[');
     add_springs(text, system, numbering);
-    hooke_text_close(text, ']');
+    hk_text_close(text, ']');
   }
   if (system->part_count > 0) add_parts(text, system);
-  if (system->drive_count > 0) hooke_text_open(text, "driven", '[');
+  if (system->drive_count > 0) hk_text_open(text, "driven", '[');
   for (int64_t k = 0; k < system->drive_count; k++)
     add_drive(text, &system->drive[k], numbering);
-  if (system->drive_count > 0) hooke_text_close(text, ']');
+  if (system->drive_count > 0) hk_text_close(text, ']');
   if (run) {
-    hooke_text_open(text, "run", '{');
-    hooke_scene_add_options(text, run, NULL);
-    hooke_text_close(text, '}');
+    hk_text_open(text, "run", '{');
+    hk_scene_add_options(text, run, NULL);
+    hk_text_close(text, '}');
   }
-  hooke_text_close(text, '}');
+  hk_text_close(text, '}');
 }
 
 static int32_t compose(const hooke_system *system, const char *title, const hooke_options *run,
-                       struct hooke_text *laid) {
-  struct hooke_text json = {.bytes = NULL};
+                       struct hk_text *laid) {
+  struct hk_text json = {.bytes = NULL};
   struct numbering numbering = {0};
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK) status = check_words(system);
   if (status == HOOKE_OK) status = find_numbers(system, &numbering);
   if (status == HOOKE_OK) {
     add_scene(&json, system, title, run, &numbering);
-    hooke_text_lay_out(&json, laid);
+    hk_text_lay_out(&json, laid);
     status = laid->status;
   }
   release(&numbering);
-  hooke_text_release(&json);
+  hk_text_release(&json);
   return status;
 }
 
 int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                           const hooke_options *run) {
-  struct hooke_text laid = {.bytes = NULL};
+  struct hk_text laid = {.bytes = NULL};
   int32_t status = compose(system, title, run, &laid);
-  if (status == HOOKE_OK) status = hooke_place_write(path, laid.bytes, laid.length);
-  hooke_text_release(&laid);
+  if (status == HOOKE_OK) status = hk_place_write(path, laid.bytes, laid.length);
+  hk_text_release(&laid);
   return status;
 }
 
 int32_t hooke_scene_of_system(const hooke_system *system, const char *title, const hooke_options *run,
                               const char *name, const char *folder, hooke_scene **scene) {
-  struct hooke_text laid = {.bytes = NULL};
+  struct hk_text laid = {.bytes = NULL};
   *scene = NULL;
   int32_t status = compose(system, title, run, &laid);
   if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, scene);
-  hooke_text_release(&laid);
+  hk_text_release(&laid);
   return status;
 }
 
-int32_t hooke_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
-                               char **whole) {
-  struct hooke_text laid = {.bytes = NULL};
+int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
+                            char **whole) {
+  struct hk_text laid = {.bytes = NULL};
   char *title = NULL;
   int32_t names = 0;
   *whole = NULL;
-  int32_t status = text ? hooke_scene_names_files(text, &names, &title) : HOOKE_OK;
+  int32_t status = text ? hk_scene_names_files(text, &names, &title) : HOOKE_OK;
   if (status == HOOKE_OK && names) {
     status = compose(system, title, run, &laid);
-    hooke_text_add(&laid, "", 1);
+    hk_text_add(&laid, "", 1);
     if (status == HOOKE_OK) status = laid.status;
   }
-  hooke_free(title);
+  hk_free(title);
   if (status == HOOKE_OK) {
     *whole = laid.bytes;
     return HOOKE_OK;
   }
-  hooke_text_release(&laid);
+  hk_text_release(&laid);
   return status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }

@@ -43,13 +43,13 @@ struct table {
 };
 
 struct hooke_comparison_file {
-  struct hooke_h5_file file;
+  struct hk_h5_file file;
   struct table at;
   int64_t status_at;
   hooke_comparison *comparison;
   int64_t row_count, frame_count;
-  struct hooke_recording *recording; /* the reference, then a row each */
-  char failure[512];                 /* of the write that made the file bad; "" while it is good */
+  struct hk_recording *recording; /* the reference, then a row each */
+  char failure[512];              /* of the write that made the file bad; "" while it is good */
 };
 
 /* ---- making ---- */
@@ -62,7 +62,7 @@ static const char *method_of(const hooke_comparison_file *file, int64_t row) {
 /* Where it begins; takes the dataset over. */
 static herr_t find(hid_t data, int64_t *at) {
   const haddr_t first = data < 0 ? HADDR_UNDEF : H5Dget_offset(data);
-  hooke_h5_drop(data);
+  hk_h5_drop(data);
   *at = (int64_t)first;
   return first == HADDR_UNDEF ? -1 : 0;
 }
@@ -70,7 +70,7 @@ static herr_t find(hid_t data, int64_t *at) {
 /* Numbers have the machine's order of bytes, since they are written as bytes. */
 static hid_t new_numbers(hid_t where, const char *name, int rank, const hsize_t *size) {
   const double none = NAN;
-  return hooke_h5_array(where, name, H5T_NATIVE_DOUBLE, rank, size, &none);
+  return hk_h5_array(where, name, H5T_NATIVE_DOUBLE, rank, size, &none);
 }
 
 static herr_t make_series(hooke_comparison_file *file, hid_t table) {
@@ -79,7 +79,7 @@ static herr_t make_series(hooke_comparison_file *file, hid_t table) {
   herr_t result = group < 0 ? -1 : find(new_numbers(group, "time", 1, &frames), &file->at.time);
   for (int k = 0; result >= 0 && k < 2; k++)
     result = find(new_numbers(group, series[k], 2, both), &file->at.series[k]);
-  hooke_h5_drop(group);
+  hk_h5_drop(group);
   return result;
 }
 
@@ -88,13 +88,13 @@ static herr_t make_table(hooke_comparison_file *file) {
   struct table *at = &file->at;
   hid_t table = H5Gcreate2(file->file.id, "comparison", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (table < 0) return -1;
-  herr_t result = find(hooke_h5_texts(table, "reference", -1, TEXT_LENGTH), &at->reference);
-  if (result >= 0) result = find(hooke_h5_texts(table, "method", file->row_count, TEXT_LENGTH), &at->method);
-  if (result >= 0) result = find(hooke_h5_texts(table, "status", file->row_count, TEXT_LENGTH), &at->status);
+  herr_t result = find(hk_h5_texts(table, "reference", -1, TEXT_LENGTH), &at->reference);
+  if (result >= 0) result = find(hk_h5_texts(table, "method", file->row_count, TEXT_LENGTH), &at->method);
+  if (result >= 0) result = find(hk_h5_texts(table, "status", file->row_count, TEXT_LENGTH), &at->status);
   for (int k = 0; result >= 0 && k < COLUMN_COUNT; k++)
     result = find(new_numbers(table, columns[k], 1, &rows), &at->column[k]);
   if (result >= 0) result = make_series(file, table);
-  hooke_h5_drop(table);
+  hk_h5_drop(table);
   return result;
 }
 
@@ -102,7 +102,7 @@ static herr_t make_recordings(hooke_comparison_file *file, const hooke_system *s
   herr_t result = 0;
   for (int64_t k = 0; result >= 0 && k <= file->row_count; k++) {
     const char *group = k == 0 ? "all" : method_of(file, k - 1);
-    result = hooke_recording_create(file->file.id, system, group, file->frame_count, &file->recording[k]);
+    result = hk_recording_create(file->file.id, system, group, file->frame_count, &file->recording[k]);
   }
   return result;
 }
@@ -111,41 +111,41 @@ static herr_t make_recordings(hooke_comparison_file *file, const hooke_system *s
 static int write_text(const hooke_comparison_file *file, int64_t at, int64_t k, const char *text) {
   char padded[TEXT_LENGTH] = {0};
   if (text) memcpy(padded, text, strnlen(text, TEXT_LENGTH));
-  return hooke_bytes_write(file->file.place.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
+  return hk_bytes_write(file->file.place.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
 }
 
-static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
+static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_system *system,
                     const char *scene_text, hooke_comparison_file *file) {
   const double runs = (double)(file->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
   const double table = runs * (256.0 + 16.0 * (double)file->frame_count);
-  const double bytes = text + table + runs * hooke_recording_bytes(system, file->frame_count);
-  int32_t status = hooke_h5_file_create_held(guard, path, bytes, 0, &file->file);
+  const double bytes = text + table + runs * hk_recording_bytes(system, file->frame_count);
+  int32_t status = hk_h5_file_create_held(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
-  herr_t result = hooke_h5md_describe(file->file.id, NULL, file->comparison->options, scene_text);
+  herr_t result = hk_h5md_describe(file->file.id, NULL, file->comparison->options, scene_text);
   if (result >= 0) result = make_recordings(file, system);
-  if (result >= 0) result = hooke_h5md_connect(file->file.id, system, "all");
+  if (result >= 0) result = hk_h5md_connect(file->file.id, system, "all");
   if (result >= 0) result = make_table(file);
-  if (result >= 0) result = hooke_h5md_find_status(file->file.id, &file->status_at);
-  if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");
-  status = hooke_h5_file_settle(guard, &file->file);
+  if (result >= 0) result = hk_h5md_find_status(file->file.id, &file->status_at);
+  if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
+  status = hk_h5_file_settle(guard, &file->file);
   for (int64_t k = 0; k <= file->row_count; k++)
     file->recording[k].file.descriptor = file->file.place.descriptor;
   int error = 0;
   for (int64_t k = 0; status == HOOKE_OK && error == 0 && k < file->row_count; k++)
     error = write_text(file, file->at.method, k, method_of(file, k));
-  if (error) return hooke_place_fail(path, "write the names of the methods", error);
-  return status == HOOKE_OK ? hooke_h5_file_publish(&file->file) : status;
+  if (error) return hk_place_fail(path, "write the names of the methods", error);
+  return status == HOOKE_OK ? hk_h5_file_publish(&file->file) : status;
 }
 
 static void release(hooke_comparison_file *file) {
-  hooke_h5_file_release(&file->file);
-  hooke_free(file->recording);
-  hooke_handle_free(file);
+  hk_h5_file_release(&file->file);
+  hk_free(file->recording);
+  hk_handle_free(file);
 }
 
 /* ---- frames ---- */
 
-static struct hooke_recording *find_run(hooke_comparison_file *file, const char *run) {
+static struct hk_recording *find_run(hooke_comparison_file *file, const char *run) {
   if (strcmp(run, "reference") == 0) return &file->recording[0];
   for (int64_t k = 1; k <= file->row_count; k++) {
     if (strcmp(file->recording[k].group, run) == 0) return &file->recording[k];
@@ -157,8 +157,8 @@ static struct hooke_recording *find_run(hooke_comparison_file *file, const char 
 static int32_t write_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                            void *ctx) {
   hooke_comparison_file *file = ctx;
-  struct hooke_recording *recording = find_run(file, run);
-  if (hooke_place_require_own(&file->file.place) != HOOKE_OK) return 1;
+  struct hk_recording *recording = find_run(file, run);
+  if (hk_place_require_own(&file->file.place) != HOOKE_OK) return 1;
   if (file->failure[0] || recording == NULL || recording->written == recording->frame_count) {
     if (file->failure[0] == '\0') {
       snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.place.path,
@@ -166,26 +166,26 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
     }
     return 1;
   }
-  const int error = hooke_recording_write(recording, step, state);
+  const int error = hk_recording_write(recording, step, state);
   if (error == 0) return 0;
   char what[96];
   snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
-  hooke_place_fail(file->file.place.path, what, error);
+  hk_place_fail(file->file.place.path, what, error);
   snprintf(file->failure, sizeof file->failure, "%s", hooke_last_error());
   return 1;
 }
 
 static int32_t create(const char *path, const hooke_system *system, hooke_comparison *comparison,
                       const char *scene_text, hooke_comparison_file **file) {
-  hooke_comparison_file *made = hooke_handle_new("hooke_comparison_file", sizeof *made);
+  hooke_comparison_file *made = hk_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->file = HOOKE_NO_H5_FILE;
   made->comparison = comparison;
   made->row_count = hooke_comparison_row_count(comparison);
   made->frame_count = hooke_comparison_frame_count(comparison);
-  made->recording = hooke_new(made->row_count + 1, sizeof *made->recording);
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
+  made->recording = hk_new(made->row_count + 1, sizeof *made->recording);
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
   const int32_t status = made->recording ? fill(&guard, path, system, scene_text, made) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
     hooke_comparison_on_frame(comparison, write_frame, made);
@@ -193,7 +193,7 @@ static int32_t create(const char *path, const hooke_system *system, hooke_compar
   } else {
     release(made);
   }
-  hooke_h5_guard_end(&guard);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
@@ -201,11 +201,11 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
                                      hooke_comparison *comparison, const char *scene_text,
                                      hooke_comparison_file **file) {
   *file = NULL;
-  int32_t status = hooke_comparison_prepare(comparison);
+  int32_t status = hk_comparison_prepare(comparison);
   char *whole = NULL;
-  if (status == HOOKE_OK) status = hooke_scene_make_whole(scene_text, system, comparison->options, &whole);
+  if (status == HOOKE_OK) status = hk_scene_make_whole(scene_text, system, comparison->options, &whole);
   if (status == HOOKE_OK) status = create(path, system, comparison, whole ? whole : scene_text, file);
-  hooke_free(whole);
+  hk_free(whole);
   return status;
 }
 
@@ -215,7 +215,7 @@ int32_t hooke_comparison_file_create(const char *path, const hooke_system *syste
 static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
                          const double *value) {
   const int64_t size = (int64_t)sizeof *value;
-  return hooke_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
+  return hk_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
 }
 
 static int write_table_row(const hooke_comparison_file *file, int64_t row) {
@@ -267,74 +267,74 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
 
 /* The same file with room for exactly the frames that there are, and all that does not change with them. */
 static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
-                           struct hooke_recording *recording, struct hooke_h5_copy *copy) {
-  herr_t result = hooke_h5md_copy(old, shorter, copy);
+                           struct hk_recording *recording, struct hk_h5_copy *copy) {
+  herr_t result = hk_h5md_copy(old, shorter, copy);
   for (int64_t k = 0; result >= 0 && k <= file->row_count; k++)
-    result = hooke_recording_copy(&file->recording[k], old, shorter, file->recording[k].written,
-                                  &recording[k], copy);
-  if (result >= 0) result = hooke_h5md_refer(shorter, "all");
-  return result < 0 ? result : hooke_h5_copy(old, shorter, "comparison", NULL, copy);
+    result =
+        hk_recording_copy(&file->recording[k], old, shorter, file->recording[k].written, &recording[k], copy);
+  if (result >= 0) result = hk_h5md_refer(shorter, "all");
+  return result < 0 ? result : hk_h5_copy(old, shorter, "comparison", NULL, copy);
 }
 
-static int copy_all(const hooke_comparison_file *file, const struct hooke_h5_copy *copy, int descriptor,
-                    struct hooke_recording *recording) {
-  int error = hooke_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
+static int copy_all(const hooke_comparison_file *file, const struct hk_h5_copy *copy, int descriptor,
+                    struct hk_recording *recording) {
+  int error = hk_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
   for (int64_t k = 0; error == 0 && k <= file->row_count; k++) {
     recording[k].file.descriptor = descriptor;
-    error = hooke_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
+    error = hk_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
   }
   return error;
 }
 
 /* A new file in which every run has exactly its frames takes the place of ours. */
-static int32_t rewrite(struct hooke_h5_guard *guard, const hooke_comparison_file *file,
-                       struct hooke_recording *recording) {
+static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *file,
+                       struct hk_recording *recording) {
   const char *what = "shorten the file to the frames it has";
-  struct hooke_h5_copy copy = {.guard = guard};
-  struct hooke_h5_file shorter;
+  struct hk_h5_copy copy = {.guard = guard};
+  struct hk_h5_file shorter;
   hid_t old;
-  double bytes = hooke_h5_file_bytes(&file->file);
+  double bytes = hk_h5_file_bytes(&file->file);
   for (int64_t k = 0; k <= file->row_count; k++)
-    bytes -= hooke_recording_bytes_after(&file->recording[k], file->recording[k].written);
-  int32_t status = hooke_h5_file_open(guard, &file->file, &old);
+    bytes -= hk_recording_bytes_after(&file->recording[k], file->recording[k].written);
+  int32_t status = hk_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hooke_h5_file_create_held(guard, file->file.place.path, bytes, 1, &shorter);
+  status = hk_h5_file_create_held(guard, file->file.place.path, bytes, 1, &shorter);
   if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording, &copy) < 0)
-    status = hooke_h5_fail(guard, file->file.place.path, what);
+    status = hk_h5_fail(guard, file->file.place.path, what);
   H5Fclose(old);
-  if (status == HOOKE_OK) status = hooke_h5_file_settle(guard, &shorter);
+  if (status == HOOKE_OK) status = hk_h5_file_settle(guard, &shorter);
   const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.place.descriptor, recording) : 0;
-  hooke_h5_copy_release(&copy);
-  if (error) status = hooke_place_fail(file->file.place.path, what, error);
-  if (status == HOOKE_OK) status = hooke_h5_file_publish(&shorter);
-  if (status == HOOKE_OK) status = hooke_h5_file_close(&shorter);
-  hooke_h5_file_release(&shorter);
+  hk_h5_copy_release(&copy);
+  if (error) status = hk_place_fail(file->file.place.path, what, error);
+  if (status == HOOKE_OK) status = hk_h5_file_publish(&shorter);
+  if (status == HOOKE_OK) status = hk_h5_file_close(&shorter);
+  hk_h5_file_release(&shorter);
   return status;
 }
 
 static int32_t shorten(const hooke_comparison_file *file) {
-  struct hooke_recording *recording = hooke_new(file->row_count + 1, sizeof *recording);
+  struct hk_recording *recording = hk_new(file->row_count + 1, sizeof *recording);
   if (recording == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
   const int32_t status = rewrite(&guard, file, recording);
-  hooke_h5_guard_end(&guard);
-  hooke_free(recording);
+  hk_h5_guard_end(&guard);
+  hk_free(recording);
   return status;
 }
 
 static int32_t finish(hooke_comparison_file *file) {
-  const int32_t own = hooke_place_require_own(&file->file.place);
+  const int32_t own = hk_place_require_own(&file->file.place);
   if (own != HOOKE_OK) return own;
   if (file->failure[0]) {
-    hooke_h5md_write_status(file->file.place.descriptor, file->status_at, HOOKE_IO_FAILED);
-    return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
+    hk_h5md_write_status(file->file.place.descriptor, file->status_at, HOOKE_IO_FAILED);
+    return hk_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
   }
   int error = write_table(file);
   if (error == 0)
-    error = hooke_h5md_write_status(file->file.place.descriptor, file->status_at, outcome_of(file));
-  if (error) return hooke_place_fail(file->file.place.path, "write the table of the comparison", error);
-  return is_short(file) ? shorten(file) : hooke_h5_file_close(&file->file);
+    error = hk_h5md_write_status(file->file.place.descriptor, file->status_at, outcome_of(file));
+  if (error) return hk_place_fail(file->file.place.path, "write the table of the comparison", error);
+  return is_short(file) ? shorten(file) : hk_h5_file_close(&file->file);
 }
 
 int32_t hooke_comparison_file_close(hooke_comparison_file *file) {
@@ -348,8 +348,8 @@ int32_t hooke_comparison_file_close(hooke_comparison_file *file) {
 #else
 
 static int32_t not_built(void) {
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "files of comparisons need HDF5, and this build of the library is without it");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "files of comparisons need HDF5, and this build of the library is without it");
 }
 
 int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,

@@ -6,8 +6,8 @@
 #include "io/file/text.h"
 
 /* "watched": of a row the errors, with row -1 name, unit and agreement of each quantity. */
-void hooke_study_watched_add(struct hooke_text *text, const hooke_study *study, int64_t row);
+void hk_study_watched_add(struct hk_text *text, const hooke_study *study, int64_t row);
 /* "statistics": {...}, or null. */
-void hooke_study_statistics_add(struct hooke_text *text, const hooke_study *study);
+void hk_study_statistics_add(struct hk_text *text, const hooke_study *study);
 
 #endif

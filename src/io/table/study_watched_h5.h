@@ -7,9 +7,9 @@
 #include <hdf5.h>
 
 /* The groups "watched" and "statistics" of the group of a study, where there is something to write. */
-herr_t hooke_h5_write_watched(hid_t study_group, const hooke_study *study);
-herr_t hooke_h5_write_statistics(hid_t study_group, const hooke_study *study);
+herr_t hk_h5_write_watched(hid_t study_group, const hooke_study *study);
+herr_t hk_h5_write_statistics(hid_t study_group, const hooke_study *study);
 /* Bytes that they need, about. */
-double hooke_h5_watched_bytes(const hooke_study *study);
+double hk_h5_watched_bytes(const hooke_study *study);
 
 #endif

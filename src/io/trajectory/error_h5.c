@@ -14,26 +14,25 @@
 
 #include <stdio.h>
 
-const char *const hooke_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
-                                                           "energy_rise", "wanted",     "met"};
+const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
+                                                        "energy_rise", "wanted",     "met"};
 
 struct places {
   int64_t numbers, by, note;
 };
 
-static int32_t find_places(struct hooke_h5_guard *guard, const struct hooke_h5_file *file,
-                           struct places *at) {
+static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *file, struct places *at) {
   hid_t id;
-  const int32_t status = hooke_h5_file_open(guard, file, &id);
+  const int32_t status = hk_h5_file_open(guard, file, &id);
   if (status != HOOKE_OK) return status;
-  at->numbers = hooke_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
-  at->by = hooke_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
-  at->note = hooke_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
+  at->numbers = hk_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
+  at->by = hk_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
+  at->note = hk_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
   H5Fclose(id);
-  if (guard->no_memory) return hooke_h5_fail(guard, file->place.path, "find the room for the error");
+  if (guard->no_memory) return hk_h5_fail(guard, file->place.path, "find the room for the error");
   if (at->numbers >= 0 && at->by >= 0 && at->note >= 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
-                    file->place.path);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
+                 file->place.path);
 }
 
 static int write_at(int descriptor, const struct places *at, const hooke_estimate *estimate) {
@@ -41,33 +40,32 @@ static int write_at(int descriptor, const struct places *at, const hooke_estimat
   char by[HOOKE_ERROR_BY] = {0}, note[HOOKE_ERROR_NOTE] = {0};
   const char *source = hooke_estimate_text(estimate, "by");
   for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
-    number[k] = hooke_estimate_number(estimate, hooke_error_number[k]);
+    number[k] = hooke_estimate_number(estimate, hk_error_number[k]);
   snprintf(by, sizeof by, "%s", source ? source : "");
   snprintf(note, sizeof note, "%s", hooke_estimate_text(estimate, "note"));
-  int error = hooke_bytes_write(descriptor, at->note, sizeof note, note);
-  if (error == 0) error = hooke_bytes_write(descriptor, at->numbers, sizeof number, number);
-  return error ? error : hooke_bytes_write(descriptor, at->by, sizeof by, by);
+  int error = hk_bytes_write(descriptor, at->note, sizeof note, note);
+  if (error == 0) error = hk_bytes_write(descriptor, at->numbers, sizeof number, number);
+  return error ? error : hk_bytes_write(descriptor, at->by, sizeof by, by);
 }
 
-static int32_t write_to(struct hooke_h5_guard *guard, struct hooke_h5_file *file,
-                        const hooke_estimate *estimate) {
+static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file, const hooke_estimate *estimate) {
   struct places at;
   const int32_t status = find_places(guard, file, &at);
   if (status != HOOKE_OK) return status;
   const int error = write_at(file->place.descriptor, &at, estimate);
-  return error ? hooke_place_fail(file->place.path, "write the error of the run", error)
-               : hooke_h5_file_close(file);
+  return error ? hk_place_fail(file->place.path, "write the error of the run", error)
+               : hk_h5_file_close(file);
 }
 
 int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_h5_file file = HOOKE_NO_H5_FILE;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = hooke_place_hold(path, &file.place);
+  struct hk_h5_file file = HOOKE_NO_H5_FILE;
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
+  int32_t status = hk_place_hold(path, &file.place);
   if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
-  hooke_h5_file_release(&file);
-  hooke_h5_guard_end(&guard);
+  hk_h5_file_release(&file);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
@@ -75,8 +73,8 @@ int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path
 
 int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
   (void)estimate, (void)path;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "trajectories need HDF5, and this build of the library is without it");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "trajectories need HDF5, and this build of the library is without it");
 }
 
 #endif

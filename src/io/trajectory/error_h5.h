@@ -4,6 +4,6 @@
 
 /* Bytes of the texts, and the numbers by their names in hooke_estimate_number(). */
 enum { HOOKE_ERROR_BY = 16, HOOKE_ERROR_NOTE = 256, HOOKE_ERROR_COUNT = 6 };
-extern const char *const hooke_error_number[HOOKE_ERROR_COUNT];
+extern const char *const hk_error_number[HOOKE_ERROR_COUNT];
 
 #endif

@@ -16,7 +16,7 @@
 enum { BLOCK = 3 * 8192 };
 
 struct check {
-  struct hooke_h5_guard *guard;
+  struct hk_h5_guard *guard;
   hid_t file;
   const char *path;
   char group[48];
@@ -41,12 +41,12 @@ static int is_moving(const char *dataset, struct check *check) {
 }
 
 static int32_t damaged(const struct check *check, const char *why) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "frame %lld of %s is damaged: %s", (long long)check->frame,
-                    check->path, why);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "frame %lld of %s is damaged: %s", (long long)check->frame,
+                 check->path, why);
 }
 
 /* Adds `count` rows of the frame, from `first` on, or numbers of an array without rows. */
-static herr_t add_block(struct check *check, const struct hooke_dataset *data, hid_t type, hsize_t first,
+static herr_t add_block(struct check *check, const struct hk_dataset *data, hid_t type, hsize_t first,
                         hsize_t count) {
   const int table = data->rank == 3;
   const hsize_t begin[3] = {(hsize_t)check->frame, first, 0};
@@ -56,18 +56,18 @@ static herr_t add_block(struct check *check, const struct hooke_dataset *data, h
   herr_t result = there < 0 || here < 0 ? -1 : 0;
   if (result >= 0) result = H5Sselect_hyperslab(there, H5S_SELECT_SET, begin, NULL, size, NULL);
   if (result >= 0) result = H5Dread(data->id, type, here, there, H5P_DEFAULT, check->block);
-  if (result >= 0) check->value = hooke_crc32(check->value, check->block, (int64_t)(8 * line));
-  hooke_h5_drop(here);
-  hooke_h5_drop(there);
+  if (result >= 0) check->value = hk_crc32(check->value, check->block, (int64_t)(8 * line));
+  hk_h5_drop(here);
+  hk_h5_drop(there);
   return result;
 }
 
-static herr_t add_row(struct check *check, int array, const struct hooke_dataset *data) {
+static herr_t add_row(struct check *check, int array, const struct hk_dataset *data) {
   const int table = data->rank == 3;
   const hsize_t rows = table ? data->size[1] : 1, most = table ? BLOCK / 3 : 1;
   hid_t type = array == HOOKE_FRAME_STEP ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
   if (check->known && array == check->known_array) {
-    check->value = hooke_crc32(check->value, check->known, (int64_t)(8 * 3 * rows));
+    check->value = hk_crc32(check->value, check->known, (int64_t)(8 * 3 * rows));
     return 0;
   }
   herr_t result = 0;
@@ -77,40 +77,40 @@ static herr_t add_row(struct check *check, int array, const struct hooke_dataset
 }
 
 /* Whether the array is as the writer makes it. */
-static int fits(struct check *check, int array, const struct hooke_dataset *data) {
+static int fits(struct check *check, int array, const struct hk_dataset *data) {
   if (data->size[0] != check->frames) return 0;
   if (array == HOOKE_FRAME_POSITION) check->particles = data->size[1];
   if (array == HOOKE_FRAME_POSITION || array == HOOKE_FRAME_VELOCITY)
     return data->rank == 3 && data->size[1] == check->particles && data->size[2] == 3;
-  const int64_t columns = hooke_frame_numbers(0, array);
+  const int64_t columns = hk_frame_numbers(0, array);
   return columns == 1 ? data->rank == 1 : data->rank == 2 && data->size[1] == (hsize_t)columns;
 }
 
 static int32_t add_array(struct check *check, int array) {
   char name[HOOKE_RECORDING_PATH];
-  struct hooke_dataset data;
-  hooke_recording_path(check->group, array, name);
-  int32_t status = hooke_dataset_find(check->guard, check->file, check->path, name, &data);
+  struct hk_dataset data;
+  hk_recording_path(check->group, array, name);
+  int32_t status = hk_dataset_find(check->guard, check->file, check->path, name, &data);
   if (status == HOOKE_OK && (data.id < 0 || !fits(check, array, &data)))
     status = damaged(check, "its arrays do not belong together");
   if (status == HOOKE_OK && add_row(check, array, &data) < 0)
-    status = hooke_h5_fail(check->guard, check->path, "read the frame");
-  hooke_h5_drop(data.id);
+    status = hk_h5_fail(check->guard, check->path, "read the frame");
+  hk_h5_drop(data.id);
   return status;
 }
 
-static herr_t read_stored(const struct check *check, const struct hooke_dataset *data, uint32_t *stored) {
+static herr_t read_stored(const struct check *check, const struct hk_dataset *data, uint32_t *stored) {
   const hsize_t begin = (hsize_t)check->frame, one = 1;
   hid_t there = H5Dget_space(data->id), here = H5Screate_simple(1, &one, NULL);
   herr_t result = there < 0 || here < 0 ? -1 : 0;
   if (result >= 0) result = H5Sselect_hyperslab(there, H5S_SELECT_SET, &begin, NULL, &one, NULL);
   if (result >= 0) result = H5Dread(data->id, H5T_NATIVE_UINT32, here, there, H5P_DEFAULT, stored);
-  hooke_h5_drop(here);
-  hooke_h5_drop(there);
+  hk_h5_drop(here);
+  hk_h5_drop(there);
   return result;
 }
 
-static int32_t compare(struct check *check, const struct hooke_dataset *data) {
+static int32_t compare(struct check *check, const struct hk_dataset *data) {
   uint32_t stored = 0;
   int32_t status = HOOKE_OK;
   check->frames = data->size[0];
@@ -120,27 +120,27 @@ static int32_t compare(struct check *check, const struct hooke_dataset *data) {
     status = add_array(check, k);
   if (status != HOOKE_OK) return status;
   if (read_stored(check, data, &stored) < 0)
-    return hooke_h5_fail(check->guard, check->path, "read the check value of a frame");
+    return hk_h5_fail(check->guard, check->path, "read the check value of a frame");
   if (stored == check->value) return HOOKE_OK;
   return damaged(check,
                  "its numbers are not those that were written, by the check value beside them; other frames "
                  "may be whole");
 }
 
-int32_t hooke_frame_check(struct hooke_h5_guard *guard, hid_t file, const char *path, const char *dataset,
-                          int64_t frame, const double *known) {
+int32_t hk_frame_check(struct hk_h5_guard *guard, hid_t file, const char *path, const char *dataset,
+                       int64_t frame, const double *known) {
   struct check check = {.guard = guard, .file = file, .path = path, .frame = frame, .known = known};
-  struct hooke_dataset data;
+  struct hk_dataset data;
   char name[HOOKE_RECORDING_PATH];
   if (!is_moving(dataset, &check)) return HOOKE_OK;
-  hooke_recording_path(check.group, HOOKE_FRAME_CHECK, name);
-  int32_t status = hooke_dataset_find(guard, file, path, name, &data);
+  hk_recording_path(check.group, HOOKE_FRAME_CHECK, name);
+  int32_t status = hk_dataset_find(guard, file, path, name, &data);
   if (status == HOOKE_OK && data.id >= 0) {
-    check.block = hooke_reserve(BLOCK, sizeof(double));
+    check.block = hk_reserve(BLOCK, sizeof(double));
     status = check.block ? compare(&check, &data) : HOOKE_NO_MEMORY;
-    hooke_free(check.block);
+    hk_free(check.block);
   }
-  hooke_h5_drop(data.id);
+  hk_h5_drop(data.id);
   return status;
 }
 

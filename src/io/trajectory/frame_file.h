@@ -8,7 +8,7 @@
 enum { HOOKE_OBSERVABLE_COUNT = 6 };
 
 /* The arrays that have a row for each frame, in the order in which the check value goes over their rows. */
-enum hooke_frame_array {
+enum hk_frame_array {
   HOOKE_FRAME_STEP,
   HOOKE_FRAME_TIME,
   HOOKE_FRAME_POSITION,
@@ -18,31 +18,30 @@ enum hooke_frame_array {
   HOOKE_FRAME_ARRAY_COUNT
 };
 
-struct hooke_frame_file {
+struct hk_frame_file {
   const hooke_system *system;
   int descriptor; /* -1: none */
   int64_t particle_count;
   int64_t at[HOOKE_FRAME_ARRAY_COUNT]; /* first bytes of the arrays */
 };
 
-struct hooke_observable {
+struct hk_observable {
   const char *name;
   int32_t columns;
 };
-extern const struct hooke_observable hooke_observables[HOOKE_OBSERVABLE_COUNT];
+extern const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT];
 
 /* Numbers in a row of an array, and its bytes. */
-int64_t hooke_frame_numbers(int64_t particle_count, int array);
-int64_t hooke_frame_bytes(int64_t particle_count, int array);
+int64_t hk_frame_numbers(int64_t particle_count, int array);
+int64_t hk_frame_bytes(int64_t particle_count, int array);
 
 /* Writes a frame: its numbers, their check value, and its time last. 0, or the number of the system's error. */
-int hooke_frame_write(const struct hooke_frame_file *file, int64_t frame, int64_t step,
-                      const hooke_state *state);
+int hk_frame_write(const struct hk_frame_file *file, int64_t frame, int64_t step, const hooke_state *state);
 
 /* `whole`: 1 if the frame has a time and its numbers have the check value that stands beside them. */
-int hooke_frame_look(const struct hooke_frame_file *file, int64_t frame, int32_t *whole);
+int hk_frame_look(const struct hk_frame_file *file, int64_t frame, int32_t *whole);
 
 /* Copies the first `count` frames as they are. */
-int hooke_frame_copy(const struct hooke_frame_file *from, const struct hooke_frame_file *to, int64_t count);
+int hk_frame_copy(const struct hk_frame_file *from, const struct hk_frame_file *to, int64_t count);
 
 #endif

@@ -5,8 +5,8 @@
 #include <pthread.h>
 #include <signal.h>
 
-struct hooke_frame_thread {
-  const struct hooke_frame_file *file;
+struct hk_frame_thread {
+  const struct hk_frame_file *file;
   hooke_state *state; /* the frame on its way */
   int64_t step, written;
   int32_t busy, ending; /* a frame is on its way; there will be no more */
@@ -17,14 +17,14 @@ struct hooke_frame_thread {
 };
 
 static void *work(void *own) {
-  struct hooke_frame_thread *thread = own;
+  struct hk_frame_thread *thread = own;
   pthread_mutex_lock(&thread->mutex);
   for (;;) {
     while (!thread->busy && !thread->ending)
       pthread_cond_wait(&thread->changed, &thread->mutex);
     if (!thread->busy) break;
     pthread_mutex_unlock(&thread->mutex);
-    const int error = hooke_frame_write(thread->file, thread->written, thread->step, thread->state);
+    const int error = hk_frame_write(thread->file, thread->written, thread->step, thread->state);
     pthread_mutex_lock(&thread->mutex);
     thread->error = error;
     thread->written += error == 0;
@@ -36,7 +36,7 @@ static void *work(void *own) {
 }
 
 /* Signals are for the threads of the program. */
-static int start(struct hooke_frame_thread *thread) {
+static int start(struct hk_frame_thread *thread) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -45,8 +45,8 @@ static int start(struct hooke_frame_thread *thread) {
   return error;
 }
 
-struct hooke_frame_thread *hooke_frame_thread_create(const struct hooke_frame_file *file, int64_t first) {
-  struct hooke_frame_thread *thread = hooke_new(1, sizeof *thread);
+struct hk_frame_thread *hk_frame_thread_create(const struct hk_frame_file *file, int64_t first) {
+  struct hk_frame_thread *thread = hk_new(1, sizeof *thread);
   if (thread == NULL) return NULL;
   thread->file = file;
   thread->written = first;
@@ -56,18 +56,18 @@ struct hooke_frame_thread *hooke_frame_thread_create(const struct hooke_frame_fi
   pthread_cond_destroy(&thread->changed);
   pthread_mutex_destroy(&thread->mutex);
   hooke_state_destroy(thread->state);
-  hooke_free(thread);
+  hk_free(thread);
   return NULL;
 }
 
 /* Returns with the mutex, and no frame on its way. */
-static void wait_for_frame(struct hooke_frame_thread *thread) {
+static void wait_for_frame(struct hk_frame_thread *thread) {
   pthread_mutex_lock(&thread->mutex);
   while (thread->busy)
     pthread_cond_wait(&thread->changed, &thread->mutex);
 }
 
-int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, const hooke_state *state) {
+int hk_frame_thread_write(struct hk_frame_thread *thread, int64_t step, const hooke_state *state) {
   wait_for_frame(thread);
   const int error = thread->error;
   if (error == 0) {
@@ -80,14 +80,14 @@ int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, co
   return error;
 }
 
-int hooke_frame_thread_wait(struct hooke_frame_thread *thread) {
+int hk_frame_thread_wait(struct hk_frame_thread *thread) {
   wait_for_frame(thread);
   const int error = thread->error;
   pthread_mutex_unlock(&thread->mutex);
   return error;
 }
 
-int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written) {
+int hk_frame_thread_end(struct hk_frame_thread *thread, int64_t *written) {
   wait_for_frame(thread);
   thread->ending = 1;
   pthread_cond_signal(&thread->changed);
@@ -98,6 +98,6 @@ int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written) 
   pthread_cond_destroy(&thread->changed);
   pthread_mutex_destroy(&thread->mutex);
   hooke_state_destroy(thread->state);
-  hooke_free(thread);
+  hk_free(thread);
   return error;
 }

@@ -4,18 +4,18 @@
 
 #include "io/trajectory/frame_file.h"
 
-struct hooke_frame_thread;
+struct hk_frame_thread;
 
 /* For frames from `first` on. `file` has to stay. NULL without memory or threads. */
-struct hooke_frame_thread *hooke_frame_thread_create(const struct hooke_frame_file *file, int64_t first);
+struct hk_frame_thread *hk_frame_thread_create(const struct hk_frame_file *file, int64_t first);
 
 /* Hands the next frame over. The system's error of one before it, after which none is taken. */
-int hooke_frame_thread_write(struct hooke_frame_thread *thread, int64_t step, const hooke_state *state);
+int hk_frame_thread_write(struct hk_frame_thread *thread, int64_t step, const hooke_state *state);
 
 /* Waits for the frame on its way; the system's error, as above. */
-int hooke_frame_thread_wait(struct hooke_frame_thread *thread);
+int hk_frame_thread_wait(struct hk_frame_thread *thread);
 
 /* Waits for the last frame and ends the thread: how many frames are there in all, and the error, if there was one. */
-int hooke_frame_thread_end(struct hooke_frame_thread *thread, int64_t *written);
+int hk_frame_thread_end(struct hk_frame_thread *thread, int64_t *written);
 
 #endif

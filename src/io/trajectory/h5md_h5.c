@@ -33,17 +33,17 @@ static herr_t write_h5md(hid_t file) {
   hid_t h5md = new_group(file, "h5md");
   hid_t author = h5md < 0 ? -1 : new_group(h5md, "author");
   hid_t creator = author < 0 ? -1 : new_group(h5md, "creator");
-  herr_t result = creator < 0 ? -1 : hooke_h5_integer_attribute(h5md, "version", 2, version);
-  if (result >= 0) result = hooke_h5_text_attribute(author, "name", "unknown");
-  if (result >= 0) result = hooke_h5_text_attribute(creator, "name", "hooke");
-  if (result >= 0) result = hooke_h5_text_attribute(creator, "version", hooke_version());
-  hooke_h5_drop(creator);
-  hooke_h5_drop(author);
-  hooke_h5_drop(h5md);
+  herr_t result = creator < 0 ? -1 : hk_h5_integer_attribute(h5md, "version", 2, version);
+  if (result >= 0) result = hk_h5_text_attribute(author, "name", "unknown");
+  if (result >= 0) result = hk_h5_text_attribute(creator, "name", "hooke");
+  if (result >= 0) result = hk_h5_text_attribute(creator, "version", hooke_version());
+  hk_h5_drop(creator);
+  hk_h5_drop(author);
+  hk_h5_drop(h5md);
   return result;
 }
 
-herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options) {
+herr_t hk_h5md_write_options(hid_t where, const hooke_options *options) {
   hid_t group = new_group(where, "options");
   herr_t result = group < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < hooke_options_row_count(options); k++) {
@@ -51,20 +51,20 @@ herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options) {
     const char *text = hooke_options_text(options, name);
     const int64_t count = hooke_options_number_count(options, name);
     if (count > 0) {
-      result = hooke_h5_number_attribute(group, name, count, hooke_options_numbers(options, name));
+      result = hk_h5_number_attribute(group, name, count, hooke_options_numbers(options, name));
     } else if (text[0]) {
-      result = hooke_h5_text_attribute(group, name, text);
+      result = hk_h5_text_attribute(group, name, text);
     }
   }
-  hooke_h5_drop(group);
+  hk_h5_drop(group);
   return result;
 }
 
 /* A single text of any length: a dataset, since attributes are limited to 64 KiB. */
 static herr_t write_text(hid_t where, const char *name, int64_t length, const char *text) {
-  hid_t dataset = hooke_h5_texts(where, name, -1, length);
-  herr_t result = dataset < 0 ? -1 : hooke_h5_write_text(dataset, 0, text);
-  hooke_h5_drop(dataset);
+  hid_t dataset = hk_h5_texts(where, name, -1, length);
+  herr_t result = dataset < 0 ? -1 : hk_h5_write_text(dataset, 0, text);
+  hk_h5_drop(dataset);
   return result;
 }
 
@@ -73,65 +73,65 @@ static herr_t write_facts(hid_t group) {
   static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
   herr_t result = 0;
   for (int k = 0; k < 4 && result >= 0; k++)
-    result = hooke_h5_text_attribute(group, facts[k], hooke_build_fact(facts[k]));
+    result = hk_h5_text_attribute(group, facts[k], hooke_build_fact(facts[k]));
   return result;
 }
 
-herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
-                           const char *scene_text) {
+herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *options,
+                        const char *scene_text) {
   const int32_t abi = hooke_abi();
   herr_t result = write_h5md(file);
   hid_t group = result < 0 ? -1 : new_group(file, "hooke");
   if (group < 0) return -1;
-  result = hooke_h5_text_attribute(group, "version", hooke_version());
-  if (result >= 0) result = hooke_h5_integer_attribute(group, "abi", 1, &abi);
-  if (result >= 0) result = hooke_h5_text_attribute(group, "units", units);
+  result = hk_h5_text_attribute(group, "version", hooke_version());
+  if (result >= 0) result = hk_h5_integer_attribute(group, "abi", 1, &abi);
+  if (result >= 0) result = hk_h5_text_attribute(group, "units", units);
   if (result >= 0) result = write_facts(group);
-  if (result >= 0 && method) result = hooke_h5_text_attribute(group, "method", method);
-  if (result >= 0 && options) result = hooke_h5md_write_options(group, options);
+  if (result >= 0 && method) result = hk_h5_text_attribute(group, "method", method);
+  if (result >= 0 && options) result = hk_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);
   if (result >= 0) result = write_text(group, "status", STATUS_LENGTH, "running");
-  hooke_h5_drop(group);
+  hk_h5_drop(group);
   return result;
 }
 
-int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
+int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
   static const char source[] = "/dev/urandom";
   unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
   const int descriptor = open(source, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return hooke_place_fail(source, "take a random number for the run from it", errno);
+  if (descriptor < 0) return hk_place_fail(source, "take a random number for the run from it", errno);
   const ssize_t got = read(descriptor, random, sizeof random);
   const int error = got == (ssize_t)sizeof random ? 0 : got < 0 ? errno : EIO;
   close(descriptor);
-  if (error) return hooke_place_fail(source, "take a random number for the run from it", error);
+  if (error) return hk_place_fail(source, "take a random number for the run from it", error);
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
   return HOOKE_OK;
 }
 
-herr_t hooke_h5md_write_run(hid_t file, const char *run) {
+herr_t hk_h5md_write_run(hid_t file, const char *run) {
   hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
-  herr_t result = group < 0 ? -1 : hooke_h5_text_attribute(group, "run", run);
-  hooke_h5_drop(group);
+  herr_t result = group < 0 ? -1 : hk_h5_text_attribute(group, "run", run);
+  hk_h5_drop(group);
   return result;
 }
 
-herr_t hooke_h5md_write_error_room(hid_t file) {
+herr_t hk_h5md_write_error_room(hid_t file) {
   const hsize_t count = HOOKE_ERROR_COUNT;
   const double unknown = NAN;
   hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
-  hid_t numbers = group < 0 ? -1 : hooke_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
+  hid_t numbers = group < 0 ? -1 : hk_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
   herr_t result =
-      numbers < 0 ? -1 : hooke_h5_text_attributes(numbers, "numbers", HOOKE_ERROR_COUNT, hooke_error_number);
+      numbers < 0 ? -1 : hk_h5_text_attributes(numbers, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
   if (result >= 0) result = write_text(group, "error_by", HOOKE_ERROR_BY, "");
   if (result >= 0) result = write_text(group, "error_note", HOOKE_ERROR_NOTE, "");
-  hooke_h5_drop(numbers);
-  hooke_h5_drop(group);
+  hk_h5_drop(numbers);
+  hk_h5_drop(group);
   return result;
 }
 
 /* Says which particles the numbers of the springs mean. */
-herr_t hooke_h5md_refer(hid_t file, const char *group) {
+herr_t hk_h5md_refer(hid_t file, const char *group) {
   hobj_ref_t reference;
   hid_t particles = H5Gopen2(file, "particles", H5P_DEFAULT);
   hid_t springs = H5Dopen2(file, "connectivity/springs", H5P_DEFAULT);
@@ -143,45 +143,45 @@ herr_t hooke_h5md_refer(hid_t file, const char *group) {
     attribute = H5Acreate2(springs, "particles_group", H5T_STD_REF_OBJ, space, H5P_DEFAULT, H5P_DEFAULT);
     result = attribute < 0 ? -1 : H5Awrite(attribute, H5T_STD_REF_OBJ, &reference);
   }
-  hooke_h5_drop(attribute);
-  hooke_h5_drop(space);
-  hooke_h5_drop(springs);
-  hooke_h5_drop(particles);
+  hk_h5_drop(attribute);
+  hk_h5_drop(space);
+  hk_h5_drop(springs);
+  hk_h5_drop(particles);
   return result;
 }
 
 static herr_t write_rest_lengths(hid_t file, const hooke_system *system) {
   const hsize_t count = (hsize_t)hooke_system_spring_count(system);
-  double *rest_length = hooke_new((int64_t)count, sizeof(double));
+  double *rest_length = hk_new((int64_t)count, sizeof(double));
   herr_t result = rest_length == NULL ? -1 : 0;
   if (result >= 0 && hooke_system_spring_material(system, NULL, NULL, rest_length) != HOOKE_OK) result = -1;
   if (result >= 0) {
-    result = hooke_h5_array_of(file, "hooke/rest_length", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &count,
-                               rest_length);
+    result =
+        hk_h5_array_of(file, "hooke/rest_length", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &count, rest_length);
   }
-  hooke_free(rest_length);
+  hk_free(rest_length);
   return result;
 }
 
-herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group) {
+herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group) {
   const int64_t count = hooke_system_spring_count(system);
   const hsize_t size[2] = {(hsize_t)count, 2};
-  int64_t *ends = hooke_new(2 * count, sizeof(int64_t));
+  int64_t *ends = hk_new(2 * count, sizeof(int64_t));
   hid_t connectivity = ends ? new_group(file, "connectivity") : -1;
   herr_t result = connectivity < 0 || hooke_system_spring_ends(system, ends) != HOOKE_OK ? -1 : 0;
   if (result >= 0)
-    result = hooke_h5_array_of(connectivity, "springs", H5T_STD_I32LE, H5T_NATIVE_INT64, 2, size, ends);
-  if (result >= 0) result = hooke_h5md_refer(file, group);
-  hooke_h5_drop(connectivity);
-  hooke_free(ends);
+    result = hk_h5_array_of(connectivity, "springs", H5T_STD_I32LE, H5T_NATIVE_INT64, 2, size, ends);
+  if (result >= 0) result = hk_h5md_refer(file, group);
+  hk_h5_drop(connectivity);
+  hk_free(ends);
   return result < 0 ? result : write_rest_lengths(file, system);
 }
 
-herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy) {
+herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy) {
   const char *const names[] = {"h5md", "hooke", "connectivity"};
   herr_t result = 0;
   for (int k = 0; result >= 0 && k < 3; k++)
-    result = hooke_h5_copy(from, to, names[k], "frame_check", copy);
+    result = hk_h5_copy(from, to, names[k], "frame_check", copy);
   return result;
 }
 
@@ -204,29 +204,29 @@ static const char *outcome_word(int32_t outcome) {
   }
 }
 
-int64_t hooke_h5md_place(hid_t file, const char *name, hsize_t bytes) {
+int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes) {
   hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
   const haddr_t first = dataset < 0 ? HADDR_UNDEF : H5Dget_offset(dataset);
   const int fits = first != HADDR_UNDEF && H5Dget_storage_size(dataset) == bytes;
-  hooke_h5_drop(dataset);
+  hk_h5_drop(dataset);
   return fits ? (int64_t)first : -1;
 }
 
-herr_t hooke_h5md_find_status(hid_t file, int64_t *at) {
-  *at = hooke_h5md_place(file, "hooke/status", STATUS_LENGTH);
+herr_t hk_h5md_find_status(hid_t file, int64_t *at) {
+  *at = hk_h5md_place(file, "hooke/status", STATUS_LENGTH);
   return *at < 0 ? -1 : 0;
 }
 
-int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
+int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
   char word[STATUS_LENGTH] = {0};
   snprintf(word, sizeof word, "%s", outcome_word(outcome));
-  return hooke_bytes_write(descriptor, at, sizeof word, word);
+  return hk_bytes_write(descriptor, at, sizeof word, word);
 }
 
-herr_t hooke_h5md_set_status(hid_t file, int32_t outcome) {
+herr_t hk_h5md_set_status(hid_t file, int32_t outcome) {
   hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
-  herr_t result = dataset < 0 ? -1 : hooke_h5_write_text(dataset, 0, outcome_word(outcome));
-  hooke_h5_drop(dataset);
+  herr_t result = dataset < 0 ? -1 : hk_h5_write_text(dataset, 0, outcome_word(outcome));
+  hk_h5_drop(dataset);
   return result;
 }
 

@@ -22,38 +22,37 @@
 
 /* Everything but particles and observables. `method`, `options` and `scene_text` may be NULL. Negative on
  * failure. */
-herr_t hooke_h5md_describe(hid_t file, const char *method, const hooke_options *options,
-                           const char *scene_text);
+herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *options, const char *scene_text);
 
 /* A group `options` with an attribute for each option that has a value. Negative on failure. */
-herr_t hooke_h5md_write_options(hid_t where, const hooke_options *options);
+herr_t hk_h5md_write_options(hid_t where, const hooke_options *options);
 
 /* /connectivity/springs and /hooke/rest_length; the particles group has to be there. */
-herr_t hooke_h5md_connect(hid_t file, const hooke_system *system, const char *group);
+herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
 /* The attribute `run` of /hooke: 32 random hexadecimal digits, and their end. */
 enum { HOOKE_RUN_SIZE = 33 };
-int32_t hooke_h5md_new_run(char run[HOOKE_RUN_SIZE]);
-herr_t hooke_h5md_write_run(hid_t file, const char *run);
+int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]);
+herr_t hk_h5md_write_run(hid_t file, const char *run);
 
-/* Makes everything but particles, observables and check values again in another file; hooke_h5md_refer() has to follow when
+/* Makes everything but particles, observables and check values again in another file; hk_h5md_refer() has to follow when
  * the particles group is there. */
-herr_t hooke_h5md_copy(hid_t from, hid_t to, struct hooke_h5_copy *copy);
-herr_t hooke_h5md_refer(hid_t file, const char *group);
+herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
+herr_t hk_h5md_refer(hid_t file, const char *group);
 
 /* Room for the error of a run. Negative on failure. */
-herr_t hooke_h5md_write_error_room(hid_t file);
+herr_t hk_h5md_write_error_room(hid_t file);
 
 /* Where in the file an array of so many bytes is; -1 if there is none. */
-int64_t hooke_h5md_place(hid_t file, const char *name, hsize_t bytes);
+int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
 /* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a
  * status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's error. */
 enum { HOOKE_H5MD_RUNNING = 1000 };
-herr_t hooke_h5md_find_status(hid_t file, int64_t *at);
-int hooke_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
+herr_t hk_h5md_find_status(hid_t file, int64_t *at);
+int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
 
 /* The same while HDF5 has the file. */
-herr_t hooke_h5md_set_status(hid_t file, int32_t outcome);
+herr_t hk_h5md_set_status(hid_t file, int32_t outcome);
 
 #endif

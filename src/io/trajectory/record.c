@@ -7,18 +7,18 @@
 #include <string.h>
 #include <unistd.h>
 
-int32_t hooke_record_is_one(const char *path) {
+int32_t hk_record_is_one(const char *path) {
   static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
   char begin[sizeof signature] = {0};
-  const int file = hooke_place_open(path);
+  const int file = hk_place_open(path);
   if (file < 0) return 0;
   const ssize_t got = read(file, begin, sizeof begin);
   close(file);
   return got == (ssize_t)sizeof begin && memcmp(begin, signature, sizeof begin) == 0;
 }
 
-int32_t hooke_record_require_run(const hooke_record *record) {
-  if (hooke_record_is_run(record)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run",
-                    hooke_record_path(record));
+int32_t hk_record_require_run(const hooke_record *record) {
+  if (hk_record_is_run(record)) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of several runs; allowed: a trajectory of one run",
+                 hk_record_path(record));
 }

@@ -28,18 +28,18 @@ static int32_t find_dataset(const char *what, char *dataset, size_t room) {
     return HOOKE_OK;
   }
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++) {
-    if (strcmp(what, hooke_observables[k].name) != 0) continue;
+    if (strcmp(what, hk_observables[k].name) != 0) continue;
     snprintf(dataset, room, "/observables/%s/value", what);
     return HOOKE_OK;
   }
-  return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                    "a trajectory has no \"%.80s\"; allowed: time, step, springs, mass, species, error, or a "
-                    "quantity such as kinetic_energy",
-                    what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "a trajectory has no \"%.80s\"; allowed: time, step, springs, mass, species, error, or a "
+                 "quantity such as kinetic_energy",
+                 what);
 }
 
 static void drop_kept(hooke_record *record) {
-  hooke_free(record->kept.value);
+  hk_free(record->kept.value);
   record->kept.value = NULL;
 }
 
@@ -51,8 +51,8 @@ static int32_t keep(hooke_record *record, const char *what) {
   if (record->kept.value && strcmp(record->kept.dataset, dataset) == 0) return HOOKE_OK;
   drop_kept(record);
   snprintf(record->kept.dataset, sizeof record->kept.dataset, "%s", dataset);
-  return hooke_array_read(record->path, dataset, 0, 0, &record->kept.value, &record->kept.rows,
-                          &record->kept.columns);
+  return hk_array_read(record->path, dataset, 0, 0, &record->kept.value, &record->kept.rows,
+                       &record->kept.columns);
 }
 
 int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns) {
@@ -74,28 +74,28 @@ int32_t hooke_record_numbers(hooke_record *record, const char *what, double *val
 /* ---- places ---- */
 
 static int is_plain(hid_t data) {
-  if (H5Iget_type(data) != H5I_DATASET || hooke_h5_foreign(data)) return 0;
+  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
   hid_t type = H5Dget_type(data), list = H5Dget_create_plist(data), space = H5Dget_space(data);
   const int plain = type >= 0 && list >= 0 && space >= 0 && H5Tequal(type, H5T_NATIVE_DOUBLE) > 0 &&
                     H5Pget_layout(list) == H5D_CONTIGUOUS && H5Sget_simple_extent_ndims(space) == 3;
-  hooke_h5_drop(space);
-  hooke_h5_drop(list);
-  hooke_h5_drop(type);
+  hk_h5_drop(space);
+  hk_h5_drop(list);
+  hk_h5_drop(type);
   return plain;
 }
 
-void hooke_record_find_places(hooke_record *record, hid_t file) {
+void hk_record_find_places(hooke_record *record, hid_t file) {
   static const char *const name[HOOKE_PLACE_COUNT] = {"position", "velocity"};
-  hid_t particles = hooke_h5_open_own(file, "particles"), all = hooke_h5_open_own(particles, "all");
+  hid_t particles = hk_h5_open_own(file, "particles"), all = hk_h5_open_own(particles, "all");
   for (int k = 0; k < HOOKE_PLACE_COUNT; k++) {
-    hid_t array = hooke_h5_open_own(all, name[k]), data = hooke_h5_open_own(array, "value");
+    hid_t array = hk_h5_open_own(all, name[k]), data = hk_h5_open_own(array, "value");
     const haddr_t at = data >= 0 && is_plain(data) ? H5Dget_offset(data) : HADDR_UNDEF;
     record->place[k] = at == HADDR_UNDEF ? -1 : (int64_t)at;
-    hooke_h5_drop(data);
-    hooke_h5_drop(array);
+    hk_h5_drop(data);
+    hk_h5_drop(array);
   }
-  hooke_h5_drop(all);
-  hooke_h5_drop(particles);
+  hk_h5_drop(all);
+  hk_h5_drop(particles);
 }
 
 int64_t hooke_record_place(const hooke_record *record, const char *what) {
@@ -106,8 +106,8 @@ int64_t hooke_record_place(const hooke_record *record, const char *what) {
 #else
 
 static int32_t refuse(void) {
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "reading trajectories needs HDF5, which this build of the library is without");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "reading trajectories needs HDF5, which this build of the library is without");
 }
 
 int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns) {

@@ -24,35 +24,35 @@ static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 
 /* 1 for one text of fixed length, whose bytes are in this very file. */
 static int is_text_here(hid_t data) {
-  if (H5Iget_type(data) != H5I_DATASET || hooke_h5_foreign(data)) return 0;
+  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
   hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
   const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
   const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
                    H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
                    (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
-  hooke_h5_drop(list);
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
+  hk_h5_drop(list);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
   return fits;
 }
 
 /* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
 static int32_t read_text(hid_t group, const char *name, char **out) {
   int32_t status = HOOKE_OK;
-  hid_t data = hooke_h5_open_own(group, name);
+  hid_t data = hk_h5_open_own(group, name);
   hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
   const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
   char *text = NULL;
   if (type >= 0 && length == stored && length < LONGEST_TEXT) {
-    text = hooke_new((int64_t)length + 1, 1);
+    text = hk_new((int64_t)length + 1, 1);
     if (text == NULL) status = HOOKE_NO_MEMORY;
   }
   if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
-    hooke_free(text);
+    hk_free(text);
     text = NULL;
   }
-  hooke_h5_drop(type);
-  hooke_h5_drop(data);
+  hk_h5_drop(type);
+  hk_h5_drop(data);
   *out = text;
   return status;
 }
@@ -64,17 +64,17 @@ static char *attribute_text(hid_t attribute) {
   if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
       H5Aread(attribute, memory, &word) < 0)
     word = NULL;
-  hooke_h5_drop(memory);
+  hk_h5_drop(memory);
   return word;
 }
 
 /* To leave it out would be to tell of another run. */
 static int32_t refuse_option(const char *name) {
-  return hooke_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
+  return hk_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
 }
 
 static int32_t unreadable(const char *name) {
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
+  return hk_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
 }
 
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
@@ -88,8 +88,8 @@ static int is_text(hid_t attribute) {
   hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
   const int fits = type >= 0 && space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
                    H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
   return fits;
 }
 
@@ -101,9 +101,9 @@ static int has_attribute(hid_t group, const char *name) {
 static char *read_attribute(hid_t group, const char *name) {
   hid_t attribute = has_attribute(group, name) ? H5Aopen(group, name, H5P_DEFAULT) : -1;
   char *word = attribute >= 0 && is_text(attribute) ? attribute_text(attribute) : NULL;
-  char *text = hooke_copy_text(word ? word : "");
+  char *text = hk_copy_text(word ? word : "");
   if (word) H5free_memory(word);
-  hooke_h5_drop(attribute);
+  hk_h5_drop(attribute);
   return text;
 }
 
@@ -122,8 +122,8 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
     status = read_word(attribute, options, name);
   else
     status = refuse_option(name);
-  hooke_h5_drop(space);
-  hooke_h5_drop(type);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
   return status;
 }
 
@@ -134,7 +134,7 @@ static int32_t read_options(hid_t group, hooke_options *options) {
     if (H5Aexists(group, name) <= 0) continue;
     hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
     status = attribute >= 0 ? read_option(attribute, options, name) : refuse_option(name);
-    hooke_h5_drop(attribute);
+    hk_h5_drop(attribute);
   }
   return status;
 }
@@ -146,7 +146,7 @@ static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "ch
 
 /* What hooke keeps in a group of its own. */
 static int32_t read_own(struct hooke_record *record, hid_t file) {
-  hid_t group = hooke_h5_open_own(file, "hooke"), options = hooke_h5_open_own(group, "options");
+  hid_t group = hk_h5_open_own(file, "hooke"), options = hk_h5_open_own(group, "options");
   int32_t status = read_text(group, "scene", &record->scene);
   if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
   if (status == HOOKE_OK) status = read_text(group, "error_by", &record->error_by);
@@ -159,43 +159,43 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   }
   record->is_run = has_attribute(group, "method");
   if (status == HOOKE_OK) status = read_options(options, record->options);
-  hooke_h5_drop(options);
-  hooke_h5_drop(group);
+  hk_h5_drop(options);
+  hk_h5_drop(group);
   return status;
 }
 
-static int32_t read_times(struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file) {
+static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file) {
   static const char times[] = "/particles/all/position/time";
   int64_t rows = 0, columns = 0;
   const int32_t status =
-      hooke_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
-  if (status == HOOKE_OK && columns != 1) return hooke_dataset_refuse(record->path, times, "is no column");
+      hk_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
+  if (status == HOOKE_OK && columns != 1) return hk_dataset_refuse(record->path, times, "is no column");
   while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
     record->frame_count++;
   return status;
 }
 
 /* close_file() has to follow in any case. */
-static int32_t open_file(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t *file) {
-  hooke_h5_guard_begin(guard);
-  return hooke_dataset_file(guard, record->path, file);
+static int32_t open_file(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t *file) {
+  hk_h5_guard_begin(guard);
+  return hk_dataset_file(guard, record->path, file);
 }
 
-static void close_file(const struct hooke_h5_guard *guard, hid_t file) {
+static void close_file(const struct hk_h5_guard *guard, hid_t file) {
   if (file >= 0) H5Fclose(file);
-  hooke_h5_guard_end(guard);
+  hk_h5_guard_end(guard);
 }
 
 static int32_t read_file(struct hooke_record *record) {
-  struct hooke_h5_guard guard;
+  struct hk_h5_guard guard;
   hid_t file;
   int32_t status = open_file(record, &guard, &file);
   if (status == HOOKE_OK) status = read_own(record, file);
-  if (status == HOOKE_BAD_VALUE) status = hooke_fail_before(status, "%s: ", record->path);
+  if (status == HOOKE_BAD_VALUE) status = hk_fail_before(status, "%s: ", record->path);
   /* what could not be read is not what is not there */
-  if (status == HOOKE_OK && guard.reason[0]) status = hooke_h5_fail(&guard, record->path, "read the file");
+  if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
   if (status == HOOKE_OK) status = read_times(record, &guard, file);
-  if (status == HOOKE_OK) hooke_record_find_places(record, file);
+  if (status == HOOKE_OK) hk_record_find_places(record, file);
   close_file(&guard, file);
   return status;
 }
@@ -203,14 +203,13 @@ static int32_t read_file(struct hooke_record *record) {
 int32_t hooke_record_open(const char *path, hooke_record **out) {
   HOOKE_KEEP_ERRNO;
   *out = NULL;
-  struct hooke_record *record = hooke_handle_new("hooke_record", sizeof *record);
+  struct hooke_record *record = hk_handle_new("hooke_record", sizeof *record);
   if (record == NULL) return HOOKE_NO_MEMORY;
-  record->path = hooke_copy_text(path);
+  record->path = hk_copy_text(path);
   int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = read_file(record);
   if (status == HOOKE_OK && record->status == NULL)
-    status =
-        hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
+    status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
   if (status == HOOKE_OK)
     *out = record;
   else
@@ -221,17 +220,17 @@ int32_t hooke_record_open(const char *path, hooke_record **out) {
 void hooke_record_close(hooke_record *record) {
   if (record == NULL) return;
   hooke_options_destroy(record->options);
-  hooke_free(record->path);
-  hooke_free(record->scene);
-  hooke_free(record->status);
-  hooke_free(record->run);
-  hooke_free(record->error_by);
-  hooke_free(record->error_note);
+  hk_free(record->path);
+  hk_free(record->scene);
+  hk_free(record->status);
+  hk_free(record->run);
+  hk_free(record->error_by);
+  hk_free(record->error_note);
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
-    hooke_free(record->fact[k]);
-  hooke_free(record->time);
-  hooke_free(record->kept.value);
-  hooke_handle_free(record);
+    hk_free(record->fact[k]);
+  hk_free(record->time);
+  hk_free(record->kept.value);
+  hk_handle_free(record);
 }
 
 const char *hooke_record_text(const hooke_record *record, const char *what) {
@@ -244,15 +243,15 @@ const char *hooke_record_text(const hooke_record *record, const char *what) {
   return strcmp(what, "status") == 0 ? record->status : NULL;
 }
 
-const char *hooke_record_path(const hooke_record *record) {
+const char *hk_record_path(const hooke_record *record) {
   return record->path;
 }
 
-double hooke_record_time(const hooke_record *record, int64_t frame) {
+double hk_record_time(const hooke_record *record, int64_t frame) {
   return record->time[frame];
 }
 
-int32_t hooke_record_is_run(const hooke_record *record) {
+int32_t hk_record_is_run(const hooke_record *record) {
   return record->is_run;
 }
 
@@ -269,31 +268,31 @@ static const char position[] = "/particles/all/position/value", velocity[] = "/p
 static int32_t find_frame(const hooke_record *record, int64_t frame, int64_t *at) {
   *at = frame < 0 ? record->frame_count + frame : frame;
   if (*at >= 0 && *at < record->frame_count) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
-                    record->path, (long long)record->frame_count);
+  return hk_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
+                 record->path, (long long)record->frame_count);
 }
 
 int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   int64_t at;
   int32_t status = find_frame(record, frame, &at);
   if (status != HOOKE_OK) return status;
-  struct hooke_h5_guard guard;
+  struct hk_h5_guard guard;
   hid_t file;
   status = open_file(record, &guard, &file);
-  if (status == HOOKE_OK) status = hooke_frame_check(&guard, file, record->path, position, at, NULL);
+  if (status == HOOKE_OK) status = hk_frame_check(&guard, file, record->path, position, at, NULL);
   close_file(&guard, file);
   return status;
 }
 
-/* For hooke_free(). The first of a frame's arrays to be read is where the frame is checked. */
-static int32_t read_rows(const struct hooke_record *record, struct hooke_h5_guard *guard, hid_t file,
+/* For hk_free(). The first of a frame's arrays to be read is where the frame is checked. */
+static int32_t read_rows(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
                          const char *dataset, int64_t frame, int64_t size, double **values) {
   int64_t rows = 0, columns = 0;
-  const int32_t status = hooke_array_read_open(guard, file, record->path, dataset, frame, 1,
-                                               dataset == position, values, &rows, &columns);
+  const int32_t status = hk_array_read_open(guard, file, record->path, dataset, frame, 1, dataset == position,
+                                            values, &rows, &columns);
   if (status != HOOKE_OK || rows * columns == size) return status;
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
-                    record->path, dataset, (long long)(rows * columns), (long long)size);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
+                 record->path, dataset, (long long)(rows * columns), (long long)size);
 }
 
 /* A state is never half of a frame. */
@@ -310,7 +309,7 @@ int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state
   double *q = NULL, *v = NULL;
   int32_t status = find_frame(record, frame, &at);
   if (status != HOOKE_OK) return status;
-  struct hooke_h5_guard guard;
+  struct hk_h5_guard guard;
   hid_t file;
   status = open_file(record, &guard, &file);
   if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, &q);
@@ -318,8 +317,8 @@ int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state
     status = read_rows(record, &guard, file, velocity, at, size, &v);
   close_file(&guard, file);
   if (status == HOOKE_OK) take_frame(state, record->time[at], q, v);
-  hooke_free(v);
-  hooke_free(q);
+  hk_free(v);
+  hk_free(q);
   return status;
 }
 
@@ -329,8 +328,8 @@ int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state
 
 int32_t hooke_record_open(const char *path, hooke_record **record) {
   *record = NULL;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "%s: reading it needs HDF5, which this build of the library is without", path);
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "%s: reading it needs HDF5, which this build of the library is without", path);
 }
 
 void hooke_record_close(hooke_record *record) {
@@ -342,17 +341,17 @@ const char *hooke_record_text(const hooke_record *record, const char *what) {
   return NULL;
 }
 
-const char *hooke_record_path(const hooke_record *record) {
+const char *hk_record_path(const hooke_record *record) {
   (void)record;
   return NULL;
 }
 
-double hooke_record_time(const hooke_record *record, int64_t frame) {
+double hk_record_time(const hooke_record *record, int64_t frame) {
   (void)record, (void)frame;
   return 0.0;
 }
 
-int32_t hooke_record_is_run(const hooke_record *record) {
+int32_t hk_record_is_run(const hooke_record *record) {
   (void)record;
   return 0;
 }
@@ -369,14 +368,14 @@ int64_t hooke_record_frame_count(const hooke_record *record) {
 
 int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   (void)record, (void)frame;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "reading trajectories needs HDF5, which this build of the library is without");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "reading trajectories needs HDF5, which this build of the library is without");
 }
 
 int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state) {
   (void)record, (void)frame, (void)state;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "reading trajectories needs HDF5, which this build of the library is without");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "reading trajectories needs HDF5, which this build of the library is without");
 }
 
 #endif

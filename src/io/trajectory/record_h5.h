@@ -25,6 +25,6 @@ struct hooke_record {
   } kept; /* numbers whose size was asked for */
 };
 
-void hooke_record_find_places(hooke_record *record, hid_t file);
+void hk_record_find_places(hooke_record *record, hid_t file);
 
 #endif

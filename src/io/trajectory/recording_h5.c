@@ -16,21 +16,21 @@
 static double frame_bytes(int64_t particle_count) {
   double bytes = 0.0;
   for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)
-    bytes += (double)hooke_frame_bytes(particle_count, k);
+    bytes += (double)hk_frame_bytes(particle_count, k);
   return bytes;
 }
 
-double hooke_recording_bytes(const hooke_system *system, int64_t frame_count) {
+double hk_recording_bytes(const hooke_system *system, int64_t frame_count) {
   const int64_t n = hooke_system_particle_count(system);
   const double groups = 32768.0, fixed = 12.0 * (double)n + 16.0 * (double)hooke_system_spring_count(system);
   return groups + fixed + frame_bytes(n) * (double)frame_count;
 }
 
-double hooke_recording_bytes_after(const struct hooke_recording *recording, int64_t first) {
+double hk_recording_bytes_after(const struct hk_recording *recording, int64_t first) {
   return frame_bytes(recording->file.particle_count) * (double)(recording->frame_count - first);
 }
 
-void hooke_recording_path(const char *group, int array, char path[HOOKE_RECORDING_PATH]) {
+void hk_recording_path(const char *group, int array, char path[HOOKE_RECORDING_PATH]) {
   const int all = strcmp(group, "all") == 0;
   const char *slash = all ? "" : "/", *folder = all ? "" : group;
   switch (array) {
@@ -49,13 +49,13 @@ void hooke_recording_path(const char *group, int array, char path[HOOKE_RECORDIN
     return;
   default:
     snprintf(path, HOOKE_RECORDING_PATH, "/observables%s%s/%s/value", slash, folder,
-             hooke_observables[array - HOOKE_FRAME_OBSERVABLE].name);
+             hk_observables[array - HOOKE_FRAME_OBSERVABLE].name);
   }
 }
 
 /* While they are being made. */
 struct arrays {
-  const struct hooke_recording *recording;
+  const struct hk_recording *recording;
   hid_t id[HOOKE_FRAME_ARRAY_COUNT];
 };
 
@@ -66,8 +66,8 @@ static hid_t new_frames(const struct arrays *arrays, hid_t where, int64_t rows, 
   const hsize_t frames = (hsize_t)arrays->recording->frame_count;
   const hsize_t table[3] = {frames, (hsize_t)rows, (hsize_t)columns};
   const hsize_t line[2] = {frames, (hsize_t)columns};
-  if (rows > 0) return hooke_h5_room(where, "value", H5T_NATIVE_DOUBLE, 3, table);
-  return hooke_h5_array(where, "value", H5T_NATIVE_DOUBLE, columns > 1 ? 2 : 1, line, &fill);
+  if (rows > 0) return hk_h5_room(where, "value", H5T_NATIVE_DOUBLE, 3, table);
+  return hk_h5_array(where, "value", H5T_NATIVE_DOUBLE, columns > 1 ? 2 : 1, line, &fill);
 }
 
 /* step and time: made with the first element, shared by the others. */
@@ -80,9 +80,9 @@ static herr_t add_clock(struct arrays *arrays, hid_t element) {
   const hsize_t size = (hsize_t)arrays->recording->frame_count;
   const double no_time = NAN;
   const int64_t no_step = -1;
-  *step = hooke_h5_array(element, "step", H5T_NATIVE_INT64, 1, &size, &no_step);
+  *step = hk_h5_array(element, "step", H5T_NATIVE_INT64, 1, &size, &no_step);
   if (*step < 0) return -1;
-  *time = hooke_h5_array(element, "time", H5T_NATIVE_DOUBLE, 1, &size, &no_time);
+  *time = hk_h5_array(element, "time", H5T_NATIVE_DOUBLE, 1, &size, &no_time);
   return *time < 0 ? -1 : 0;
 }
 
@@ -92,7 +92,7 @@ static herr_t new_element(struct arrays *arrays, int array, hid_t where, const c
   hid_t element = H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (element < 0) return -1;
   if (add_clock(arrays, element) >= 0) arrays->id[array] = new_frames(arrays, element, rows, columns);
-  hooke_h5_drop(element);
+  hk_h5_drop(element);
   return arrays->id[array] < 0 ? -1 : 0;
 }
 
@@ -100,26 +100,26 @@ static herr_t write_box(hid_t where) {
   const char *const boundary[] = {"none", "none", "none"};
   const int32_t dimension = 3;
   hid_t box = H5Gcreate2(where, "box", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t result = box < 0 ? -1 : hooke_h5_integer_attribute(box, "dimension", 1, &dimension);
-  if (result >= 0) result = hooke_h5_text_attributes(box, "boundary", 3, boundary);
-  hooke_h5_drop(box);
+  herr_t result = box < 0 ? -1 : hk_h5_integer_attribute(box, "dimension", 1, &dimension);
+  if (result >= 0) result = hk_h5_text_attributes(box, "boundary", 3, boundary);
+  hk_h5_drop(box);
   return result;
 }
 
-static herr_t write_particles(const struct hooke_recording *recording, hid_t where) {
+static herr_t write_particles(const struct hk_recording *recording, hid_t where) {
   const hooke_system *system = recording->system;
   const int64_t count = recording->file.particle_count;
   const hsize_t size = (hsize_t)count;
-  int32_t *species = hooke_new(count, sizeof(int32_t));
+  int32_t *species = hk_new(count, sizeof(int32_t));
   if (species == NULL) return -1;
   for (int64_t k = 0; k < count; k++) {
     species[k] = system->held[k] == HOOKE_HELD_PINNED ? 1 : system->held[k] == HOOKE_HELD_DRIVEN ? 2 : 0;
   }
-  herr_t result = hooke_h5_array_of(where, "species", H5T_STD_I32LE, H5T_NATIVE_INT32, 1, &size, species);
-  hooke_free(species);
+  herr_t result = hk_h5_array_of(where, "species", H5T_STD_I32LE, H5T_NATIVE_INT32, 1, &size, species);
+  hk_free(species);
   if (result < 0) return result;
-  return hooke_h5_array_of(where, "mass", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &size,
-                           hooke_system_mass(system));
+  return hk_h5_array_of(where, "mass", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &size,
+                        hooke_system_mass(system));
 }
 
 /* A group, made if it is not there yet. */
@@ -131,7 +131,7 @@ static hid_t group_in(hid_t where, const char *name) {
 
 static hid_t group_at(hid_t file, const char *folder, const char *name) {
   hid_t outer = group_in(file, folder), inner = outer < 0 ? -1 : group_in(outer, name);
-  hooke_h5_drop(outer);
+  hk_h5_drop(outer);
   return inner;
 }
 
@@ -141,14 +141,14 @@ static hid_t folder_of(hid_t file, const char *folder, const char *group) {
 }
 
 static herr_t make_particles(hid_t file, struct arrays *arrays, int32_t copied) {
-  const struct hooke_recording *recording = arrays->recording;
+  const struct hk_recording *recording = arrays->recording;
   hid_t particles = group_at(file, "particles", recording->group);
   const int64_t n = recording->file.particle_count;
   herr_t result = particles < 0 ? -1 : new_element(arrays, HOOKE_FRAME_POSITION, particles, "position", n, 3);
   if (result >= 0) result = new_element(arrays, HOOKE_FRAME_VELOCITY, particles, "velocity", n, 3);
   if (result >= 0 && !copied) result = write_box(particles);
   if (result >= 0 && !copied) result = write_particles(recording, particles);
-  hooke_h5_drop(particles);
+  hk_h5_drop(particles);
   return result;
 }
 
@@ -156,9 +156,9 @@ static herr_t make_observables(hid_t file, struct arrays *arrays) {
   hid_t group = folder_of(file, "observables", arrays->recording->group);
   herr_t result = group < 0 ? -1 : 0;
   for (int k = 0; result >= 0 && k < HOOKE_OBSERVABLE_COUNT; k++)
-    result = new_element(arrays, HOOKE_FRAME_OBSERVABLE + k, group, hooke_observables[k].name, 0,
-                         hooke_observables[k].columns);
-  hooke_h5_drop(group);
+    result = new_element(arrays, HOOKE_FRAME_OBSERVABLE + k, group, hk_observables[k].name, 0,
+                         hk_observables[k].columns);
+  hk_h5_drop(group);
   return result;
 }
 
@@ -166,13 +166,13 @@ static herr_t make_check(hid_t file, struct arrays *arrays) {
   const hsize_t size = (hsize_t)arrays->recording->frame_count;
   hid_t group = folder_of(file, "hooke", arrays->recording->group);
   hid_t *check = &arrays->id[HOOKE_FRAME_CHECK];
-  if (group >= 0) *check = hooke_h5_array(group, "frame_check", H5T_NATIVE_UINT32, 1, &size, NULL);
-  hooke_h5_drop(group);
+  if (group >= 0) *check = hk_h5_array(group, "frame_check", H5T_NATIVE_UINT32, 1, &size, NULL);
+  hk_h5_drop(group);
   return *check < 0 ? -1 : 0;
 }
 
 /* Makes them all and keeps where they begin. */
-static herr_t make_arrays(hid_t file, struct hooke_recording *recording, int32_t copied) {
+static herr_t make_arrays(hid_t file, struct hk_recording *recording, int32_t copied) {
   struct arrays arrays = {.recording = recording};
   for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)
     arrays.id[k] = -1;
@@ -184,43 +184,43 @@ static herr_t make_arrays(hid_t file, struct hooke_recording *recording, int32_t
     const int empty = result >= 0 && H5Dget_storage_size(arrays.id[k]) == 0;
     if (first == HADDR_UNDEF && !empty) result = -1;
     recording->file.at[k] = empty ? 0 : (int64_t)first;
-    hooke_h5_drop(arrays.id[k]);
+    hk_h5_drop(arrays.id[k]);
   }
   return result;
 }
 
-static void start(struct hooke_recording *recording, const hooke_system *system, const char *group, int64_t n,
+static void start(struct hk_recording *recording, const hooke_system *system, const char *group, int64_t n,
                   int64_t frame_count) {
-  *recording = (struct hooke_recording){.system = system, .frame_count = frame_count};
-  recording->file = (struct hooke_frame_file){.system = system, .descriptor = -1, .particle_count = n};
+  *recording = (struct hk_recording){.system = system, .frame_count = frame_count};
+  recording->file = (struct hk_frame_file){.system = system, .descriptor = -1, .particle_count = n};
   snprintf(recording->group, sizeof recording->group, "%s", group);
 }
 
-herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
-                              struct hooke_recording *recording) {
+herr_t hk_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
+                           struct hk_recording *recording) {
   start(recording, system, group, hooke_system_particle_count(system), frame_count);
   return make_arrays(file, recording, 0);
 }
 
 /* ---- frames ---- */
 
-int hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state) {
-  const int error = hooke_frame_write(&recording->file, recording->written, step, state);
+int hk_recording_write(struct hk_recording *recording, int64_t step, const hooke_state *state) {
+  const int error = hk_frame_write(&recording->file, recording->written, step, state);
   recording->written += error == 0;
   return error;
 }
 
 /* ---- copying ---- */
 
-herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t from_file, hid_t file,
-                            int64_t frame_count, struct hooke_recording *to, struct hooke_h5_copy *copy) {
+herr_t hk_recording_copy(const struct hk_recording *from, hid_t from_file, hid_t file, int64_t frame_count,
+                         struct hk_recording *to, struct hk_h5_copy *copy) {
   const char *const names[] = {"box", "species", "mass"};
   start(to, from->system, from->group, from->file.particle_count, frame_count);
   herr_t result = make_arrays(file, to, 1);
   for (int k = 0; result >= 0 && k < 3; k++) {
     char path[96];
     snprintf(path, sizeof path, "particles/%s/%s", from->group, names[k]);
-    result = hooke_h5_copy(from_file, file, path, NULL, copy);
+    result = hk_h5_copy(from_file, file, path, NULL, copy);
   }
   return result;
 }

@@ -20,32 +20,32 @@
 
 #include <hdf5.h>
 
-struct hooke_recording {
+struct hk_recording {
   const hooke_system *system;
   char group[48];
   int64_t frame_count, written;
-  struct hooke_frame_file file; /* its descriptor is of the file's owner, who sets it */
+  struct hk_frame_file file; /* its descriptor is of the file's owner, who sets it */
 };
 
 /* What a recording takes in a file, with springs and everything about the particles: an upper bound in bytes.
  * And what the frames from `first` on take that were planned. */
-double hooke_recording_bytes(const hooke_system *system, int64_t frame_count);
-double hooke_recording_bytes_after(const struct hooke_recording *recording, int64_t first);
+double hk_recording_bytes(const hooke_system *system, int64_t frame_count);
+double hk_recording_bytes_after(const struct hk_recording *recording, int64_t first);
 
 /* Where a recording's array is: "/particles/all/position/value". */
 enum { HOOKE_RECORDING_PATH = 160 };
-void hooke_recording_path(const char *group, int array, char path[HOOKE_RECORDING_PATH]);
+void hk_recording_path(const char *group, int array, char path[HOOKE_RECORDING_PATH]);
 
 /* Makes the arrays in a file that has /hooke. Negative on failure. */
-herr_t hooke_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
-                              struct hooke_recording *recording);
+herr_t hk_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
+                           struct hk_recording *recording);
 
 /* Writes the next frame; there has to be room for it. 0, or the number of the system's error. */
-int hooke_recording_write(struct hooke_recording *recording, int64_t step, const hooke_state *state);
+int hk_recording_write(struct hk_recording *recording, int64_t step, const hooke_state *state);
 
 /* Makes the same arrays in another file, which has /hooke, for another number of frames, and what does not change with time.
- * hooke_frame_copy() copies frames, when HDF5 is done with the other file. */
-herr_t hooke_recording_copy(const struct hooke_recording *from, hid_t from_file, hid_t file,
-                            int64_t frame_count, struct hooke_recording *to, struct hooke_h5_copy *copy);
+ * hk_frame_copy() copies frames, when HDF5 is done with the other file. */
+herr_t hk_recording_copy(const struct hk_recording *from, hid_t from_file, hid_t file, int64_t frame_count,
+                         struct hk_recording *to, struct hk_h5_copy *copy);
 
 #endif

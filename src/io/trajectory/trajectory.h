@@ -11,20 +11,19 @@
  * Every frame that is kept is checked before anything is changed: HOOKE_BAD_VALUE for one that is damaged, for a file that
  * is none of hooke's, of another system or of another number of frames. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT.
  * What is asked of hooke_trajectory_create() is asked here, too. */
-int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
-                                const hooke_integrator *integrator, int64_t frames_kept,
-                                hooke_trajectory **trajectory);
+int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
+                             int64_t frames_kept, hooke_trajectory **trajectory);
 
 /* Of a trajectory that was opened so: whole frames that the file had; and taking the first `frames` of them for kept. */
-int64_t hooke_trajectory_there(const hooke_trajectory *trajectory);
-void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames);
+int64_t hk_trajectory_there(const hooke_trajectory *trajectory);
+void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames);
 
 /* The file, from the root. */
-const char *hooke_trajectory_path(const hooke_trajectory *trajectory);
+const char *hk_trajectory_path(const hooke_trajectory *trajectory);
 /* What hooke_trajectory_origin() says. */
-void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words);
+void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words);
 
 /* A run that has finished needs the checkpoint beside its trajectory no more. */
-void hooke_trajectory_drop_checkpoint(const char *path);
+void hk_trajectory_drop_checkpoint(const char *path);
 
 #endif

@@ -19,70 +19,67 @@
 
 int32_t hooke_io_own_process(void) {
   if (H5dont_atexit() >= 0) return HOOKE_OK;
-  return hooke_fail(
-      HOOKE_BAD_CALL, NULL,
-      "HDF5 is already running; hooke_io_own_process() has to be the first call of the process");
+  return hk_fail(HOOKE_BAD_CALL, NULL,
+                 "HDF5 is already running; hooke_io_own_process() has to be the first call of the process");
 }
 
 /* A thread costs more than writing a smaller frame. */
 static const int64_t LEAST_BYTES = 65536;
 
-hooke_trajectory *hooke_trajectory_new(void) {
-  hooke_trajectory *trajectory = hooke_handle_new("hooke_trajectory", sizeof *trajectory);
+hooke_trajectory *hk_trajectory_new(void) {
+  hooke_trajectory *trajectory = hk_handle_new("hooke_trajectory", sizeof *trajectory);
   if (trajectory == NULL) return NULL;
   trajectory->file = HOOKE_NO_H5_FILE;
   trajectory->recording.file.descriptor = -1;
   return trajectory;
 }
 
-void hooke_trajectory_release(hooke_trajectory *trajectory) {
-  hooke_h5_file_release(&trajectory->file);
-  hooke_handle_free(trajectory);
+void hk_trajectory_release(hooke_trajectory *trajectory) {
+  hk_h5_file_release(&trajectory->file);
+  hk_handle_free(trajectory);
 }
 
 /* Lets HDF5 go; from here on the file is bytes. */
-static int32_t settle(struct hooke_h5_guard *guard, hooke_trajectory *made) {
-  if (hooke_h5md_find_status(made->file.id, &made->status_at) < 0)
-    return hooke_h5_fail(guard, made->file.place.path, "make room for all frames");
-  const int32_t status = hooke_h5_file_settle(guard, &made->file);
+static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
+  if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
+    return hk_h5_fail(guard, made->file.place.path, "make room for all frames");
+  const int32_t status = hk_h5_file_settle(guard, &made->file);
   made->recording.file.descriptor = made->file.place.descriptor;
   return status;
 }
 
-static int32_t fill(struct hooke_h5_guard *guard, const char *path, const hooke_system *system,
+static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_system *system,
                     const hooke_integrator *integrator, const char *scene_text, hooke_trajectory *made) {
   const hooke_options *options = hooke_integrator_options(integrator);
   const int64_t frames = hooke_integrator_frame_count(integrator);
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
-  int32_t status = hooke_h5md_new_run(made->run);
+  int32_t status = hk_h5md_new_run(made->run);
   if (status == HOOKE_OK)
-    status =
-        hooke_h5_file_create_held(guard, path, text + hooke_recording_bytes(system, frames), 0, &made->file);
+    status = hk_h5_file_create_held(guard, path, text + hk_recording_bytes(system, frames), 0, &made->file);
   if (status != HOOKE_OK) return status;
-  herr_t result =
-      hooke_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
-  if (result >= 0) result = hooke_h5md_write_run(made->file.id, made->run);
-  if (result >= 0) result = hooke_h5md_write_error_room(made->file.id);
-  if (result >= 0) result = hooke_recording_create(made->file.id, system, "all", frames, &made->recording);
-  if (result >= 0) result = hooke_h5md_connect(made->file.id, system, "all");
-  if (result < 0) return hooke_h5_fail(guard, path, "make room for all frames");
+  herr_t result = hk_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
+  if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
+  if (result >= 0) result = hk_h5md_write_error_room(made->file.id);
+  if (result >= 0) result = hk_recording_create(made->file.id, system, "all", frames, &made->recording);
+  if (result >= 0) result = hk_h5md_connect(made->file.id, system, "all");
+  if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = settle(guard, made);
-  return status == HOOKE_OK ? hooke_h5_file_publish(&made->file) : status;
+  return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
 
 static int32_t create(const char *path, const hooke_system *system, const hooke_integrator *integrator,
                       const char *scene_text, hooke_trajectory **trajectory) {
-  hooke_trajectory *made = hooke_trajectory_new();
+  hooke_trajectory *made = hk_trajectory_new();
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
   int32_t status = fill(&guard, path, system, integrator, scene_text, made);
   if (status == HOOKE_OK) {
     *trajectory = made;
   } else {
-    hooke_trajectory_release(made);
+    hk_trajectory_release(made);
   }
-  hooke_h5_guard_end(&guard);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
@@ -91,27 +88,26 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                 hooke_trajectory **trajectory) {
   *trajectory = NULL;
   if (!hooke_system_is_committed(system)) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL,
-                      "the system is not committed yet; call hooke_system_commit() first");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
   }
   if (hooke_integrator_frame_count(integrator) < 1) {
-    return hooke_fail(HOOKE_BAD_VALUE, "duration",
-                      "is missing: a trajectory needs to know how many frames come");
+    return hk_fail(HOOKE_BAD_VALUE, "duration",
+                   "is missing: a trajectory needs to know how many frames come");
   }
   char *whole = NULL;
-  int32_t status = hooke_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
+  int32_t status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
   if (status == HOOKE_OK) status = create(path, system, integrator, whole ? whole : scene_text, trajectory);
-  hooke_free(whole);
+  hk_free(whole);
   return status;
 }
 
 static int32_t refuse_bad(const hooke_trajectory *trajectory) {
-  return hooke_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
+  return hk_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
 }
 
 /* The file is bad from here on. */
 static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
-  const int32_t status = hooke_place_fail(trajectory->file.place.path, what, error);
+  const int32_t status = hk_place_fail(trajectory->file.place.path, what, error);
   snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
   return status;
 }
@@ -124,20 +120,20 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   HOOKE_KEEP_ERRNO;
-  struct hooke_recording *recording = &trajectory->recording;
-  const int32_t own = hooke_place_require_own(&trajectory->file.place);
+  struct hk_recording *recording = &trajectory->recording;
+  const int32_t own = hk_place_require_own(&trajectory->file.place);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (hooke_state_size(state) != 3 * recording->file.particle_count) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
-                      (long long)hooke_state_size(state), (long long)(3 * recording->file.particle_count));
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
+                   (long long)hooke_state_size(state), (long long)(3 * recording->file.particle_count));
   }
   if (trajectory->taken == recording->frame_count) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
-                      (long long)recording->frame_count);
+    return hk_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
+                   (long long)recording->frame_count);
   }
-  const int error = trajectory->thread ? hooke_frame_thread_write(trajectory->thread, step, state)
-                                       : hooke_recording_write(recording, step, state);
+  const int error = trajectory->thread ? hk_frame_thread_write(trajectory->thread, step, state)
+                                       : hk_recording_write(recording, step, state);
   /* of the thread, that of the frame before */
   if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
   trajectory->taken++;
@@ -145,20 +141,20 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
 }
 
 int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
-  const struct hooke_recording *recording = &trajectory->recording;
+  const struct hk_recording *recording = &trajectory->recording;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (trajectory->thread || 48 * recording->file.particle_count < LEAST_BYTES) return HOOKE_OK;
-  trajectory->thread = hooke_frame_thread_create(&recording->file, recording->written);
+  trajectory->thread = hk_frame_thread_create(&recording->file, recording->written);
   return trajectory->thread
              ? HOOKE_OK
-             : hooke_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
+             : hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
 }
 
 /* Waits for the frame on its way. */
 static void end_thread(hooke_trajectory *trajectory) {
   if (trajectory->thread == NULL) return;
-  struct hooke_recording *recording = &trajectory->recording;
-  const int error = hooke_frame_thread_end(trajectory->thread, &recording->written);
+  struct hk_recording *recording = &trajectory->recording;
+  const int error = hk_frame_thread_end(trajectory->thread, &recording->written);
   trajectory->thread = NULL;
   if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, recording->written, error);
 }
@@ -169,10 +165,10 @@ const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
-  const int32_t own = hooke_place_require_own(&trajectory->file.place);
+  const int32_t own = hk_place_require_own(&trajectory->file.place);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  const int error = trajectory->thread ? hooke_frame_thread_wait(trajectory->thread) : 0;
+  const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* what a failed one did not bring to the disk a second one does not tell of */
   return fsync(trajectory->file.place.descriptor) == 0
@@ -183,92 +179,90 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
 /* ---- closing ---- */
 
 static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t frame_count,
-                         hooke_trajectory *made, struct hooke_h5_copy *copy) {
-  herr_t result = hooke_h5md_copy(old, made->file.id, copy);
+                         hooke_trajectory *made, struct hk_h5_copy *copy) {
+  herr_t result = hk_h5md_copy(old, made->file.id, copy);
   if (result >= 0)
     result =
-        hooke_recording_copy(&trajectory->recording, old, made->file.id, frame_count, &made->recording, copy);
-  return result < 0 ? result : hooke_h5md_refer(made->file.id, "all");
+        hk_recording_copy(&trajectory->recording, old, made->file.id, frame_count, &made->recording, copy);
+  return result < 0 ? result : hk_h5md_refer(made->file.id, "all");
 }
 
-static int copy_all(const hooke_trajectory *trajectory, const struct hooke_h5_copy *copy, int64_t frames,
+static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy *copy, int64_t frames,
                     int32_t outcome, const hooke_trajectory *made) {
-  int error = hooke_h5_copy_bytes(copy, trajectory->file.place.descriptor, made->file.place.descriptor);
-  if (error == 0) error = hooke_frame_copy(&trajectory->recording.file, &made->recording.file, frames);
-  return error ? error : hooke_h5md_write_status(made->file.place.descriptor, made->status_at, outcome);
+  int error = hk_h5_copy_bytes(copy, trajectory->file.place.descriptor, made->file.place.descriptor);
+  if (error == 0) error = hk_frame_copy(&trajectory->recording.file, &made->recording.file, frames);
+  return error ? error : hk_h5md_write_status(made->file.place.descriptor, made->status_at, outcome);
 }
 
-int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory,
-                                int64_t frame_count, int64_t copied, int32_t outcome,
-                                hooke_trajectory *made) {
+int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
+                             int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made) {
   const char *path = trajectory->file.place.path, *what = "make it again for another number of frames";
-  const double bytes = hooke_h5_file_bytes(&trajectory->file) -
-                       hooke_recording_bytes_after(&trajectory->recording, frame_count);
-  struct hooke_h5_copy copy = {.guard = guard};
+  const double bytes =
+      hk_h5_file_bytes(&trajectory->file) - hk_recording_bytes_after(&trajectory->recording, frame_count);
+  struct hk_h5_copy copy = {.guard = guard};
   hid_t old;
-  int32_t status = hooke_h5_file_open(guard, &trajectory->file, &old);
+  int32_t status = hk_h5_file_open(guard, &trajectory->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hooke_h5_file_create_held(guard, path, bytes, 1, &made->file);
+  status = hk_h5_file_create_held(guard, path, bytes, 1, &made->file);
   if (status == HOOKE_OK && make_again(trajectory, old, frame_count, made, &copy) < 0)
-    status = hooke_h5_fail(guard, path, what);
+    status = hk_h5_fail(guard, path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = settle(guard, made);
   const int error = status == HOOKE_OK ? copy_all(trajectory, &copy, copied, outcome, made) : 0;
-  hooke_h5_copy_release(&copy);
-  if (error) return hooke_place_fail(path, what, error);
-  return status == HOOKE_OK ? hooke_h5_file_publish(&made->file) : status;
+  hk_h5_copy_release(&copy);
+  if (error) return hk_place_fail(path, what, error);
+  return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
 
 /* A new file with exactly the frames that are there takes the place of ours. */
 static int32_t shorten(hooke_trajectory *trajectory, int64_t frames, int32_t outcome) {
-  hooke_trajectory *made = hooke_trajectory_new();
+  hooke_trajectory *made = hk_trajectory_new();
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
-  int32_t status = hooke_trajectory_remake(&guard, trajectory, frames, frames, outcome, made);
-  if (status == HOOKE_OK) status = hooke_h5_file_close(&made->file);
-  hooke_trajectory_release(made);
-  hooke_h5_guard_end(&guard);
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
+  int32_t status = hk_trajectory_remake(&guard, trajectory, frames, frames, outcome, made);
+  if (status == HOOKE_OK) status = hk_h5_file_close(&made->file);
+  hk_trajectory_release(made);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
 static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
-  const struct hooke_recording *recording = &trajectory->recording;
+  const struct hk_recording *recording = &trajectory->recording;
   const int64_t frames = recording->written > trajectory->there ? recording->written : trajectory->there;
   if (trajectory->failure[0]) {
     /* whoever finds the file may be told, too */
-    hooke_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
+    hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
   if (frames < recording->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is told when what it is of has come to the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
-  const int error = hooke_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at,
-                                            synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
+  const int error = hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at,
+                                         synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
   if (synced != HOOKE_OK) return refuse_bad(trajectory);
-  return error ? hooke_place_fail(trajectory->file.place.path, "write the outcome", error)
-               : hooke_h5_file_close(&trajectory->file);
+  return error ? hk_place_fail(trajectory->file.place.path, "write the outcome", error)
+               : hk_h5_file_close(&trajectory->file);
 }
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   HOOKE_KEEP_ERRNO;
-  int32_t status = hooke_place_require_own(&trajectory->file.place);
+  int32_t status = hk_place_require_own(&trajectory->file.place);
   if (status == HOOKE_OK) { /* a fork has no such thread, and leaves the file alone */
     end_thread(trajectory);
     status = finish(trajectory, outcome);
   }
-  if (status == HOOKE_OK && outcome == HOOKE_OK)
-    hooke_trajectory_drop_checkpoint(trajectory->file.place.path);
-  hooke_trajectory_release(trajectory);
+  if (status == HOOKE_OK && outcome == HOOKE_OK) hk_trajectory_drop_checkpoint(trajectory->file.place.path);
+  hk_trajectory_release(trajectory);
   return status;
 }
 
 #else
 
 static int32_t not_built(void) {
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "trajectories need HDF5, and this build of the library is without it");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "trajectories need HDF5, and this build of the library is without it");
 }
 
 int32_t hooke_io_own_process(void) {

@@ -9,25 +9,25 @@
 #include "io/trajectory/recording_h5.h"
 
 struct hooke_trajectory {
-  struct hooke_h5_file file;
-  struct hooke_recording recording;
-  struct hooke_frame_thread *thread; /* NULL: frames are written as they come */
-  int64_t taken;                     /* frames, the one on its way included */
-  int64_t there;                     /* whole frames that the file had when it was opened again */
-  int64_t status_at;                 /* in the file */
+  struct hk_h5_file file;
+  struct hk_recording recording;
+  struct hk_frame_thread *thread; /* NULL: frames are written as they come */
+  int64_t taken;                  /* frames, the one on its way included */
+  int64_t there;                  /* whole frames that the file had when it was opened again */
+  int64_t status_at;              /* in the file */
   char run[HOOKE_RUN_SIZE];
   char origin[512];  /* from where the run goes on; "" if it did not */
   char failure[512]; /* of the write that made the file bad; "" while it is good */
 };
 
-hooke_trajectory *hooke_trajectory_new(void);
+hooke_trajectory *hk_trajectory_new(void);
 
 /* Releases everything, and leaves the file as it is. */
-void hooke_trajectory_release(hooke_trajectory *trajectory);
+void hk_trajectory_release(hooke_trajectory *trajectory);
 
 /* Makes the same file with room for `frame_count` frames, the first `copied` of them and this outcome in it, and gives it
  * the name of the old one. `made` is new. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
-int32_t hooke_trajectory_remake(struct hooke_h5_guard *guard, const hooke_trajectory *trajectory,
-                                int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
+int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
+                             int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
 
 #endif

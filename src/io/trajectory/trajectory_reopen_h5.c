@@ -20,49 +20,48 @@
 /* ---- what is there ---- */
 
 static int32_t refuse(const hooke_trajectory *old, const char *what) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.place.path, what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.place.path, what);
 }
 
 /* Without memory HDF5 does not see what is there. */
-static int32_t refuse_seen(const struct hooke_h5_guard *guard, const hooke_trajectory *old,
-                           const char *what) {
-  return guard->no_memory ? hooke_h5_fail(guard, old->file.place.path, "look at what it has")
+static int32_t refuse_seen(const struct hk_h5_guard *guard, const hooke_trajectory *old, const char *what) {
+  return guard->no_memory ? hk_h5_fail(guard, old->file.place.path, "look at what it has")
                           : refuse(old, what);
 }
 
 /* One block of bytes of the type, within the file. */
-static int is_plain(const struct hooke_dataset *data, hid_t type, double file_bytes) {
+static int is_plain(const struct hk_dataset *data, hid_t type, double file_bytes) {
   hid_t own = H5Dget_type(data->id), list = H5Dget_create_plist(data->id);
   const haddr_t at = H5Dget_offset(data->id);
   const double bytes = (double)H5Dget_storage_size(data->id);
   const int inside = bytes == 0.0 || (at != HADDR_UNDEF && (double)at + bytes <= file_bytes);
   const int plain =
       inside && own >= 0 && list >= 0 && H5Tequal(own, type) > 0 && H5Pget_layout(list) == H5D_CONTIGUOUS;
-  hooke_h5_drop(list);
-  hooke_h5_drop(own);
+  hk_h5_drop(list);
+  hk_h5_drop(own);
   return plain;
 }
 
-static int is_of_size(const struct hooke_dataset *data, int array, int64_t frames, int64_t particles) {
-  const int64_t numbers = hooke_frame_numbers(particles, array);
+static int is_of_size(const struct hk_dataset *data, int array, int64_t frames, int64_t particles) {
+  const int64_t numbers = hk_frame_numbers(particles, array);
   if (data->size[0] != (hsize_t)frames) return 0;
   if (array == HOOKE_FRAME_POSITION || array == HOOKE_FRAME_VELOCITY)
     return data->rank == 3 && data->size[1] == (hsize_t)particles && data->size[2] == 3;
   return numbers == 1 ? data->rank == 1 : data->rank == 2 && data->size[1] == (hsize_t)numbers;
 }
 
-static int32_t find_array(struct hooke_h5_guard *guard, hid_t file, hooke_trajectory *old, int array) {
+static int32_t find_array(struct hk_h5_guard *guard, hid_t file, hooke_trajectory *old, int array) {
   char name[HOOKE_RECORDING_PATH], what[HOOKE_RECORDING_PATH + 64];
-  struct hooke_dataset data;
-  struct hooke_recording *recording = &old->recording;
+  struct hk_dataset data;
+  struct hk_recording *recording = &old->recording;
   hid_t type = array == HOOKE_FRAME_STEP    ? H5T_NATIVE_INT64
                : array == HOOKE_FRAME_CHECK ? H5T_NATIVE_UINT32
                                             : H5T_NATIVE_DOUBLE;
-  hooke_recording_path("all", array, name);
-  int32_t status = hooke_dataset_find(guard, file, old->file.place.path, name, &data);
+  hk_recording_path("all", array, name);
+  int32_t status = hk_dataset_find(guard, file, old->file.place.path, name, &data);
   if (status == HOOKE_OK) {
     if (array == 0 && data.id >= 0) recording->frame_count = (int64_t)data.size[0];
-    const int fits = data.id >= 0 && is_plain(&data, type, hooke_h5_file_bytes(&old->file)) &&
+    const int fits = data.id >= 0 && is_plain(&data, type, hk_h5_file_bytes(&old->file)) &&
                      is_of_size(&data, array, recording->frame_count, recording->file.particle_count);
     snprintf(what, sizeof what, "%s is not there as a run of this system makes it", name);
     if (fits)
@@ -70,32 +69,32 @@ static int32_t find_array(struct hooke_h5_guard *guard, hid_t file, hooke_trajec
     else
       status = refuse_seen(guard, old, what);
   }
-  hooke_h5_drop(data.id);
+  hk_h5_drop(data.id);
   return status;
 }
 
-static int32_t find_springs(struct hooke_h5_guard *guard, hid_t file, const hooke_trajectory *old) {
-  struct hooke_dataset data;
-  int32_t status = hooke_dataset_find(guard, file, old->file.place.path, "/connectivity/springs", &data);
+static int32_t find_springs(struct hk_h5_guard *guard, hid_t file, const hooke_trajectory *old) {
+  struct hk_dataset data;
+  int32_t status = hk_dataset_find(guard, file, old->file.place.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
       (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->recording.system)))
     status = refuse_seen(guard, old, "its springs are not those of this system");
-  hooke_h5_drop(data.id);
+  hk_h5_drop(data.id);
   return status;
 }
 
-static int32_t find_all(struct hooke_h5_guard *guard, hid_t file, hooke_trajectory *old) {
+static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory *old) {
   int32_t status = HOOKE_OK;
   for (int k = 0; status == HOOKE_OK && k < HOOKE_FRAME_ARRAY_COUNT; k++)
     status = find_array(guard, file, old, k);
   if (status == HOOKE_OK) status = find_springs(guard, file, old);
-  if (status == HOOKE_OK && hooke_h5md_find_status(file, &old->status_at) < 0)
+  if (status == HOOKE_OK && hk_h5md_find_status(file, &old->status_at) < 0)
     status = refuse_seen(guard, old, "it is no trajectory of hooke");
   return status;
 }
 
 /* The run that it is of, and the places of everything. */
-static int32_t read_description(struct hooke_h5_guard *guard, hooke_trajectory *old) {
+static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old) {
   hooke_record *record;
   hid_t file;
   int32_t status = hooke_record_open(old->file.place.path, &record);
@@ -103,7 +102,7 @@ static int32_t read_description(struct hooke_h5_guard *guard, hooke_trajectory *
   if (status == HOOKE_OK && strcmp(hooke_record_text(record, "status"), "finished") == 0)
     status = refuse(old, "another run has just finished it");
   hooke_record_close(record);
-  if (status == HOOKE_OK) status = hooke_h5_file_open(guard, &old->file, &file);
+  if (status == HOOKE_OK) status = hk_h5_file_open(guard, &old->file, &file);
   if (status != HOOKE_OK) return status;
   status = find_all(guard, file, old);
   H5Fclose(file);
@@ -117,23 +116,22 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
   int32_t whole = 1;
   if (frames < frames_kept) return refuse(old, "it has fewer frames than the run had written");
   while (whole && old->there < frames) {
-    const int error = hooke_frame_look(&old->recording.file, old->there, &whole);
-    if (error) return hooke_place_fail(old->file.place.path, "read its frames", error);
+    const int error = hk_frame_look(&old->recording.file, old->there, &whole);
+    if (error) return hk_place_fail(old->file.place.path, "read its frames", error);
     old->there += whole;
   }
   if (old->there >= frames_kept) return HOOKE_OK;
-  return hooke_fail(
-      HOOKE_BAD_VALUE, NULL,
-      "frame %lld of %s is damaged or not there, and the run had written %lld; it cannot go on in "
-      "this file",
-      (long long)old->there, old->file.place.path, (long long)frames_kept);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "frame %lld of %s is damaged or not there, and the run had written %lld; it cannot go on in "
+                 "this file",
+                 (long long)old->there, old->file.place.path, (long long)frames_kept);
 }
 
 /* ---- going on ---- */
 
 static int32_t begin(const char *path, const hooke_system *system, hooke_trajectory *old) {
-  struct hooke_recording *recording = &old->recording;
-  const int32_t status = hooke_place_hold(path, &old->file.place);
+  struct hk_recording *recording = &old->recording;
+  const int32_t status = hk_place_hold(path, &old->file.place);
   if (status != HOOKE_OK) return status;
   recording->system = recording->file.system = system;
   snprintf(recording->group, sizeof recording->group, "all");
@@ -143,11 +141,11 @@ static int32_t begin(const char *path, const hooke_system *system, hooke_traject
 }
 
 static int32_t set_running(hooke_trajectory *old) {
-  const int error = hooke_h5md_write_status(old->file.place.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
-  return error ? hooke_place_fail(old->file.place.path, "write that it is running again", error) : HOOKE_OK;
+  const int error = hk_h5md_write_status(old->file.place.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
+  return error ? hk_place_fail(old->file.place.path, "write that it is running again", error) : HOOKE_OK;
 }
 
-static int32_t go_on(struct hooke_h5_guard *guard, hooke_trajectory **trajectory, int64_t planned,
+static int32_t go_on(struct hk_h5_guard *guard, hooke_trajectory **trajectory, int64_t planned,
                      int64_t frames_kept) {
   hooke_trajectory *old = *trajectory;
   const int64_t frames = old->recording.frame_count;
@@ -156,26 +154,25 @@ static int32_t go_on(struct hooke_h5_guard *guard, hooke_trajectory **trajectory
   if (frames == planned) {
     status = set_running(old);
   } else {
-    hooke_trajectory *made = hooke_trajectory_new();
+    hooke_trajectory *made = hk_trajectory_new();
     if (made == NULL) return HOOKE_NO_MEMORY;
-    status = hooke_trajectory_remake(guard, old, planned, old->there, HOOKE_H5MD_RUNNING, made);
+    status = hk_trajectory_remake(guard, old, planned, old->there, HOOKE_H5MD_RUNNING, made);
     memcpy(made->run, old->run, sizeof made->run);
     made->there = old->there;
     *trajectory = made;
-    hooke_trajectory_release(old);
+    hk_trajectory_release(old);
   }
-  hooke_trajectory_keep(*trajectory, frames_kept);
+  hk_trajectory_keep(*trajectory, frames_kept);
   return status;
 }
 
-int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
-                                const hooke_integrator *integrator, int64_t frames_kept,
-                                hooke_trajectory **trajectory) {
+int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
+                             int64_t frames_kept, hooke_trajectory **trajectory) {
   *trajectory = NULL;
-  hooke_trajectory *made = hooke_trajectory_new();
+  hooke_trajectory *made = hk_trajectory_new();
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hooke_h5_guard guard;
-  hooke_h5_guard_begin(&guard);
+  struct hk_h5_guard guard;
+  hk_h5_guard_begin(&guard);
   int32_t status = begin(path, system, made);
   if (status == HOOKE_OK) status = read_description(&guard, made);
   if (status == HOOKE_OK) status = look(made, frames_kept);
@@ -184,24 +181,24 @@ int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
   if (status == HOOKE_OK)
     *trajectory = made;
   else
-    hooke_trajectory_release(made);
-  hooke_h5_guard_end(&guard);
+    hk_trajectory_release(made);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
-int64_t hooke_trajectory_there(const hooke_trajectory *trajectory) {
+int64_t hk_trajectory_there(const hooke_trajectory *trajectory) {
   return trajectory->there;
 }
 
-void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
+void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
   trajectory->recording.written = trajectory->taken = frames;
 }
 
-const char *hooke_trajectory_path(const hooke_trajectory *trajectory) {
+const char *hk_trajectory_path(const hooke_trajectory *trajectory) {
   return trajectory->file.place.path;
 }
 
-void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
+void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
   snprintf(trajectory->origin, sizeof trajectory->origin, "%s", words);
 }
 
@@ -211,30 +208,29 @@ const char *hooke_trajectory_origin(const hooke_trajectory *trajectory) {
 
 #else
 
-int32_t hooke_trajectory_reopen(const char *path, const hooke_system *system,
-                                const hooke_integrator *integrator, int64_t frames_kept,
-                                hooke_trajectory **trajectory) {
+int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
+                             int64_t frames_kept, hooke_trajectory **trajectory) {
   (void)path, (void)system, (void)integrator, (void)frames_kept;
   *trajectory = NULL;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                    "trajectories need HDF5, and this build of the library is without it");
+  return hk_fail(HOOKE_NOT_BUILT, NULL,
+                 "trajectories need HDF5, and this build of the library is without it");
 }
 
-int64_t hooke_trajectory_there(const hooke_trajectory *trajectory) {
+int64_t hk_trajectory_there(const hooke_trajectory *trajectory) {
   (void)trajectory;
   return 0;
 }
 
-void hooke_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
+void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
   (void)trajectory, (void)frames;
 }
 
-const char *hooke_trajectory_path(const hooke_trajectory *trajectory) {
+const char *hk_trajectory_path(const hooke_trajectory *trajectory) {
   (void)trajectory;
   return "";
 }
 
-void hooke_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
+void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
   (void)trajectory, (void)words;
 }
 

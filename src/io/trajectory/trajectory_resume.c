@@ -21,17 +21,17 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
                                     const hooke_state *state) {
   char *path = NULL;
   int32_t status = hooke_trajectory_sync(trajectory);
-  if (status == HOOKE_OK) status = hooke_place_beside(hooke_trajectory_path(trajectory), ENDING, &path);
+  if (status == HOOKE_OK) status = hk_place_beside(hk_trajectory_path(trajectory), ENDING, &path);
   if (status == HOOKE_OK)
     status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_run(trajectory));
-  hooke_free(path);
+  hk_free(path);
   return status;
 }
 
-void hooke_trajectory_drop_checkpoint(const char *path) {
+void hk_trajectory_drop_checkpoint(const char *path) {
   char *checkpoint = NULL;
-  if (hooke_place_beside(path, ENDING, &checkpoint) == HOOKE_OK) hooke_checkpoint_remove(checkpoint);
-  hooke_free(checkpoint);
+  if (hk_place_beside(path, ENDING, &checkpoint) == HOOKE_OK) hk_checkpoint_remove(checkpoint);
+  hk_free(checkpoint);
 }
 
 /* What is known on the way. */
@@ -49,7 +49,7 @@ struct going {
 /* ---- whether the file is of this run ---- */
 
 static int32_t refuse(const struct going *going, const char *what) {
-  return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run with other %s", going->path, what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run with other %s", going->path, what);
 }
 
 /* An array of the file against the system's own, number by number. */
@@ -58,30 +58,30 @@ static int32_t check_array(const struct going *going, const char *what, int64_t 
   const int32_t status = hooke_record_size(going->record, what, &rows, &columns);
   if (status != HOOKE_OK) return status;
   if (rows * columns != count) return refuse(going, what);
-  double *there = hooke_new(count, sizeof(double));
+  double *there = hk_new(count, sizeof(double));
   if (there == NULL) return HOOKE_NO_MEMORY;
   int32_t read = hooke_record_numbers(going->record, what, there);
   if (read == HOOKE_OK && memcmp(there, own, (size_t)count * sizeof(double)) != 0) read = refuse(going, what);
-  hooke_free(there);
+  hk_free(there);
   return read;
 }
 
 static int32_t check_springs(const struct going *going) {
   const int64_t count = 2 * hooke_system_spring_count(going->system);
-  int64_t *ends = hooke_new(count, sizeof *ends);
-  double *numbers = hooke_new(count, sizeof *numbers);
+  int64_t *ends = hk_new(count, sizeof *ends);
+  double *numbers = hk_new(count, sizeof *numbers);
   int32_t status = ends && numbers ? hooke_system_spring_ends(going->system, ends) : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     numbers[k] = (double)ends[k];
   if (status == HOOKE_OK && count > 0) status = check_array(going, "springs", count, numbers);
-  hooke_free(numbers);
-  hooke_free(ends);
+  hk_free(numbers);
+  hk_free(ends);
   return status;
 }
 
 static int32_t check_fit(const struct going *going) {
-  if (hooke_checkpoint_options(hooke_record_options(going->record)) !=
-      hooke_checkpoint_options(hooke_integrator_options(going->integrator)))
+  if (hk_checkpoint_options(hooke_record_options(going->record)) !=
+      hk_checkpoint_options(hooke_integrator_options(going->integrator)))
     return refuse(going, "options; only threads may be changed");
   const int32_t status =
       check_array(going, "mass", going->system->particle_count, hooke_system_mass(going->system));
@@ -101,14 +101,14 @@ static int32_t follow(const struct going *going, int64_t frames) {
     const int there =
         descriptor >= 0 && pread(descriptor, going->state->q, (size_t)bytes, place + k * bytes) == bytes;
     if (!there) status = hooke_record_read(going->record, k, going->state);
-    if (status == HOOKE_OK) hooke_divergence_follow(it, going->state);
+    if (status == HOOKE_OK) hk_divergence_follow(it, going->state);
   }
   if (descriptor >= 0) close(descriptor);
   return status;
 }
 
 static int32_t stand_at_start(struct going *going) {
-  const int32_t status = hooke_run_begin(going->integrator, going->state);
+  const int32_t status = hk_run_begin(going->integrator, going->state);
   going->integrator->placed = status == HOOKE_OK;
   return status;
 }
@@ -116,25 +116,24 @@ static int32_t stand_at_start(struct going *going) {
 static int32_t stand_at_frame(struct going *going, int64_t frame) {
   hooke_integrator *it = going->integrator;
   int32_t status = hooke_state_copy(going->first, going->state);
-  if (status == HOOKE_OK) status = hooke_run_begin(it, going->state);
+  if (status == HOOKE_OK) status = hk_run_begin(it, going->state);
   if (status == HOOKE_OK && going->system->has_gravity) status = follow(going, frame + 1);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, frame, going->state);
-  return status == HOOKE_OK ? hooke_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
+  return status == HOOKE_OK ? hk_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
 }
 
 /* `why`: what became of the checkpoint. */
 static int32_t go_on_at_frame(struct going *going, const char *why) {
   const int32_t adaptive = going->integrator->method->adaptive;
-  int32_t status =
-      hooke_trajectory_reopen(going->path, going->system, going->integrator, 0, &going->trajectory);
+  int32_t status = hk_trajectory_reopen(going->path, going->system, going->integrator, 0, &going->trajectory);
   if (status != HOOKE_OK) return status;
-  const int64_t there = going->first ? hooke_trajectory_there(going->trajectory) : 0;
+  const int64_t there = going->first ? hk_trajectory_there(going->trajectory) : 0;
   const int64_t frames = adaptive && there > 1 ? 1 : there;
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
-  hooke_trajectory_keep(going->trajectory, frames);
-  hooke_print(going->origin, sizeof going->origin, "%s at t = %.6g s: %s",
-              frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
+  hk_trajectory_keep(going->trajectory, frames);
+  hk_print(going->origin, sizeof going->origin, "%s at t = %.6g s: %s",
+           frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
 
@@ -142,19 +141,19 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
 
 static int32_t go_on(struct going *going, const char *checkpoint) {
   char why[400];
-  enum hooke_checkpoint_finding finding;
-  int32_t status = hooke_checkpoint_take(checkpoint, hooke_record_text(going->record, "run"),
-                                         going->integrator, going->state, &finding);
+  enum hk_checkpoint_finding finding;
+  int32_t status = hk_checkpoint_take(checkpoint, hooke_record_text(going->record, "run"), going->integrator,
+                                      going->state, &finding);
   if (status != HOOKE_OK && (finding == HOOKE_CHECKPOINT_OTHER || status == HOOKE_NO_MEMORY)) return status;
   if (status == HOOKE_OK) {
-    status = hooke_trajectory_reopen(going->path, going->system, going->integrator, going->integrator->frames,
-                                     &going->trajectory);
+    status = hk_trajectory_reopen(going->path, going->system, going->integrator, going->integrator->frames,
+                                  &going->trajectory);
     if (status == HOOKE_OK) {
-      hooke_recent_set_first(&going->integrator->recent, going->first);
-      hooke_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
+      hk_recent_set_first(&going->integrator->recent, going->first);
+      hk_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
-    going->integrator->count = (struct hooke_counts){0}; /* those of the checkpoint are of another place */
+    going->integrator->count = (struct hk_counts){0}; /* those of the checkpoint are of another place */
     going->integrator->wall_seconds = 0.0;
   }
   if (status != HOOKE_OK && finding == HOOKE_CHECKPOINT_ABSENT)
@@ -168,7 +167,7 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
 
 static int32_t read_first(struct going *going) {
   if (hooke_record_frame_count(going->record) == 0) return HOOKE_OK;
-  int32_t status = hooke_state_create_sized(going->integrator->size, 1, &going->first);
+  int32_t status = hk_state_create_sized(going->integrator->size, 1, &going->first);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, 0, going->first);
   if (status != HOOKE_BAD_VALUE) return status;
   hooke_state_destroy(going->first); /* it is damaged, and will be written again */
@@ -180,11 +179,11 @@ static int32_t resume(struct going *going) {
   char *place = NULL, *checkpoint = NULL;
   int32_t status = check_fit(going);
   if (status == HOOKE_OK) status = read_first(going);
-  if (status == HOOKE_OK) status = hooke_place_find(going->path, &place);
-  if (status == HOOKE_OK) status = hooke_place_beside(place, ENDING, &checkpoint);
+  if (status == HOOKE_OK) status = hk_place_find(going->path, &place);
+  if (status == HOOKE_OK) status = hk_place_beside(place, ENDING, &checkpoint);
   if (status == HOOKE_OK) status = go_on(going, checkpoint);
-  hooke_free(checkpoint);
-  hooke_free(place);
+  hk_free(checkpoint);
+  hk_free(place);
   return status;
 }
 
@@ -193,29 +192,29 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   HOOKE_KEEP_ERRNO;
   *trajectory = NULL;
   if (integrator->system != system)
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the integrator is not one of this system");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the integrator is not one of this system");
   struct going going = {.path = path, .system = system, .integrator = integrator};
-  int32_t status = hooke_state_check(state, system);
-  if (status == HOOKE_OK) status = hooke_run_check_duration(integrator);
+  int32_t status = hk_state_check(state, system);
+  if (status == HOOKE_OK) status = hk_run_check_duration(integrator);
   if (status == HOOKE_OK) status = hooke_record_open(path, &going.record);
   if (status != HOOKE_OK) return status;
-  status = hooke_record_require_run(going.record);
+  status = hk_record_require_run(going.record);
   if (status != HOOKE_OK || strcmp(hooke_record_text(going.record, "status"), "finished") == 0) {
     hooke_record_close(going.record);
     return status;
   }
-  status = hooke_state_create_sized(state->size, 1, &going.state);
+  status = hk_state_create_sized(state->size, 1, &going.state);
   if (status == HOOKE_OK) status = hooke_state_copy(state, going.state);
   if (status == HOOKE_OK) status = resume(&going);
   if (status == HOOKE_OK) {
     hooke_state_copy(going.state, state);
-    hooke_trajectory_set_origin(going.trajectory, going.origin);
+    hk_trajectory_set_origin(going.trajectory, going.origin);
     *trajectory = going.trajectory;
   } else if (going.trajectory) {
     char message[512];
     snprintf(message, sizeof message, "%s", hooke_last_error());
     hooke_trajectory_close(going.trajectory, HOOKE_STOPPED);
-    hooke_fail(status, NULL, "%s", message);
+    hk_fail(status, NULL, "%s", message);
   }
   hooke_state_destroy(going.first);
   hooke_state_destroy(going.state);

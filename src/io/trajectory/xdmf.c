@@ -25,18 +25,18 @@ struct companion {
   double *time;
   long long particles, springs, planned; /* frames that there is room for */
   int32_t has_rest_length;
-  struct hooke_text text;
+  struct hk_text text;
 };
 
-static void add(struct hooke_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void add(struct hk_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-static void add(struct hooke_text *text, const char *format, ...) {
+static void add(struct hk_text *text, const char *format, ...) {
   char piece[512];
   va_list args;
   va_start(args, format);
-  const int length = hooke_print_list(piece, sizeof piece, format, args);
+  const int length = hk_print_list(piece, sizeof piece, format, args);
   va_end(args);
-  hooke_text_add(text, piece, length < (int)sizeof piece ? length : (int)sizeof piece - 1);
+  hk_text_add(text, piece, length < (int)sizeof piece ? length : (int)sizeof piece - 1);
 }
 
 /* ---- elements ---- */
@@ -45,7 +45,7 @@ static void add(struct hooke_text *text, const char *format, ...) {
 static void add_array(struct companion *c, const char *type, int bytes, const char *size, const char *path) {
   add(&c->text, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%s\">", type, bytes,
       size);
-  hooke_text_add(&c->text, c->file, (int64_t)strlen(c->file));
+  hk_text_add(&c->text, c->file, (int64_t)strlen(c->file));
   add(&c->text, ":%s</DataItem>", path);
 }
 
@@ -86,7 +86,7 @@ static void add_topology(struct companion *c) {
 
 static void add_frame(struct companion *c, int64_t frame) {
   char time[HOOKE_NUMBER_SIZE];
-  hooke_number_print(c->time[frame], time);
+  hk_number_print(c->time[frame], time);
   add(&c->text, "<Grid Name=\"springs\">\n  <Time Value=\"%s\"/>\n", time);
   add_topology(c);
   add(&c->text, "  <Geometry GeometryType=\"XYZ\">");
@@ -115,7 +115,7 @@ static void add_all(struct companion *c) {
 static char *quote(const char *name) {
   static const char special[] = "&<>\"'";
   const size_t longest = 6; /* &quot; */
-  char *quoted = hooke_new((int64_t)(longest * strlen(name)) + 1, 1), *at = quoted;
+  char *quoted = hk_new((int64_t)(longest * strlen(name)) + 1, 1), *at = quoted;
   for (; quoted && *name; name++) {
     if (strchr(special, *name))
       at += snprintf(at, longest + 1, "&#%d;", *name);
@@ -131,21 +131,21 @@ static int32_t check_name(const char *name) {
   for (const char *at = name; *at; at++)
     fits = fits && *at >= ' ' && *at <= '~' && *at != ':';
   return fits ? HOOKE_OK
-              : hooke_fail(HOOKE_BAD_VALUE, NULL,
-                           "ParaView's reader of XDMF cannot take the name of this trajectory; allowed: "
-                           "ASCII without colons");
+              : hk_fail(HOOKE_BAD_VALUE, NULL,
+                        "ParaView's reader of XDMF cannot take the name of this trajectory; allowed: "
+                        "ASCII without colons");
 }
 
 /* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else from the root. */
 static int32_t find_name(struct companion *c, const char *path) {
   HOOKE_KEEP_ERRNO;
-  const char *there = hooke_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');
+  const char *there = hk_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');
   const int64_t folder = slash ? slash - there : -1;
   char *real = NULL;
   const char *name = slash ? slash + 1 : there;
   if (folder != (own ? own - path : -1) || (slash && strncmp(there, path, (size_t)folder) != 0)) {
     real = realpath(there, NULL);
-    if (real == NULL) return hooke_place_fail(there, "follow the path", errno);
+    if (real == NULL) return hk_place_fail(there, "follow the path", errno);
     name = real;
   }
   int32_t status = check_name(name);
@@ -164,12 +164,12 @@ static int32_t name_beside(const char *there, char **name) {
     const size_t ending = strlen(endings[k]);
     if (length > ending && strcmp(there + length - ending, endings[k]) == 0) stem = length - ending;
   }
-  char *begin = hooke_copy_text(there);
+  char *begin = hk_copy_text(there);
   *name = NULL;
   if (begin == NULL) return HOOKE_NO_MEMORY;
   begin[stem] = '\0';
-  const int32_t status = hooke_place_beside(begin, ".xdmf", name);
-  hooke_free(begin);
+  const int32_t status = hk_place_beside(begin, ".xdmf", name);
+  hk_free(begin);
   return status;
 }
 
@@ -178,15 +178,15 @@ static int32_t check_replaced(const char *path) {
   static const char head[] = "<?xml";
   char begin[sizeof head] = {0};
   const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hooke_place_fail(path, "look what is there", errno);
+  if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_place_fail(path, "look what is there", errno);
   const ssize_t got = read(descriptor, begin, sizeof head - 1);
   const int error = errno;
   close(descriptor);
-  if (got < 0) return hooke_place_fail(path, "look what is there", error);
+  if (got < 0) return hk_place_fail(path, "look what is there", error);
   return got == 0 || strcmp(begin, head) == 0
              ? HOOKE_OK
-             : hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is there already and is no XDMF; it is left as it is",
-                          path);
+             : hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is there already and is no XDMF; it is left as it is",
+                       path);
 }
 
 /* ---- the whole ---- */
@@ -194,20 +194,20 @@ static int32_t check_replaced(const char *path) {
 static int32_t read_size(const char *path, const char *dataset, long long *rows) {
   double *values = NULL;
   int64_t high = 0, wide = 0;
-  const int32_t status = hooke_array_read(path, dataset, 0, 0, &values, &high, &wide);
-  hooke_free(values);
+  const int32_t status = hk_array_read(path, dataset, 0, 0, &values, &high, &wide);
+  hk_free(values);
   *rows = high;
   return status;
 }
 
 static int32_t read_sizes(struct companion *c) {
-  const char *path = hooke_record_path(c->record);
+  const char *path = hk_record_path(c->record);
   int64_t planned = 0, wide = 0;
   long long lengths;
-  int32_t status = hooke_array_read(path, "/particles/all/position/time", 0, 0, &c->time, &planned, &wide);
+  int32_t status = hk_array_read(path, "/particles/all/position/time", 0, 0, &c->time, &planned, &wide);
   c->planned = planned;
   if (status == HOOKE_OK && planned < hooke_record_frame_count(c->record))
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
+    status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
   if (status == HOOKE_OK) status = read_size(path, "/particles/all/mass", &c->particles);
   if (status == HOOKE_OK) status = read_size(path, "/connectivity/springs", &c->springs);
   if (status != HOOKE_OK) return status;
@@ -217,11 +217,11 @@ static int32_t read_sizes(struct companion *c) {
 }
 
 int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
-  const char *there = hooke_record_path(record);
+  const char *there = hk_record_path(record);
   struct companion c = {.record = record};
-  if (there == NULL) return hooke_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
+  if (there == NULL) return hk_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
   if (hooke_record_frame_count(record) == 0)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
   char *beside = NULL;
   int32_t status = path ? HOOKE_OK : name_beside(there, &beside);
   const char *name = path ? path : beside;
@@ -232,10 +232,10 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
     add_all(&c);
     status = c.text.status;
   }
-  if (status == HOOKE_OK) status = hooke_place_write(name, c.text.bytes, c.text.length);
-  hooke_text_release(&c.text);
-  hooke_free(c.time);
-  hooke_free(c.file);
-  hooke_free(beside);
+  if (status == HOOKE_OK) status = hk_place_write(name, c.text.bytes, c.text.length);
+  hk_text_release(&c.text);
+  hk_free(c.time);
+  hk_free(c.file);
+  hk_free(beside);
   return status;
 }

@@ -20,10 +20,10 @@
 enum { MOST_REFINED = 4 };
 static const double RESOLVED = 0.25, ESTIMATES = 4.0;
 
-const char *const hooke_verify_facts[HOOKE_FACT_COUNT] = {"version", "sundials", "cholmod", "instructions",
-                                                          "machine"};
+const char *const hk_verify_facts[HOOKE_FACT_COUNT] = {"version", "sundials", "cholmod", "instructions",
+                                                       "machine"};
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     {.name = "slice",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "s",
@@ -46,10 +46,10 @@ static const struct hooke_option_row rows[] = {
      .doc = "compare the bits alone, without balance of energy and estimate of the error"},
 };
 
-static const struct hooke_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_verify_options_create(hooke_options **options) {
-  return hooke_options_create(&table, options);
+  return hk_options_create(&table, options);
 }
 
 /* ---- making ---- */
@@ -66,7 +66,7 @@ static int32_t find_slice(struct hooke_verify *verify) {
   verify->from = verify->by_budget ? last / 2 : 0;
   verify->to = last;
   int32_t status = hooke_record_size(verify->record, "time", &rows_there, &columns);
-  double *time = status == HOOKE_OK ? hooke_new(rows_there, sizeof(double)) : NULL;
+  double *time = status == HOOKE_OK ? hk_new(rows_there, sizeof(double)) : NULL;
   if (status == HOOKE_OK && time == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_record_numbers(verify->record, "time", time);
   while (status == HOOKE_OK && slice && verify->from < last && time[verify->from + 1] <= slice[0])
@@ -74,10 +74,10 @@ static int32_t find_slice(struct hooke_verify *verify) {
   while (status == HOOKE_OK && slice && verify->to > 0 && time[verify->to - 1] >= slice[1])
     verify->to--;
   if (status == HOOKE_OK && verify->from >= verify->to && last > 0)
-    status = hooke_fail(HOOKE_BAD_VALUE, "slice",
-                        "no two frames are around %g to %g s; allowed: times from %g to %g s, ascending",
-                        slice ? slice[0] : 0.0, slice ? slice[1] : 0.0, time[0], time[last]);
-  hooke_free(time);
+    status = hk_fail(HOOKE_BAD_VALUE, "slice",
+                     "no two frames are around %g to %g s; allowed: times from %g to %g s, ascending",
+                     slice ? slice[0] : 0.0, slice ? slice[1] : 0.0, time[0], time[last]);
+  hk_free(time);
   if (!verify->fixed) verify->from = 0;
   return status;
 }
@@ -87,8 +87,8 @@ static int32_t find_makers(const struct hooke_verify *verify) {
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   if (verify->fixed && strcmp(method, "backward-euler") != 0) return 0;
   for (int k = 1; k < HOOKE_FACT_COUNT; k++) {
-    if (strcmp(hooke_record_text(verify->record, hooke_verify_facts[k]),
-               hooke_build_fact(hooke_verify_facts[k])) != 0)
+    if (strcmp(hooke_record_text(verify->record, hk_verify_facts[k]), hooke_build_fact(hk_verify_facts[k])) !=
+        0)
       return 1;
   }
   return 0;
@@ -96,10 +96,10 @@ static int32_t find_makers(const struct hooke_verify *verify) {
 
 static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
   int32_t status = hooke_record_open(verify->path, &verify->record);
-  if (status == HOOKE_OK) status = hooke_record_require_run(verify->record);
+  if (status == HOOKE_OK) status = hk_record_require_run(verify->record);
   if (status == HOOKE_OK && hooke_record_frame_count(verify->record) == 0)
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run",
-                        verify->path);
+    status =
+        hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run", verify->path);
   if (status == HOOKE_OK) status = hooke_scene_load_within(verify->path, limits, &verify->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(verify->scene);
   if (status != HOOKE_OK) return status;
@@ -107,7 +107,7 @@ static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
   const char *text = hooke_record_text(verify->record, "scene");
   verify->system = hooke_scene_system(verify->scene);
   verify->fixed = hooke_method_is_adaptive(method) == 0;
-  verify->check_scene = (double)hooke_crc32(0, text, (int64_t)strlen(text));
+  verify->check_scene = (double)hk_crc32(0, text, (int64_t)strlen(text));
   verify->may_differ = find_makers(verify);
   status = hooke_state_create(verify->system, &verify->first);
   return status == HOOKE_OK ? find_slice(verify) : status;
@@ -116,10 +116,10 @@ static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
 int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
                             hooke_verify **out) {
   *out = NULL;
-  struct hooke_verify *verify = hooke_handle_new("hooke_verify", sizeof *verify);
+  struct hooke_verify *verify = hk_handle_new("hooke_verify", sizeof *verify);
   if (verify == NULL) return HOOKE_NO_MEMORY;
   verify->balance = "not-checked";
-  verify->path = hooke_copy_text(path);
+  verify->path = hk_copy_text(path);
   int32_t status = verify->path ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
     status = options ? hooke_options_copy(options, &verify->options)
@@ -138,8 +138,8 @@ void hooke_verify_destroy(hooke_verify *verify) {
   hooke_scene_destroy(verify->scene);
   hooke_record_close(verify->record);
   hooke_options_destroy(verify->options);
-  hooke_free(verify->path);
-  hooke_handle_free(verify);
+  hk_free(verify->path);
+  hk_handle_free(verify);
 }
 
 void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, void *ctx) {
@@ -147,9 +147,9 @@ void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, vo
   verify->progress_ctx = ctx;
 }
 
-int32_t hooke_verify_tell(const struct hooke_verify *verify, double done, const char *what) {
+int32_t hk_verify_tell(const struct hooke_verify *verify, double done, const char *what) {
   if (verify->progress == NULL || verify->progress(done, what, verify->progress_ctx) == 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
 /* ---- running ---- */
@@ -160,14 +160,14 @@ static int32_t check_frames(struct hooke_verify *verify) {
   for (verify->checked = 0; verify->checked < count && status == HOOKE_OK; verify->checked++) {
     status = hooke_record_check(verify->record, verify->checked);
     if (status == HOOKE_OK)
-      status = hooke_verify_tell(verify, (double)verify->checked / (double)count, "check values");
+      status = hk_verify_tell(verify, (double)verify->checked / (double)count, "check values");
     if (status != HOOKE_OK) break;
   }
   return status;
 }
 
-static void keep(struct hooke_verify *verify, const struct hooke_verify_pass *pass) {
-  const struct hooke_balance *balance = &pass->balance;
+static void keep(struct hooke_verify *verify, const struct hk_verify_pass *pass) {
+  const struct hk_balance *balance = &pass->balance;
   verify->steps = pass->steps;
   verify->work = balance->work;
   verify->heat = balance->heat;
@@ -176,27 +176,27 @@ static void keep(struct hooke_verify *verify, const struct hooke_verify_pass *pa
 }
 
 /* Whether the step of a pass is short enough for its error to be that of a method of some order. */
-static int is_resolved(const struct hooke_verify *verify, const struct hooke_verify_pass *pass) {
+static int is_resolved(const struct hooke_verify *verify, const struct hk_verify_pass *pass) {
   const hooke_options *run = hooke_record_options(verify->record);
   double limit = NAN;
   if (hooke_system_altitude_group_count(verify->system) > 0) return 0; /* their energy jumps */
   if (!verify->fixed) return fabs(pass->balance.residual) > 1e-6 * pass->balance.scale;
-  const int32_t status = hooke_limit_predict(verify->system, hooke_state_position(verify->first),
-                                             "symplectic-euler", 1e-2, NULL, NULL, &limit);
+  const int32_t status = hk_limit_predict(verify->system, hooke_state_position(verify->first),
+                                          "symplectic-euler", 1e-2, NULL, NULL, &limit);
   return status == HOOKE_OK && ldexp(hooke_options_number(run, "step"), -pass->refined) <= RESOLVED * limit;
 }
 
 /* Refines until what is left over of the balance is seen to be the error of the method. */
-static int32_t find_balance(struct hooke_verify *verify, struct hooke_verify_pass *coarse) {
+static int32_t find_balance(struct hooke_verify *verify, struct hk_verify_pass *coarse) {
   int32_t status = HOOKE_OK, holds = 0;
   while (!holds && status == HOOKE_OK && coarse->refined < MOST_REFINED) {
-    struct hooke_verify_pass fine = {.refined = coarse->refined + 1, .own = coarse->own};
-    status = hooke_verify_pass(verify, &fine);
+    struct hk_verify_pass fine = {.refined = coarse->refined + 1, .own = coarse->own};
+    status = hk_verify_pass(verify, &fine);
     if (status == HOOKE_OK && fine.count != coarse->count) status = HOOKE_DIVERGED;
     if (status == HOOKE_OK) {
-      const double floor = fmax(hooke_balance_floor(&coarse->balance), hooke_balance_floor(&fine.balance));
+      const double floor = fmax(hk_balance_floor(&coarse->balance), hk_balance_floor(&fine.balance));
       double largest, bound;
-      holds = hooke_balance_holds(fine.count, coarse->residual, fine.residual, floor, &largest, &bound);
+      holds = hk_balance_holds(fine.count, coarse->residual, fine.residual, floor, &largest, &bound);
       if (fine.refined == 1) {
         verify->error = 2.0 * fine.error[0];
         verify->error_velocity = 2.0 * fine.error[1];
@@ -204,10 +204,10 @@ static int32_t find_balance(struct hooke_verify *verify, struct hooke_verify_pas
         verify->residual = largest;
         verify->bound = bound;
       }
-      hooke_verify_pass_release(coarse);
+      hk_verify_pass_release(coarse);
       *coarse = fine;
     } else {
-      hooke_verify_pass_release(&fine);
+      hk_verify_pass_release(&fine);
     }
   }
   verify->balance = holds ? "holds" : "unresolved";
@@ -215,10 +215,10 @@ static int32_t find_balance(struct hooke_verify *verify, struct hooke_verify_pas
     return HOOKE_OK; /* a refined run that does not come to its end */
   if (status == HOOKE_OK && !holds && is_resolved(verify, coarse)) {
     verify->balance = "does-not-hold";
-    return hooke_fail(HOOKE_BAD_VALUE, NULL,
-                      "%s: the balance of energy does not hold: %g J are left over of %g J, and do not get "
-                      "less with the step",
-                      verify->path, verify->residual, coarse->balance.scale);
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "%s: the balance of energy does not hold: %g J are left over of %g J, and do not get "
+                   "less with the step",
+                   verify->path, verify->residual, coarse->balance.scale);
   }
   return status;
 }
@@ -228,7 +228,7 @@ static int32_t within_tolerance(struct hooke_verify *verify, const double apart[
   if (strcmp(verify->verdict, "agrees") == 0 ||
       (apart[0] <= ESTIMATES * verify->error && apart[1] <= ESTIMATES * verify->error_velocity))
     return HOOKE_OK;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_BAD_VALUE, NULL,
       "%s: is not what its scene gives: coordinates are up to %g m apart, velocities %g m/s, and their "
       "errors "
@@ -237,46 +237,46 @@ static int32_t within_tolerance(struct hooke_verify *verify, const double apart[
 }
 
 static int32_t compare_slice(struct hooke_verify *verify) {
-  struct hooke_verify_pass pass = {.refined = 0};
+  struct hk_verify_pass pass = {.refined = 0};
   if (verify->may_differ) {
-    pass.own = hooke_new(verify->to - verify->from + 1,
-                         (size_t)(6 * verify->system->particle_count) * sizeof(double));
+    pass.own =
+        hk_new(verify->to - verify->from + 1, (size_t)(6 * verify->system->particle_count) * sizeof(double));
     if (pass.own == NULL) return HOOKE_NO_MEMORY;
   }
   double *own = pass.own;
-  int32_t status = hooke_verify_pass(verify, &pass);
+  int32_t status = hk_verify_pass(verify, &pass);
   const double apart[2] = {pass.apart[0], pass.apart[1]};
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   if (status == HOOKE_OK) {
     verify->verdict = "agrees";
     keep(verify, &pass);
     /* other failures leave it as a number that is not known */
-    if (hooke_limit_predict(verify->system, hooke_state_position(verify->first), method, 1e-2, NULL, NULL,
-                            &verify->limit) == HOOKE_NO_MEMORY)
+    if (hk_limit_predict(verify->system, hooke_state_position(verify->first), method, 1e-2, NULL, NULL,
+                         &verify->limit) == HOOKE_NO_MEMORY)
       status = HOOKE_NO_MEMORY;
     if (status == HOOKE_OK && pass.count > 0 && (!is_on(verify, "bits") || verify->may_differ))
       status = find_balance(verify, &pass);
   } else if (status > 0 && status != HOOKE_STOPPED) {
     char why[256];
-    snprintf(why, sizeof why, "%.255s", hooke_fail_message());
-    status = hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: is not what its scene gives: %s", verify->path, why);
+    snprintf(why, sizeof why, "%.255s", hk_fail_message());
+    status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is not what its scene gives: %s", verify->path, why);
   }
-  hooke_verify_pass_release(&pass);
-  hooke_free(own);
+  hk_verify_pass_release(&pass);
+  hk_free(own);
   return status == HOOKE_OK && verify->may_differ ? within_tolerance(verify, apart) : status;
 }
 
 /* Of frames that are checked; a damaged one may have any. */
 static void find_times(hooke_verify *verify) {
   const int64_t from = verify->from, to = verify->to;
-  verify->time_from = from < verify->checked ? hooke_record_time(verify->record, from) : NAN;
-  verify->time_to = to < verify->checked ? hooke_record_time(verify->record, to) : NAN;
+  verify->time_from = from < verify->checked ? hk_record_time(verify->record, from) : NAN;
+  verify->time_to = to < verify->checked ? hk_record_time(verify->record, to) : NAN;
 }
 
 static int32_t run_all(hooke_verify *verify) {
   int32_t status = check_frames(verify);
   if (status == HOOKE_OK) status = hooke_record_read(verify->record, 0, verify->first);
-  if (status == HOOKE_OK) status = hooke_verify_first(verify);
+  if (status == HOOKE_OK) status = hk_verify_first(verify);
   if (status == HOOKE_OK) status = compare_slice(verify);
   find_times(verify); /* the last one may have come nearer */
   return status;
@@ -308,10 +308,10 @@ const char *hooke_verify_text(const hooke_verify *verify, const char *what) {
   if (strcmp(what, "run") == 0) return hooke_record_text(verify->record, "run");
   if (strcmp(what, "version_here") == 0) return hooke_version();
   for (int k = 0; k < HOOKE_FACT_COUNT; k++) {
-    const size_t length = strlen(hooke_verify_facts[k]);
-    if (strncmp(what, hooke_verify_facts[k], length) != 0) continue;
+    const size_t length = strlen(hk_verify_facts[k]);
+    if (strncmp(what, hk_verify_facts[k], length) != 0) continue;
     if (what[length] == '\0') return hooke_record_text(verify->record, what);
-    if (strcmp(what + length, "_here") == 0) return hooke_build_fact(hooke_verify_facts[k]);
+    if (strcmp(what + length, "_here") == 0) return hooke_build_fact(hk_verify_facts[k]);
   }
   return NULL;
 }
@@ -319,7 +319,7 @@ const char *hooke_verify_text(const hooke_verify *verify, const char *what) {
 double hooke_verify_number(const hooke_verify *verify, const char *what) {
   const hooke_options *run = hooke_record_options(verify->record);
   const double step = verify->fixed ? hooke_options_number(run, "step") : (double)NAN;
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"frames", (double)hooke_record_frame_count(verify->record)},
       {"frames_checked", (double)verify->checked},
       {"frame_first", (double)verify->from},

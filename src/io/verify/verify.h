@@ -6,7 +6,7 @@
 #include "measure/trial/balance.h"
 
 enum { HOOKE_FACT_COUNT = 5 };
-extern const char *const hooke_verify_facts[HOOKE_FACT_COUNT];
+extern const char *const hk_verify_facts[HOOKE_FACT_COUNT];
 
 struct hooke_verify {
   char *path;
@@ -30,11 +30,11 @@ struct hooke_verify {
 };
 
 /* What a pass over the slice found. */
-struct hooke_verify_pass {
+struct hk_verify_pass {
   int32_t refined;  /* how often the step was halved, or tolerances tightened */
   int64_t count;    /* frames after the first */
   double *residual; /* one a frame */
-  struct hooke_balance balance;
+  struct hk_balance balance;
   double steps;
   double apart[2]; /* the largest distance of a coordinate [m] and a velocity [m/s] from the file's */
   double error[2]; /* of a refined pass, the same from the first pass */
@@ -44,12 +44,12 @@ struct hooke_verify_pass {
 
 /* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the like only of
  * refined passes. */
-int32_t hooke_verify_pass(struct hooke_verify *verify, struct hooke_verify_pass *pass);
-void hooke_verify_pass_release(struct hooke_verify_pass *pass);
+int32_t hk_verify_pass(struct hooke_verify *verify, struct hk_verify_pass *pass);
+void hk_verify_pass_release(struct hk_verify_pass *pass);
 
 /* Frame 0 against the scene's own beginning. */
-int32_t hooke_verify_first(struct hooke_verify *verify);
+int32_t hk_verify_first(struct hooke_verify *verify);
 
-int32_t hooke_verify_tell(const struct hooke_verify *verify, double done, const char *what);
+int32_t hk_verify_tell(const struct hooke_verify *verify, double done, const char *what);
 
 #endif

@@ -16,7 +16,7 @@ enum { ENOUGH = 77 }; /* what the observer returns at the end of the slice */
 
 struct run {
   struct hooke_verify *verify;
-  struct hooke_verify_pass *pass;
+  struct hk_verify_pass *pass;
   hooke_state *stored;
   int64_t frame; /* the next */
   double until;  /* by the clock; 0: no limit */
@@ -32,15 +32,15 @@ static int32_t answer(struct run *run, int32_t go_on) {
 }
 
 static int32_t told(const struct run *run) {
-  return hooke_fail(run->status, NULL, "%s", run->message);
+  return hk_fail(run->status, NULL, "%s", run->message);
 }
 
 static int32_t differ(struct hooke_verify *verify, int64_t frame, int64_t k, double stored, double computed) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system), at = k % size;
   char there[HOOKE_NUMBER_SIZE], here[HOOKE_NUMBER_SIZE];
-  hooke_number_print(stored, there);
-  hooke_number_print(computed, here);
-  return hooke_fail(
+  hk_number_print(stored, there);
+  hk_number_print(computed, here);
+  return hk_fail(
       HOOKE_BAD_VALUE, NULL,
       "%s: is not what its scene gives: frame %lld, particle %lld, %s %c: %s is stored, %s is computed",
       verify->path, (long long)frame, (long long)(at / 3), k < size ? "position" : "velocity",
@@ -63,7 +63,7 @@ static int32_t compare(struct hooke_verify *verify, int64_t frame, const hooke_s
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
   const double time[2] = {hooke_state_time(stored), hooke_state_time(computed)};
   if (memcmp(&time[0], &time[1], sizeof time[0]) != 0)
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "%s: is not what its scene gives: frame %lld: the time %.17g s is stored, %.17g s is computed",
         verify->path, (long long)frame, time[0], time[1]);
@@ -80,14 +80,14 @@ static int32_t compare(struct hooke_verify *verify, int64_t frame, const hooke_s
 
 static double check_of(const struct hooke_verify *verify, const hooke_state *state) {
   const int64_t bytes = 3 * hooke_system_particle_count(verify->system) * (int64_t)sizeof(double);
-  const uint32_t half = hooke_crc32(0, hooke_state_position(state), bytes);
-  return (double)hooke_crc32(half, hooke_state_velocity(state), bytes);
+  const uint32_t half = hk_crc32(0, hooke_state_position(state), bytes);
+  return (double)hk_crc32(half, hooke_state_velocity(state), bytes);
 }
 
 /* How far it is from the file, and a refined one from the first pass. */
 static void measure(struct run *run, int64_t frame, const hooke_state *state) {
   const struct hooke_verify *verify = run->verify;
-  struct hooke_verify_pass *pass = run->pass;
+  struct hk_verify_pass *pass = run->pass;
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
   const double *q = hooke_state_position(run->stored), *v = hooke_state_velocity(run->stored);
   widen(verify, state, q, v, pass->apart);
@@ -101,7 +101,7 @@ static void measure(struct run *run, int64_t frame, const hooke_state *state) {
 
 static int32_t take_frame(struct run *run, const hooke_state *state) {
   struct hooke_verify *verify = run->verify;
-  struct hooke_verify_pass *pass = run->pass;
+  struct hk_verify_pass *pass = run->pass;
   const int64_t frame = run->frame++;
   run->status = hooke_record_read(verify->record, frame, run->stored);
   if (run->status == HOOKE_OK && !pass->refined && !verify->may_differ)
@@ -110,11 +110,11 @@ static int32_t take_frame(struct run *run, const hooke_state *state) {
   measure(run, frame, state);
   if (frame == verify->from) return frame == verify->to ? ENOUGH : 0;
   /* with error control a frame lies between two steps */
-  run->status = hooke_balance_step(&pass->balance, state);
+  run->status = hk_balance_step(&pass->balance, state);
   if (run->status != HOOKE_OK) return answer(run, 1);
-  hooke_balance_close(&pass->balance, state);
+  hk_balance_close(&pass->balance, state);
   pass->residual[pass->count++] = pass->balance.residual;
-  if (!pass->refined && run->until > 0.0 && hooke_clock_seconds() > run->until) verify->to = frame;
+  if (!pass->refined && run->until > 0.0 && hk_clock_seconds() > run->until) verify->to = frame;
   if (frame < verify->to) return 0;
   if (!pass->refined) verify->check_last = check_of(verify, run->stored);
   return ENOUGH;
@@ -125,7 +125,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   (void)step;
   if (run->frame == run->verify->from && run->pass->balance.system == NULL)
-    run->status = hooke_balance_begin(&run->pass->balance, run->verify->system, state);
+    run->status = hk_balance_begin(&run->pass->balance, run->verify->system, state);
   return run->status != HOOKE_OK ? answer(run, 1) : take_frame(run, state);
 }
 
@@ -134,9 +134,9 @@ static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   const struct hooke_verify *verify = run->verify;
   const double part = (double)(run->frame - verify->from) / (double)(verify->to - verify->from + 1);
   (void)step;
-  run->status = hooke_balance_step(&run->pass->balance, state);
+  run->status = hk_balance_step(&run->pass->balance, state);
   if (run->status == HOOKE_OK)
-    run->status = hooke_verify_tell(verify, part, run->pass->refined ? "the balance" : "the slice");
+    run->status = hk_verify_tell(verify, part, run->pass->refined ? "the balance" : "the slice");
   return answer(run, 0);
 }
 
@@ -164,33 +164,33 @@ static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_st
     if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
   } else {
     status = hooke_record_read(verify->record, verify->from, state);
-    if (status == HOOKE_OK) status = hooke_balance_begin(&run->pass->balance, verify->system, state);
+    if (status == HOOKE_OK) status = hk_balance_begin(&run->pass->balance, verify->system, state);
     run->frame++;
-    if (status == HOOKE_OK) status = hooke_integrator_run_on(integrator, verify->first, state);
+    if (status == HOOKE_OK) status = hk_integrator_run_on(integrator, verify->first, state);
   }
   run->pass->steps = (double)hooke_integrator_count(integrator, "steps");
   if (run->status != HOOKE_OK) return told(run);
   if (status == HOOKE_STOPPED && hooke_integrator_stop_value(integrator) == ENOUGH) return HOOKE_OK;
   if (status == HOOKE_OK && run->frame > verify->to) return HOOKE_OK;
   if (status == HOOKE_OK)
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%s: the run that its scene gives ends before frame %lld",
-                      verify->path, (long long)run->frame);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: the run that its scene gives ends before frame %lld",
+                   verify->path, (long long)run->frame);
   return status;
 }
 
-int32_t hooke_verify_pass(struct hooke_verify *verify, struct hooke_verify_pass *pass) {
+int32_t hk_verify_pass(struct hooke_verify *verify, struct hk_verify_pass *pass) {
   struct run run = {.verify = verify, .pass = pass, .frame = verify->from};
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   pass->count = 0;
   pass->apart[0] = pass->apart[1] = pass->error[0] = pass->error[1] = 0.0;
-  pass->balance = (struct hooke_balance){.system = NULL};
+  pass->balance = (struct hk_balance){.system = NULL};
   if (verify->by_budget && !pass->refined)
-    run.until = hooke_clock_seconds() + hooke_options_number(verify->options, "budget") / 4.0;
+    run.until = hk_clock_seconds() + hooke_options_number(verify->options, "budget") / 4.0;
   int32_t status = hooke_state_create(verify->system, &state);
   if (status == HOOKE_OK) status = hooke_state_create(verify->system, &run.stored);
-  pass->residual = hooke_new(verify->to - verify->from + 1, sizeof(double));
+  pass->residual = hk_new(verify->to - verify->from + 1, sizeof(double));
   if (pass->residual == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = options_for(verify, pass->refined, &options);
   if (status == HOOKE_OK) status = hooke_integrator_create(verify->system, options, &integrator);
@@ -202,9 +202,9 @@ int32_t hooke_verify_pass(struct hooke_verify *verify, struct hooke_verify_pass 
   return status;
 }
 
-void hooke_verify_pass_release(struct hooke_verify_pass *pass) {
-  hooke_balance_release(&pass->balance);
-  hooke_free(pass->residual);
+void hk_verify_pass_release(struct hk_verify_pass *pass) {
+  hk_balance_release(&pass->balance);
+  hk_free(pass->residual);
   pass->residual = NULL;
 }
 
@@ -215,7 +215,7 @@ static int32_t see_first(int64_t step, const hooke_state *state, void *ctx) {
   return answer(run, ENOUGH);
 }
 
-int32_t hooke_verify_first(struct hooke_verify *verify) {
+int32_t hk_verify_first(struct hooke_verify *verify) {
   struct run run = {.verify = verify};
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;

@@ -19,7 +19,7 @@ static const double MOST_SECONDS = 0.2; /* of timing, for one ingredient */
 static const double TIMING_SHARE = 0.5; /* of the budget; scenes are made and limits found in the rest */
 static const double SOME_STEP = 1e-3;   /* [s] where nothing says which */
 
-static const struct hooke_option_row cost_rows[] = {
+static const struct hk_option_row cost_rows[] = {
     {.name = "predict", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "leave out the timing"},
     {.name = "budget",
      .type = HOOKE_OPTION_NUMBER,
@@ -40,10 +40,10 @@ static const struct hooke_option_row cost_rows[] = {
      .doc = "how many groups are looked at at most, the largest; each takes as long as the whole scene"},
 };
 
-static const struct hooke_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
+static const struct hk_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
 
 int32_t hooke_cost_options_create(hooke_options **options) {
-  return hooke_options_create(&cost_table, options);
+  return hk_options_create(&cost_table, options);
 }
 
 /* ---- making ---- */
@@ -65,19 +65,19 @@ static int32_t choose_method(hooke_cost *cost) {
 static void forget(hooke_cost *cost) {
   cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
   for (int64_t k = 0; k < cost->row_count; k++) {
-    struct hooke_cost_row *row = &cost->row[k];
+    struct hk_cost_row *row = &cost->row[k];
     row->nanoseconds = row->resolution = row->memory = row->limit = NAN;
   }
 }
 
 int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                           hooke_cost **out) {
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
-    status = hooke_options_require(options, &cost_table, "options", "hooke_cost_options_create()");
+    status = hk_options_require(options, &cost_table, "options", "hooke_cost_options_create()");
   if (status != HOOKE_OK) return status;
-  hooke_cost *cost = hooke_handle_new("hooke_cost", sizeof *cost);
+  hooke_cost *cost = hk_handle_new("hooke_cost", sizeof *cost);
   if (cost == NULL) return HOOKE_NO_MEMORY;
   cost->system = system;
   cost->step = NAN;
@@ -86,7 +86,7 @@ int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, 
     status =
         options ? hooke_options_copy(options, &cost->options) : hooke_cost_options_create(&cost->options);
   if (status == HOOKE_OK) status = choose_method(cost);
-  if (status == HOOKE_OK) status = hooke_cost_list_rows(cost);
+  if (status == HOOKE_OK) status = hk_cost_list_rows(cost);
   forget(cost);
   if (status == HOOKE_OK)
     *out = cost;
@@ -99,8 +99,8 @@ void hooke_cost_destroy(hooke_cost *cost) {
   if (cost == NULL) return;
   hooke_options_destroy(cost->run);
   hooke_options_destroy(cost->options);
-  hooke_free(cost->row);
-  hooke_handle_free(cost);
+  hk_free(cost->row);
+  hk_handle_free(cost);
 }
 
 void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx) {
@@ -111,7 +111,7 @@ void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ct
 static int32_t tell(hooke_cost *cost, double done, const char *what) {
   cost->told = done;
   if (cost->progress == NULL || cost->progress(done, what, cost->progress_ctx) == 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
 /* ---- finding ---- */
@@ -129,15 +129,15 @@ static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const ho
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
   const int32_t status =
-      hooke_limit_predict_within(system, q, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->patience, limit);
+      hk_limit_predict_within(system, q, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->patience, limit);
   return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->patience.stopped) ? status : HOOKE_OK;
 }
 
 /* The first one, in the share of the budget that is not for the timing. */
 static int32_t find_first_limit(hooke_cost *cost, const hooke_state *state) {
-  hooke_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
+  hk_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
   const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
-  (void)hooke_patience_take_back(&cost->patience);
+  (void)hk_patience_take_back(&cost->patience);
   return status;
 }
 
@@ -155,18 +155,18 @@ static int32_t choose_step(hooke_cost *cost, const hooke_state *state) {
   return hooke_options_set_number(cost->run, "step", step);
 }
 
-static double memory_of(const hooke_system *system, const struct hooke_timed *timed) {
+static double memory_of(const hooke_system *system, const struct hk_timed *timed) {
   const int64_t state = (2 * hooke_state_size(timed->state) + 1) * (int64_t)sizeof(double);
   return (double)(hooke_system_memory(system) + state +
                   hooke_integrator_count(timed->integrator, "memory_bytes"));
 }
 
-static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke_timed *lean,
-                        const hooke_state *state, struct hooke_cost_row *row) {
+static int32_t time_row(hooke_cost *cost, struct hk_timed *full, struct hk_timed *lean,
+                        const hooke_state *state, struct hk_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
   const double share =
       TIMING_SHARE * hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
-  const int32_t status = hooke_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
+  const int32_t status = hk_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
   row->nanoseconds = fmax(0.0, with - without);
@@ -177,42 +177,42 @@ static int32_t time_row(hooke_cost *cost, struct hooke_timed *full, struct hooke
 }
 
 /* The system without the ingredient of a row; NULL: without nothing. */
-static int32_t make_without(const hooke_cost *cost, const struct hooke_cost_row *row, hooke_system **made) {
-  struct hooke_variant variant;
-  struct hooke_variant_map map;
-  int32_t status = hooke_variant_create(cost->system, &variant);
+static int32_t make_without(const hooke_cost *cost, const struct hk_cost_row *row, hooke_system **made) {
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  int32_t status = hk_variant_create(cost->system, &variant);
   if (status != HOOKE_OK) return status;
   if (row && row->group >= 0) {
-    uint8_t *const without = hooke_cost_row_is(row, "bending")    ? variant.bending
-                             : hooke_cost_row_is(row, "altitude") ? variant.altitude
-                                                                  : variant.group;
+    uint8_t *const without = hk_cost_row_is(row, "bending")    ? variant.bending
+                             : hk_cost_row_is(row, "altitude") ? variant.altitude
+                                                               : variant.group;
     without[row->group] = 1;
   }
-  variant.damping = row && hooke_cost_row_is(row, "damping");
-  variant.drag = row && hooke_cost_row_is(row, "drag");
-  variant.force = row && hooke_cost_row_is(row, "callback");
-  variant.gravity = row && hooke_cost_row_is(row, "gravity");
-  status = hooke_variant_make(cost->system, &variant, made, &map);
-  if (status == HOOKE_OK) hooke_variant_map_release(&map);
-  hooke_variant_release(&variant);
+  variant.damping = row && hk_cost_row_is(row, "damping");
+  variant.drag = row && hk_cost_row_is(row, "drag");
+  variant.force = row && hk_cost_row_is(row, "callback");
+  variant.gravity = row && hk_cost_row_is(row, "gravity");
+  status = hk_variant_make(cost->system, &variant, made, &map);
+  if (status == HOOKE_OK) hk_variant_map_release(&map);
+  hk_variant_release(&variant);
   return status;
 }
 
-static int32_t measure_row(hooke_cost *cost, struct hooke_timed *full, const hooke_system *system,
-                           const hooke_state *state, struct hooke_cost_row *row) {
-  const int32_t limits = !hooke_cost_row_is(row, "gravity") && !hooke_cost_row_is(row, "callback");
-  struct hooke_timed lean;
-  int32_t status = hooke_timed_create(system, cost->run, &lean);
+static int32_t measure_row(hooke_cost *cost, struct hk_timed *full, const hooke_system *system,
+                           const hooke_state *state, struct hk_cost_row *row) {
+  const int32_t limits = !hk_cost_row_is(row, "gravity") && !hk_cost_row_is(row, "callback");
+  struct hk_timed lean;
+  int32_t status = hk_timed_create(system, cost->run, &lean);
   if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));
   row->limit = cost->limit;
   if (status == HOOKE_OK && limits) status = find_limit(cost, system, state, &row->limit);
   if (status == HOOKE_OK) status = time_row(cost, full, &lean, state, row);
-  hooke_timed_release(&lean);
+  hk_timed_release(&lean);
   return status;
 }
 
-static int32_t find_row(hooke_cost *cost, struct hooke_timed *full, const hooke_state *state,
-                        struct hooke_cost_row *row) {
+static int32_t find_row(hooke_cost *cost, struct hk_timed *full, const hooke_state *state,
+                        struct hk_cost_row *row) {
   hooke_system *lean = NULL;
   int32_t status = make_without(cost, row, &lean);
   if (status == HOOKE_OK) status = measure_row(cost, full, lean, state, row);
@@ -223,24 +223,24 @@ static int32_t find_row(hooke_cost *cost, struct hooke_timed *full, const hooke_
 /* The scene is made again with nothing left out, so that both sides have their memory from the same hands. */
 int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
   hooke_system *whole = NULL;
-  struct hooke_timed full = {0};
-  const double budget = hooke_options_number(cost->options, "budget"), begun = hooke_clock_seconds();
+  struct hk_timed full = {0};
+  const double budget = hooke_options_number(cost->options, "budget"), begun = hk_clock_seconds();
   forget(cost);
-  cost->patience = hooke_patience_of(budget, tell_limits, cost);
-  int32_t status = hooke_state_check(state, cost->system);
+  cost->patience = hk_patience_of(budget, tell_limits, cost);
+  int32_t status = hk_state_check(state, cost->system);
   if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
   if (status == HOOKE_OK) status = find_first_limit(cost, state);
   if (status == HOOKE_OK) status = choose_step(cost, state);
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
-  if (status == HOOKE_OK) status = hooke_timed_create(whole, cost->run, &full);
+  if (status == HOOKE_OK) status = hk_timed_create(whole, cost->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
   for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
     if (!cost->row[k].chosen) continue;
-    if (hooke_clock_seconds() - begun > budget) break; /* what is left stays unknown */
+    if (hk_clock_seconds() - begun > budget) break; /* what is left stays unknown */
     status = tell(cost, (double)done++ / (double)cost->chosen_count, hooke_cost_text(cost, k, "name"));
     if (status == HOOKE_OK) status = find_row(cost, &full, state, &cost->row[k]);
   }
-  hooke_timed_release(&full);
+  hk_timed_release(&full);
   hooke_system_destroy(whole);
   return status;
 }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int32_t hooke_cost_row_is(const struct hooke_cost_row *row, const char *kind) {
+int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind) {
   return strcmp(row->kind, kind) == 0;
 }
 
@@ -19,7 +19,7 @@ int32_t hooke_cost_row_is(const struct hooke_cost_row *row, const char *kind) {
 static void add_row(hooke_cost *cost, const char *kind, int64_t group, int64_t size) {
   if (size > 0)
     cost->row[cost->row_count++] =
-        (struct hooke_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
+        (struct hk_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
 }
 
 static void add_groups(hooke_cost *cost) {
@@ -34,7 +34,7 @@ static void add_groups(hooke_cost *cost) {
 
 static void add_others(hooke_cost *cost) {
   const hooke_system *system = cost->system;
-  add_row(cost, "damping", -1, hooke_springs_are_damped(&system->springs) || system->altitudes.damped);
+  add_row(cost, "damping", -1, hk_springs_are_damped(&system->springs) || system->altitudes.damped);
   add_row(cost, "drag", -1, system->drag > 0.0);
   add_row(cost, "callback", -1, system->force != NULL);
   add_row(cost, "gravity", -1, system->has_gravity);
@@ -42,8 +42,7 @@ static void add_others(hooke_cost *cost) {
 
 /* The largest first; of one size in the order of the rows. */
 static int compare_sizes(const void *one, const void *two) {
-  const struct hooke_cost_row *a = *(struct hooke_cost_row *const *)one,
-                              *b = *(struct hooke_cost_row *const *)two;
+  const struct hk_cost_row *a = *(struct hk_cost_row *const *)one, *b = *(struct hk_cost_row *const *)two;
   if (a->size != b->size) return a->size < b->size ? 1 : -1;
   return (a > b) - (a < b);
 }
@@ -53,23 +52,23 @@ static int compare_sizes(const void *one, const void *two) {
 static int32_t leave_small_groups_out(hooke_cost *cost) {
   const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
   if (count <= most) return HOOKE_OK;
-  struct hooke_cost_row **sorted = hooke_new(count, sizeof *sorted);
+  struct hk_cost_row **sorted = hk_new(count, sizeof *sorted);
   if (sorted == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++)
     sorted[k] = &cost->row[k];
   qsort(sorted, (size_t)count, sizeof *sorted, compare_sizes);
   for (int64_t k = most; k < count; k++)
     sorted[k]->chosen = 0;
-  hooke_free(sorted);
+  hk_free(sorted);
   return HOOKE_OK;
 }
 
-int32_t hooke_cost_list_rows(hooke_cost *cost) {
+int32_t hk_cost_list_rows(hooke_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
   cost->row =
-      hooke_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
-                sizeof *cost->row);
+      hk_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
+             sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   add_groups(cost);
   const int32_t status = leave_small_groups_out(cost);
@@ -86,11 +85,11 @@ const char *hooke_cost_method(const hooke_cost *cost) {
 }
 
 double hooke_cost_figure(const hooke_cost *cost, const char *what) {
-  const struct hooke_figure figures[] = {{"step", cost->step},
-                                         {"nanoseconds", cost->nanoseconds},
-                                         {"resolution", cost->resolution},
-                                         {"memory_bytes", cost->memory},
-                                         {"step_limit", cost->limit}};
+  const struct hk_figure figures[] = {{"step", cost->step},
+                                      {"nanoseconds", cost->nanoseconds},
+                                      {"resolution", cost->resolution},
+                                      {"memory_bytes", cost->memory},
+                                      {"step_limit", cost->limit}};
   return HOOKE_FIGURE(figures, what);
 }
 
@@ -98,27 +97,27 @@ int64_t hooke_cost_row_count(const hooke_cost *cost) {
   return cost->row_count;
 }
 
-static const struct hooke_cost_row *row_at(const hooke_cost *cost, int64_t row) {
+static const struct hk_cost_row *row_at(const hooke_cost *cost, int64_t row) {
   return row >= 0 && row < cost->row_count ? &cost->row[row] : NULL;
 }
 
 const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hooke_cost_row *r = row_at(cost, row);
+  const struct hk_cost_row *r = row_at(cost, row);
   if (r == NULL) return NULL;
   if (strcmp(what, "kind") == 0) return r->kind;
   if (strcmp(what, "name") != 0) return NULL;
   if (r->group < 0) return r->kind;
-  if (hooke_cost_row_is(r, "altitude")) return hooke_system_altitude_group_name(cost->system, r->group);
-  return hooke_cost_row_is(r, "bending") ? hooke_system_bending_group_name(cost->system, r->group)
-                                         : hooke_system_group_name(cost->system, r->group);
+  if (hk_cost_row_is(r, "altitude")) return hooke_system_altitude_group_name(cost->system, r->group);
+  return hk_cost_row_is(r, "bending") ? hooke_system_bending_group_name(cost->system, r->group)
+                                      : hooke_system_group_name(cost->system, r->group);
 }
 
 double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hooke_cost_row *r = row_at(cost, row);
+  const struct hk_cost_row *r = row_at(cost, row);
   if (r == NULL) return NAN;
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"group", r->group >= 0 ? (double)r->group : (double)NAN},
-      {"springs", hooke_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
+      {"springs", hk_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
       {"nanoseconds", r->nanoseconds},
       {"resolution", r->resolution},
       {"memory_bytes", r->memory},

@@ -5,20 +5,20 @@
 #include "hooke/integrator.h"
 
 /* An integrator with a state, and the time of a step in its shortest blocks [ns]. */
-struct hooke_timed {
+struct hk_timed {
   hooke_integrator *integrator;
   hooke_state *state;
   double best[2]; /* of two series; infinite before the first block */
 };
 
-/* HOOKE_NO_MEMORY and those of hooke_integrator_create(); hooke_timed_release() is allowed after a failure. */
-int32_t hooke_timed_create(const hooke_system *system, const hooke_options *run, struct hooke_timed *timed);
-void hooke_timed_release(struct hooke_timed *timed);
+/* HOOKE_NO_MEMORY and those of hooke_integrator_create(); hk_timed_release() is allowed after a failure. */
+int32_t hk_timed_create(const hooke_system *system, const hooke_options *run, struct hk_timed *timed);
+void hk_timed_release(struct hk_timed *timed);
 
 /* Runs blocks of `full`, `lean` and `full` again in turn, each from `start`, for about `seconds`, two rounds at least: both
  * series of `full`, whose difference tells how far times can be trusted, and the first of `lean`. Times stay infinite where the
  * method can take no step. HOOKE_STOPPED by a callback; failures of the method itself are none. */
-int32_t hooke_timed_compare(struct hooke_timed *full, struct hooke_timed *lean, const hooke_state *start,
-                            double seconds);
+int32_t hk_timed_compare(struct hk_timed *full, struct hk_timed *lean, const hooke_state *start,
+                         double seconds);
 
 #endif

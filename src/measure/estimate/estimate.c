@@ -24,11 +24,11 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
 static const double MOST_RUNS = 30.0;  /* times as long as the first run something finer may take */
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   if (!isnan(want) && !(want > 0.0 && isfinite(want)))
-    return hooke_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
-  hooke_estimate *e = hooke_handle_new("hooke_estimate", sizeof *e);
+    return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
+  hooke_estimate *e = hk_handle_new("hooke_estimate", sizeof *e);
   if (e == NULL) return HOOKE_NO_MEMORY;
   e->system = system;
   e->want = want;
@@ -39,8 +39,8 @@ int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_est
 
 static void forget_run(hooke_estimate *e) {
   hooke_options_destroy(e->options);
-  hooke_frames_release(&e->kept);
-  hooke_soundness_release(&e->soundness);
+  hk_frames_release(&e->kept);
+  hk_soundness_release(&e->soundness);
   hooke_state_destroy(e->late);
   e->options = NULL;
   e->late = NULL;
@@ -52,8 +52,8 @@ static void forget_run(hooke_estimate *e) {
 void hooke_estimate_destroy(hooke_estimate *e) {
   if (e == NULL) return;
   forget_run(e);
-  hooke_pick_release(&e->pick);
-  hooke_handle_free(e);
+  hk_pick_release(&e->pick);
+  hk_handle_free(e);
 }
 
 void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, void *ctx) {
@@ -66,26 +66,26 @@ void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, voi
 /* Picks for the error `want` of the whole run, and sets what was picked in `run`. */
 static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
   const char *only = e->only[0] ? e->only : NULL;
-  hooke_pick_release(&e->pick);
-  const double begun = hooke_clock_seconds();
-  int32_t status = hooke_pick_run(&e->pick, e->system, run, want, only, e->progress, e->ctx);
-  e->spent += hooke_clock_seconds() - begun;
+  hk_pick_release(&e->pick);
+  const double begun = hk_clock_seconds();
+  int32_t status = hk_pick_run(&e->pick, e->system, run, want, only, e->progress, e->ctx);
+  e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
     status =
-        hooke_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", only ? only : "no method");
-  if (status == HOOKE_OK) status = hooke_trial_set_value(run, e->pick.best.method, e->pick.best.value);
-  if (status != HOOKE_OK) hooke_pick_release(&e->pick);
+        hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", only ? only : "no method");
+  if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
+  if (status != HOOKE_OK) hk_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
   return status;
 }
 
 int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options *run) {
-  const int32_t status = hooke_run_options_require(run, "run");
+  const int32_t status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
-  if (isnan(e->want)) return hooke_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+  if (isnan(e->want)) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
   if (method && !hooke_method_is_built(method))
-    return hooke_fail(hooke_method_is_adaptive(method) < 0 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "method",
-                      "this build has no method \"%s\"", method);
+    return hk_fail(hooke_method_is_adaptive(method) < 0 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "method",
+                   "this build has no method \"%s\"", method);
   snprintf(e->only, sizeof e->only, "%s", method ? method : "");
   e->refined = 0;
   e->first = NAN;
@@ -104,7 +104,7 @@ static void choose_kept(hooke_estimate *e, int64_t *count) {
     apart++;
   *count = 1 + (int64_t)(round(frames) / apart);
   e->apart = apart * e->every;
-  if (!isnan(e->want) && hooke_step_is_whole(frames) && *count * bytes <= KEPT_BYTES) return;
+  if (!isnan(e->want) && hk_step_is_whole(frames) && *count * bytes <= KEPT_BYTES) return;
   *count = 2;
   e->apart = e->duration;
 }
@@ -120,7 +120,7 @@ static int is_checked(const hooke_estimate *e, const hooke_integrator *it) {
 
 int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
   if (it->system != e->system)
-    return hooke_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
+    return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
   forget_run(e);
   int32_t status = hooke_options_copy(it->options, &e->options);
   if (status != HOOKE_OK) return status;
@@ -133,18 +133,17 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
   choose_kept(e, &count);
-  status = hooke_frames_create(e->system, count, &e->kept);
+  status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
-    status = hooke_soundness_begin(&e->soundness, e->system, it->method->name,
-                                   is_checked(e, it) ? NAN : it->schedule.step, SHORT, state, MOST_SEEN + 2);
+    status = hk_soundness_begin(&e->soundness, e->system, it->method->name,
+                                is_checked(e, it) ? NAN : it->schedule.step, SHORT, state, MOST_SEEN + 2);
   return status;
 }
 
 static void keep(hooke_estimate *e, const hooke_state *state) {
   const double t = hooke_state_time(state) - e->begin;
-  if (fabs(t - (double)e->kept.recorded * e->apart) <= 1e-9 * e->duration)
-    hooke_frames_record(&e->kept, state);
+  if (fabs(t - (double)e->kept.recorded * e->apart) <= 1e-9 * e->duration) hk_frames_record(&e->kept, state);
   if (!(t + e->begin >= e->late_after) || t >= e->duration * (1.0 - 1e-9)) return;
   hooke_state_copy(state, e->late);
   e->late_after = NAN;
@@ -157,7 +156,7 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   keep(e, state);
   const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
-    hooke_soundness_see(&e->soundness, state);
+    hk_soundness_see(&e->soundness, state);
     e->frames_seen += e->frames_apart;
   }
   return 0;
@@ -167,62 +166,62 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* The run is the pick's, which was held against the reference at its frames; its end is measured itself. */
 static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
-  const struct hooke_reference *r = &e->pick.reference;
+  const struct hk_reference *r = &e->pick.reference;
   const int to_end = r->trusted == r->frames.count;
   double end = 0.0;
-  if (to_end) end = hooke_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), NULL);
+  if (to_end) end = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), NULL);
   e->error = e->picked ? fmax(end, e->pick.best.error) : to_end ? end : NAN;
   e->known_from = e->begin;
-  e->known_until = e->begin + hooke_pick_trusted(&e->pick);
+  e->known_until = e->begin + hk_pick_trusted(&e->pick);
   e->order = NAN;
   e->by = isnan(e->error) ? NULL : "reference";
   if (to_end) return;
-  hooke_print(e->note, sizeof e->note,
-              "after %.6g s two references part by more than a tenth of the wanted error%s", e->known_until,
-              r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
+  hk_print(e->note, sizeof e->note,
+           "after %.6g s two references part by more than a tenth of the wanted error%s", e->known_until,
+           r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
 }
 
 static int is_sound(const hooke_estimate *e) {
-  return isinf(e->soundness.least_limit) && !(e->rise > hooke_soundness_most_rise);
+  return isinf(e->soundness.least_limit) && !(e->rise > hk_soundness_most_rise);
 }
 
 static int32_t measure_alone(hooke_estimate *e) {
   int32_t status = HOOKE_OK;
   if (!isnan(e->want)) {
-    status = hooke_estimate_by_finer(e);
+    status = hk_estimate_by_finer(e);
     /* the pick's error is over more frames, if of the beginning alone */
     if (e->picked && e->pick.met && !isnan(e->error)) e->error = fmax(e->error, e->pick.best.error);
     return status;
   }
-  if (e->seconds < SHORT) status = hooke_estimate_by_coarser(e);
-  if (status == HOOKE_OK && isnan(e->error)) status = hooke_estimate_by_slice(e);
+  if (e->seconds < SHORT) status = hk_estimate_by_coarser(e);
+  if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_by_slice(e);
   return status;
 }
 
 int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
   if (e->options == NULL)
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
-  if (e->kept.recorded == e->kept.count - 1) hooke_frames_record(&e->kept, state);
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
+  if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
   e->seconds = hooke_integrator_wall_seconds(it);
-  e->rise = hooke_soundness_rise(&e->soundness);
+  e->rise = hk_soundness_rise(&e->soundness);
   if (isnan(e->first)) e->first = e->seconds;
   if (it->outcome != HOOKE_OK || e->kept.recorded < e->kept.count) {
-    hooke_print(e->note, sizeof e->note, "the run did not come to its end");
+    hk_print(e->note, sizeof e->note, "the run did not come to its end");
     return HOOKE_OK;
   }
-  const double begun = hooke_clock_seconds();
+  const double begun = hk_clock_seconds();
   int32_t status = HOOKE_OK;
   if (is_whole_reference(e))
     measure_by_reference(e, state);
   else
     status = measure_alone(e);
-  e->spent += hooke_clock_seconds() - begun;
+  e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && isnan(e->error) && !e->note[0])
-    hooke_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
+    hk_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
   if (status == HOOKE_OK && !isnan(e->want) && !is_sound(e))
-    hooke_print(e->note, sizeof e->note,
-                isinf(e->soundness.least_limit) ? "its energy grows by itself"
-                                                : "its step is above 0.9 of the stable one");
+    hk_print(e->note, sizeof e->note,
+             isinf(e->soundness.least_limit) ? "its energy grows by itself"
+                                             : "its step is above 0.9 of the stable one");
   return status;
 }
 
@@ -238,24 +237,24 @@ static double met(const hooke_estimate *e) {
 
 /* The next step or tolerance of the same method. */
 static double finer(const hooke_estimate *e) {
-  const double value = hooke_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
+  const double value = hk_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
   double factor = pow(AIM * e->want / e->error, 1.0 / order);
   factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
-  return fmin(value * factor, hooke_soundness_limit_share * e->soundness.least_limit);
+  return fmin(value * factor, hk_soundness_limit_share * e->soundness.least_limit);
 }
 
 static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
   const char *method = hooke_options_text(e->options, "method");
   double value = finer(e), duration, every, unit;
-  if (hooke_method_is_adaptive(method)) return hooke_trial_set_value(run, method, value);
-  int32_t status = hooke_step_times(e->options, &duration, &every);
-  if (status == HOOKE_OK) status = hooke_step_unit(duration, every, &unit);
+  if (hooke_method_is_adaptive(method)) return hk_trial_set_value(run, method, value);
+  int32_t status = hk_step_times(e->options, &duration, &every);
+  if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
   if (status != HOOKE_OK) return status;
   value = unit / ceil(unit / value * (1.0 - 1e-12));
-  const double seconds = e->seconds * hooke_estimate_value(e->options) / value;
+  const double seconds = e->seconds * hk_estimate_value(e->options) / value;
   if (seconds > fmax(SHORT, MOST_RUNS * e->first))
-    return hooke_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take %.3g s", value, seconds);
-  return hooke_trial_set_value(run, method, value);
+    return hk_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take %.3g s", value, seconds);
+  return hk_trial_set_value(run, method, value);
 }
 
 /* A pick from the beginning of a run was too coarse for all of it: another one, for as much less. */
@@ -266,13 +265,13 @@ static int32_t pick_finer(hooke_estimate *e, hooke_options *run) {
   const int32_t status = pick(e, want, run);
   if (status != HOOKE_OK) return status;
   if (e->pick.met && (strcmp(e->pick.best.method, method) != 0 || e->pick.best.value < value)) return status;
-  return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help");
+  return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help");
 }
 
 int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
   const int32_t known = e->options != NULL && !isnan(met(e)) && e->error <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
-    return hooke_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
+    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
   const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;
   const int32_t status = again ? pick_finer(e, run) : set_finer(e, run);
   e->refined++;
@@ -284,7 +283,7 @@ int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
 /* ---- queries ---- */
 
 double hooke_estimate_number(const hooke_estimate *e, const char *what) {
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"estimate", e->error},
       {"known_from", e->known_from},
       {"known_until", e->known_until},
@@ -311,9 +310,8 @@ int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double 
   hooke_estimate_on_progress(e, progress, ctx);
   status = hooke_estimate_pick(e, NULL, run);
   if (status == HOOKE_OK && !e->pick.met) {
-    status =
-        hooke_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
-                   want, e->pick.best.method, e->pick.best.value, e->pick.best.error);
+    status = hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
+                     want, e->pick.best.method, e->pick.best.value, e->pick.best.error);
   }
   hooke_estimate_destroy(e);
   return status;

@@ -11,19 +11,19 @@ struct hooke_estimate {
   double want; /* [m], NaN: none */
   hooke_progress *progress;
   void *ctx;
-  struct hooke_pick pick; /* with a system once it was run */
-  int32_t picked;         /* 1: the run to come is the one that was picked, and not a finer one */
-  char only[64];          /* the only method that may be picked; "": any */
-  double first;           /* seconds of the first run */
-  double before;          /* the error before something finer was set [m]; infinity at first */
-  int32_t refined;        /* times */
+  struct hk_pick pick; /* with a system once it was run */
+  int32_t picked;      /* 1: the run to come is the one that was picked, and not a finer one */
+  char only[64];       /* the only method that may be picked; "": any */
+  double first;        /* seconds of the first run */
+  double before;       /* the error before something finer was set [m]; infinity at first */
+  int32_t refined;     /* times */
 
   /* the run */
   hooke_options *options; /* the integrator's */
   double begin, duration, every, seconds;
-  struct hooke_frames kept; /* of the run: the start, and frames that are `apart` [s], up to the end */
+  struct hk_frames kept; /* of the run: the start, and frames that are `apart` [s], up to the end */
   double apart;
-  struct hooke_soundness soundness;
+  struct hk_soundness soundness;
   int64_t frames_apart; /* of those the soundness sees */
   int64_t frames_seen;
   hooke_state *late; /* at about the beginning of its last piece */
@@ -37,17 +37,17 @@ struct hooke_estimate {
 };
 
 /* The method and its step or tolerance in options of a run. */
-double hooke_estimate_value(const hooke_options *options);
+double hk_estimate_value(const hooke_options *options);
 
 /* The run once more by another step or tolerance, in `frames` (its start and as many as there is memory for, `every` apart
  * [s]): from `from` (NULL: from the beginning) for `duration`. What ends it early leaves fewer frames.
  * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
-int32_t hooke_estimate_rerun(struct hooke_estimate *estimate, double value, const hooke_state *from,
-                             double duration, double every, struct hooke_frames *frames);
+int32_t hk_estimate_rerun(struct hooke_estimate *estimate, double value, const hooke_state *from,
+                          double duration, double every, struct hk_frames *frames);
 /* Estimates from reruns: coarser ones, and finer ones of the last piece or of all. They leave the error NaN where they cannot
  * tell (estimate_runs.c). */
-int32_t hooke_estimate_by_coarser(struct hooke_estimate *estimate);
-int32_t hooke_estimate_by_slice(struct hooke_estimate *estimate);
-int32_t hooke_estimate_by_finer(struct hooke_estimate *estimate);
+int32_t hk_estimate_by_coarser(struct hooke_estimate *estimate);
+int32_t hk_estimate_by_slice(struct hooke_estimate *estimate);
+int32_t hk_estimate_by_finer(struct hooke_estimate *estimate);
 
 #endif

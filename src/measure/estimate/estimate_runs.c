@@ -14,13 +14,13 @@ static const double ORDERS_APART = 0.4, LEAST_POWER = 0.5, MOST_POWER = 1.3;
 static const double CAUTIOUS_POWER = 0.7; /* errors do not follow tolerances evenly */
 static const double ROUNDING = 1e-13;     /* of the largest coordinate: below it differences say nothing */
 
-double hooke_estimate_value(const hooke_options *options) {
+double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
   return hooke_options_number(options, adaptive ? "rtol" : "step");
 }
 
-static const struct hooke_method *method_of(const struct hooke_estimate *e) {
-  return hooke_method_find(hooke_options_text(e->options, "method"));
+static const struct hk_method *method_of(const struct hooke_estimate *e) {
+  return hk_method_find(hooke_options_text(e->options, "method"));
 }
 
 /* ---- running again ---- */
@@ -40,27 +40,27 @@ static int32_t tell(double share, void *ctx) {
   return e->progress ? e->progress(share, "error", e->ctx) : 0;
 }
 
-int32_t hooke_estimate_rerun(struct hooke_estimate *e, double value, const hooke_state *from, double duration,
-                             double every, struct hooke_frames *frames) {
+int32_t hk_estimate_rerun(struct hooke_estimate *e, double value, const hooke_state *from, double duration,
+                          double every, struct hk_frames *frames) {
   struct rerun rerun = {e, from};
-  const struct hooke_listener listener = {.on_progress = tell, .on_start = start_from, .ctx = &rerun};
+  const struct hk_listener listener = {.on_progress = tell, .on_start = start_from, .ctx = &rerun};
   hooke_options *options = NULL;
-  int32_t status = hooke_pick_options(e->options, hooke_options_text(e->options, "method"), value, &options);
+  int32_t status = hk_pick_options(e->options, hooke_options_text(e->options, "method"), value, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", every);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
-  if (status == HOOKE_OK) status = hooke_frames_run(frames, options, &listener, NULL, NULL);
+  if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
 /* Distance of the ends of two reruns, NaN if one did not come to its end. */
-static double end_apart(const struct hooke_frames *a, const struct hooke_frames *b) {
+static double end_apart(const struct hk_frames *a, const struct hk_frames *b) {
   if (a->recorded < a->count || b->recorded < b->count) return NAN;
-  return hooke_frames_distance(a, a->count - 1, b->position + (b->count - 1) * b->size, NULL);
+  return hk_frames_distance(a, a->count - 1, b->position + (b->count - 1) * b->size, NULL);
 }
 
-static double floor_of(const struct hooke_frames *frames) {
+static double floor_of(const struct hk_frames *frames) {
   double largest = 0.0;
   for (int64_t k = 0; k < frames->recorded * frames->size; k++)
     largest = fmax(largest, fabs(frames->position[k]));
@@ -98,43 +98,41 @@ static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double nea
   return near / (pow(factor, e->order) - 1.0);
 }
 
-int32_t hooke_estimate_by_coarser(struct hooke_estimate *e) {
+int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
   const int32_t adaptive = method_of(e)->adaptive;
-  const double value = hooke_estimate_value(e->options);
-  struct hooke_frames frames[2] = {{.count = 0}, {.count = 0}};
+  const double value = hk_estimate_value(e->options);
+  struct hk_frames frames[2] = {{.count = 0}, {.count = 0}};
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < 2 && status == HOOKE_OK; k++) {
     const double next = coarser(e, adaptive, value, k + 1);
     if (isnan(next)) break;
-    status = hooke_frames_create(e->system, 2, &frames[k]);
-    if (status == HOOKE_OK)
-      status = hooke_estimate_rerun(e, next, NULL, e->duration, e->duration, &frames[k]);
+    status = hk_frames_create(e->system, 2, &frames[k]);
+    if (status == HOOKE_OK) status = hk_estimate_rerun(e, next, NULL, e->duration, e->duration, &frames[k]);
     if (frames[k].recorded < 2) break;
   }
   if (status == HOOKE_OK && frames[1].recorded == 2) {
     const double *end = e->kept.position + (e->kept.count - 1) * e->kept.size;
-    const double near = hooke_frames_distance(&frames[0], 1, end, NULL),
-                 far = end_apart(&frames[0], &frames[1]);
+    const double near = hk_frames_distance(&frames[0], 1, end, NULL), far = end_apart(&frames[0], &frames[1]);
     if (near > floor_of(&frames[0]))
       know(e, extrapolate(e, adaptive, near, far), e->begin, e->begin + e->duration,
            adaptive ? "tolerance" : "half-step");
   }
-  hooke_frames_release(&frames[0]);
-  hooke_frames_release(&frames[1]);
+  hk_frames_release(&frames[0]);
+  hk_frames_release(&frames[1]);
   return status;
 }
 
 /* ---- finer ---- */
 
 /* The largest distance of the kept frames, the last `count` of them, to those of a finer run, as an error of the run. */
-static double error_to(struct hooke_estimate *e, const struct hooke_frames *finer) {
-  const struct hooke_frames *kept = &e->kept;
-  const struct hooke_method *method = method_of(e);
+static double error_to(struct hooke_estimate *e, const struct hk_frames *finer) {
+  const struct hk_frames *kept = &e->kept;
+  const struct hk_method *method = method_of(e);
   double apart = 0.0;
   if (finer->recorded < finer->count) return NAN;
   for (int64_t f = 1; f < finer->count; f++) {
     const double *q = kept->position + (kept->count - finer->count + f) * kept->size;
-    apart = fmax(apart, hooke_frames_distance(finer, f, q, NULL));
+    apart = fmax(apart, hk_frames_distance(finer, f, q, NULL));
   }
   e->order = method->adaptive ? 1.0 : (double)method->order;
   const double gain = method->adaptive ? FINER_TOLERANCE : exp2(-e->order);
@@ -142,31 +140,31 @@ static double error_to(struct hooke_estimate *e, const struct hooke_frames *fine
 }
 
 static double finer_value(const struct hooke_estimate *e) {
-  const double value = hooke_estimate_value(e->options);
+  const double value = hk_estimate_value(e->options);
   return method_of(e)->adaptive ? fmax(TIGHTEST, FINER_TOLERANCE * value) : 0.5 * value;
 }
 
-int32_t hooke_estimate_by_slice(struct hooke_estimate *e) {
-  struct hooke_frames frames;
+int32_t hk_estimate_by_slice(struct hooke_estimate *e) {
+  struct hk_frames frames;
   if (e->late == NULL || !isnan(e->late_after)) return HOOKE_OK;
   const double from = hooke_state_time(e->late), duration = e->begin + e->duration - from;
   if (!(duration > 0.0)) return HOOKE_OK;
-  int32_t status = hooke_frames_create(e->system, 2, &frames);
+  int32_t status = hk_frames_create(e->system, 2, &frames);
   if (status != HOOKE_OK) return status;
-  status = hooke_estimate_rerun(e, finer_value(e), e->late, duration, duration, &frames);
+  status = hk_estimate_rerun(e, finer_value(e), e->late, duration, duration, &frames);
   if (status == HOOKE_OK) know(e, error_to(e, &frames), from, e->begin + e->duration, "slice");
-  hooke_frames_release(&frames);
+  hk_frames_release(&frames);
   return status;
 }
 
-int32_t hooke_estimate_by_finer(struct hooke_estimate *e) {
-  struct hooke_frames frames;
-  int32_t status = hooke_frames_create(e->system, e->kept.count, &frames);
+int32_t hk_estimate_by_finer(struct hooke_estimate *e) {
+  struct hk_frames frames;
+  int32_t status = hk_frames_create(e->system, e->kept.count, &frames);
   if (status != HOOKE_OK) return status;
-  status = hooke_estimate_rerun(e, finer_value(e), NULL, e->duration, e->apart, &frames);
+  status = hk_estimate_rerun(e, finer_value(e), NULL, e->duration, e->apart, &frames);
   if (status == HOOKE_OK)
     know(e, error_to(e, &frames), e->begin, e->begin + e->duration,
          method_of(e)->adaptive ? "tolerance" : "half-step");
-  hooke_frames_release(&frames);
+  hk_frames_release(&frames);
   return status;
 }

@@ -20,10 +20,10 @@ enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3 };
 /* ---- what is studied ---- */
 
 /* Frames between FEWEST_FRAMES and MOST_FRAMES, such that the steps that fit the run fit them, too. */
-static int32_t choose_frames(struct hooke_pick *pick) {
+static int32_t choose_frames(struct hk_pick *pick) {
   double every, unit;
-  int32_t status = hooke_step_times(pick->run, &pick->duration, &every);
-  if (status == HOOKE_OK) status = hooke_step_unit(pick->duration, every, &unit);
+  int32_t status = hk_step_times(pick->run, &pick->duration, &every);
+  if (status == HOOKE_OK) status = hk_step_unit(pick->duration, every, &unit);
   if (status != HOOKE_OK) return status;
   const double units = round(pick->duration / unit);
   double apart = 1.0;
@@ -37,21 +37,21 @@ static int32_t choose_frames(struct hooke_pick *pick) {
 
 /* Seconds that one evaluation of the forces takes. */
 static int32_t time_evaluation(const hooke_system *system, const hooke_state *state, double *seconds) {
-  double *force = hooke_new(3 * hooke_system_particle_count(system), sizeof(double));
+  double *force = hk_new(3 * hooke_system_particle_count(system), sizeof(double));
   int32_t status = force ? HOOKE_OK : HOOKE_NO_MEMORY;
   *seconds = INFINITY;
   for (int k = 0; k < EVALUATIONS && status == HOOKE_OK; k++) {
-    const double begun = hooke_clock_seconds();
+    const double begun = hk_clock_seconds();
     status = hooke_system_force(system, hooke_state_time(state), hooke_state_position(state),
                                 hooke_state_velocity(state), force);
-    *seconds = fmin(*seconds, hooke_clock_seconds() - begun);
+    *seconds = fmin(*seconds, hk_clock_seconds() - begun);
   }
-  hooke_free(force);
+  hk_free(force);
   return status;
 }
 
 /* About what the quickest run takes [s]: symplectic Euler at its largest step. */
-static int32_t quickest_run(struct hooke_pick *pick, double *seconds) {
+static int32_t quickest_run(struct hk_pick *pick, double *seconds) {
   hooke_state *state = NULL;
   double bound = 0.0;
   int32_t status = hooke_state_create(pick->system, &state);
@@ -67,27 +67,27 @@ static int32_t quickest_run(struct hooke_pick *pick, double *seconds) {
 /* ---- the reference ---- */
 
 static int32_t tell_reference(double share, void *ctx) {
-  const struct hooke_pick *pick = ctx;
+  const struct hk_pick *pick = ctx;
   return pick->progress ? pick->progress(REFERENCE_SHARE * share, "reference", pick->ctx) : 0;
 }
 
-static int32_t make_reference(struct hooke_pick *pick, double budget) {
-  const struct hooke_listener listener = {.on_progress = tell_reference, .ctx = pick};
+static int32_t make_reference(struct hk_pick *pick, double budget) {
+  const struct hk_listener listener = {.on_progress = tell_reference, .ctx = pick};
   const double duration = hooke_options_number(pick->run, "duration");
   const double every = hooke_options_number(pick->run, "every");
-  const struct hooke_reference_request request = {.run = pick->run,
-                                                  .frame_count =
-                                                      1 + (int64_t)floor(duration / every * (1.0 + 1e-9)),
-                                                  .digits = DIGITS * pick->want,
-                                                  .enough = 1,
-                                                  .budget = budget,
-                                                  .listener = &listener};
-  return hooke_reference_create(pick->system, &request, &pick->reference);
+  const struct hk_reference_request request = {.run = pick->run,
+                                               .frame_count =
+                                                   1 + (int64_t)floor(duration / every * (1.0 + 1e-9)),
+                                               .digits = DIGITS * pick->want,
+                                               .enough = 1,
+                                               .budget = budget,
+                                               .listener = &listener};
+  return hk_reference_create(pick->system, &request, &pick->reference);
 }
 
 /* What is studied is what the reference came to, where time was short. */
-static int32_t shorten(struct hooke_pick *pick) {
-  const struct hooke_reference *r = &pick->reference;
+static int32_t shorten(struct hk_pick *pick) {
+  const struct hk_reference *r = &pick->reference;
   if (!r->hurried || r->trusted >= r->frames.count || r->trusted < 2) return HOOKE_OK;
   const double reached = r->frames.time[r->trusted - 1] - r->frames.time[0];
   pick->share = reached / pick->duration;
@@ -95,11 +95,11 @@ static int32_t shorten(struct hooke_pick *pick) {
 }
 
 /* Of the whole run; where not even its second frame is reached, of a beginning with frames that are closer. */
-static int32_t find_reference(struct hooke_pick *pick, double budget) {
+static int32_t find_reference(struct hk_pick *pick, double budget) {
   int32_t status = make_reference(pick, budget);
   if (status == HOOKE_OK && (pick->reference.trusted > 1 || !pick->reference.hurried)) return shorten(pick);
   if (status != HOOKE_OK && status != HOOKE_BAD_VALUE) return status;
-  hooke_reference_release(&pick->reference);
+  hk_reference_release(&pick->reference);
   const double units = ceil(BEGINNING * round(pick->duration / pick->unit));
   pick->share = units * pick->unit / pick->duration;
   status = hooke_options_set_number(pick->run, "every", pick->unit);
@@ -110,10 +110,10 @@ static int32_t find_reference(struct hooke_pick *pick, double budget) {
 
 /* ---- picking ---- */
 
-int32_t hooke_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out) {
+int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(run, &options);
-  if (status == HOOKE_OK) status = hooke_trial_set_value(options, method, value);
+  if (status == HOOKE_OK) status = hk_trial_set_value(options, method, value);
   if (status == HOOKE_OK)
     *out = options;
   else
@@ -121,33 +121,33 @@ int32_t hooke_pick_options(const hooke_options *run, const char *method, double 
   return status;
 }
 
-double hooke_pick_trusted(const struct hooke_pick *pick) {
-  const struct hooke_reference *r = &pick->reference;
+double hk_pick_trusted(const struct hk_pick *pick) {
+  const struct hk_reference *r = &pick->reference;
   if (r->trusted == r->frames.count) return pick->share * pick->duration;
   return r->trusted > 0 ? r->frames.time[r->trusted - 1] - r->frames.time[0] : 0.0;
 }
 
-int32_t hooke_pick_run(struct hooke_pick *pick, const hooke_system *system, const hooke_options *run,
-                       double want, const char *method, hooke_progress *progress, void *ctx) {
+int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
+                    const char *method, hooke_progress *progress, void *ctx) {
   double quickest = 0.0;
-  *pick = (struct hooke_pick){.system = system,
-                              .want = want,
-                              .method = method,
-                              .share = 1.0,
-                              .begun = hooke_clock_seconds(),
-                              .progress = progress,
-                              .ctx = ctx};
+  *pick = (struct hk_pick){.system = system,
+                           .want = want,
+                           .method = method,
+                           .share = 1.0,
+                           .begun = hk_clock_seconds(),
+                           .progress = progress,
+                           .ctx = ctx};
   int32_t status = hooke_options_copy(run, &pick->run);
   if (status == HOOKE_OK) status = choose_frames(pick);
   if (status == HOOKE_OK) status = quickest_run(pick, &quickest);
   if (status == HOOKE_OK)
     status = find_reference(pick, fmax(REFERENCE_SHARE * LEAST_SECONDS, REFERENCE_RUNS * quickest));
-  pick->deadline = fmax(pick->begun + LEAST_SECONDS, hooke_clock_seconds() + RUNS * quickest);
-  return status == HOOKE_OK ? hooke_pick_search(pick) : status;
+  pick->deadline = fmax(pick->begun + LEAST_SECONDS, hk_clock_seconds() + RUNS * quickest);
+  return status == HOOKE_OK ? hk_pick_search(pick) : status;
 }
 
-void hooke_pick_release(struct hooke_pick *pick) {
-  hooke_reference_release(&pick->reference);
+void hk_pick_release(struct hk_pick *pick) {
+  hk_reference_release(&pick->reference);
   hooke_options_destroy(pick->run);
   memset(pick, 0, sizeof *pick);
 }

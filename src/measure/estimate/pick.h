@@ -7,41 +7,41 @@
 #include "measure/trial/reference.h"
 
 /* A row that was run: a method with a step or tolerance. */
-struct hooke_pick_row {
+struct hk_pick_row {
   const char *method; /* NULL: none */
   double value;       /* step [s] or rtol */
   double error;       /* largest over the frames that are judged [m] */
   double seconds;     /* for the time that is studied */
 };
 
-struct hooke_pick {
+struct hk_pick {
   const hooke_system *system;
   hooke_options *run;     /* of the runs: duration and frames as they are studied */
   double want;            /* over the whole run [m] */
   double duration, share; /* of the run [s]; of it, what is studied */
   double unit;            /* the largest step that fits frames and duration [s] */
   const char *method;     /* the only one that may be taken; NULL: any */
-  struct hooke_reference reference;
-  struct hooke_pick_row best; /* the cheapest that meets the want, or else the closest */
-  int32_t met;                /* 1: `best` does, over what is studied and judged */
-  double evaluation;          /* of the forces, about [s] */
-  double begun, deadline;     /* by the clock [s] */
+  struct hk_reference reference;
+  struct hk_pick_row best; /* the cheapest that meets the want, or else the closest */
+  int32_t met;             /* 1: `best` does, over what is studied and judged */
+  double evaluation;       /* of the forces, about [s] */
+  double begun, deadline;  /* by the clock [s] */
   hooke_progress *progress;
   void *ctx;
 };
 
 /* Picks. `run` has the duration and what methods take besides steps and tolerances. To be released in either case.
  * HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
-int32_t hooke_pick_run(struct hooke_pick *pick, const hooke_system *system, const hooke_options *run,
-                       double want, const char *method, hooke_progress *progress, void *ctx);
-void hooke_pick_release(struct hooke_pick *pick);
+int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
+                    const char *method, hooke_progress *progress, void *ctx);
+void hk_pick_release(struct hk_pick *pick);
 
 /* Time up to which the reference can be trusted, from the start of the run [s]. */
-double hooke_pick_trusted(const struct hooke_pick *pick);
+double hk_pick_trusted(const struct hk_pick *pick);
 
 /* Searches all methods for the cheapest row within the wanted error, and puts it into `best` (pick_search.c). */
-int32_t hooke_pick_search(struct hooke_pick *pick);
+int32_t hk_pick_search(struct hk_pick *pick);
 /* Options of a run by a method with a step or tolerance. */
-int32_t hooke_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
+int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
 
 #endif

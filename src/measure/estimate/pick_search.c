@@ -34,7 +34,7 @@ struct result {
 };
 
 struct search {
-  struct hooke_pick *pick;
+  struct hk_pick *pick;
   const char *method;
   int32_t adaptive;
   double order;        /* of the error, in the value */
@@ -53,15 +53,15 @@ struct search {
 
 struct looker {
   struct search *search;
-  struct hooke_soundness soundness;
+  struct hk_soundness soundness;
   double step;
   int32_t status;
 };
 
 static int32_t on_progress(double share, void *ctx) {
   struct search *s = ((struct looker *)ctx)->search;
-  const struct hooke_pick *pick = s->pick;
-  const double now = hooke_clock_seconds();
+  const struct hk_pick *pick = s->pick;
+  const double now = hk_clock_seconds();
   (void)share;
   const double done = (now - pick->begun) / (pick->deadline - pick->begun);
   const int32_t value = pick->progress ? pick->progress(fmin(done, 0.99), s->method, pick->ctx) : 0;
@@ -71,41 +71,41 @@ static int32_t on_progress(double share, void *ctx) {
 }
 
 /* Seconds that the limits of one row may take. */
-static double time_for_limits(const struct hooke_pick *pick) {
-  return SHARE_OF_LIMITS * (pick->deadline - hooke_clock_seconds());
+static double time_for_limits(const struct hk_pick *pick) {
+  return SHARE_OF_LIMITS * (pick->deadline - hk_clock_seconds());
 }
 
 static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct looker *looker = ctx;
   struct search *s = looker->search;
-  const struct hooke_frames *frames = &s->pick->reference.frames;
+  const struct hk_frames *frames = &s->pick->reference.frames;
   (void)step;
   if (frame == 0)
-    looker->status = hooke_soundness_begin(&looker->soundness, frames->system, s->method, looker->step,
-                                           time_for_limits(s->pick), state, frames->count);
+    looker->status = hk_soundness_begin(&looker->soundness, frames->system, s->method, looker->step,
+                                        time_for_limits(s->pick), state, frames->count);
   if (looker->status != HOOKE_OK) return 1;
   const double patience = looker->soundness.patience;
-  hooke_soundness_see(&looker->soundness, state);
+  hk_soundness_see(&looker->soundness, state);
   s->until += patience - looker->soundness.patience; /* limits are no part of the run */
   return 0;
 }
 
 static int32_t run_row(struct search *s, double value, struct result *result) {
-  const struct hooke_reference *r = &s->pick->reference;
+  const struct hk_reference *r = &s->pick->reference;
   struct looker looker = {.search = s, .step = s->adaptive ? NAN : value};
-  const struct hooke_listener listener = {.on_progress = on_progress, .on_frame = on_frame, .ctx = &looker};
-  struct hooke_trial trial = {.status = NULL};
+  const struct hk_listener listener = {.on_progress = on_progress, .on_frame = on_frame, .ctx = &looker};
+  struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   s->late = 0;
-  int32_t status = hooke_pick_options(s->pick->run, s->method, value, &options);
-  if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
-  if (status == HOOKE_OK) status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &listener);
+  int32_t status = hk_pick_options(s->pick->run, s->method, value, &options);
+  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
+  if (status == HOOKE_OK) status = hk_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
   const double work = trial.force_evaluations + fmax(0.0, trial.linear_iterations);
   for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
     looker.soundness.count = looker.soundness.capacity; /* seen already */
-    const struct hooke_listener quiet = {.on_progress = on_progress, .ctx = &looker};
-    status = hooke_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
+    const struct hk_listener quiet = {.on_progress = on_progress, .ctx = &looker};
+    status = hk_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
     result->seconds = fmin(result->seconds, trial.wall_seconds);
   }
   /* a run's own time may have met a busy machine */
@@ -113,11 +113,11 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   result->seconds = work * s->rate;
   s->pick->evaluation = fmin(s->pick->evaluation, s->rate);
   if (looker.soundness.time) {
-    result->allowed = hooke_soundness_limit_share * looker.soundness.least_limit;
-    result->gains = hooke_soundness_rise(&looker.soundness) > hooke_soundness_most_rise;
+    result->allowed = hk_soundness_limit_share * looker.soundness.least_limit;
+    result->gains = hk_soundness_rise(&looker.soundness) > hk_soundness_most_rise;
   }
-  hooke_soundness_release(&looker.soundness);
-  hooke_trial_release(&trial);
+  hk_soundness_release(&looker.soundness);
+  hk_trial_release(&trial);
   hooke_options_destroy(options);
   return looker.status != HOOKE_OK ? looker.status : status;
 }
@@ -131,7 +131,7 @@ static double fit(const struct search *s, double value) {
 
 /* 1 if the row is the best so far: the cheapest within the want, or while there is none the closest to it. */
 static int beats(const struct search *s, const struct result *result, int32_t meets) {
-  const struct hooke_pick *pick = s->pick;
+  const struct hk_pick *pick = s->pick;
   if (pick->best.method == NULL || meets != pick->met) return meets || !pick->met;
   return meets ? result->seconds < pick->best.seconds : result->error < pick->best.error;
 }
@@ -140,7 +140,7 @@ static void learn(struct search *s, const struct result *result) {
   const int32_t sound = !isnan(result->error) && isinf(result->allowed) && !result->gains;
   const int32_t meets = sound && s->pick->reference.trusted > 1 && result->error <= s->most;
   if (sound && beats(s, result, meets)) {
-    s->pick->best = (struct hooke_pick_row){s->method, result->value, result->error, result->seconds};
+    s->pick->best = (struct hk_pick_row){s->method, result->value, result->error, result->seconds};
     s->pick->met = meets;
   }
   if (meets && !(result->value <= s->meets)) {
@@ -190,12 +190,12 @@ static void raise_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
   const double seconds = time_for_limits(s->pick);
   double limit = s->bound;
-  if (s->adaptive || s->raised || !(seconds > 0.0) || s->largest < hooke_soundness_limit_share * s->bound)
+  if (s->adaptive || s->raised || !(seconds > 0.0) || s->largest < hk_soundness_limit_share * s->bound)
     return;
   s->raised = 1;
-  struct hooke_patience patience = hooke_patience_of(seconds, NULL, NULL);
-  if (hooke_limit_sure(s->pick->system, q, s->method, &patience, &limit) == HOOKE_OK)
-    s->largest = fmin(s->pick->unit, hooke_soundness_limit_share * limit);
+  struct hk_patience patience = hk_patience_of(seconds, NULL, NULL);
+  if (hk_limit_sure(s->pick->system, q, s->method, &patience, &limit) == HOOKE_OK)
+    s->largest = fmin(s->pick->unit, hk_soundness_limit_share * limit);
 }
 
 /* The bound on the step at the start, and the largest value that may be taken. */
@@ -204,10 +204,10 @@ static void find_largest(struct search *s) {
   s->bound = INFINITY;
   if (!s->adaptive) (void)hooke_step_bound(s->pick->system, s->method, q, &s->bound);
   if (isnan(s->bound)) s->bound = INFINITY;
-  s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hooke_soundness_limit_share * s->bound);
+  s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hk_soundness_limit_share * s->bound);
 }
 
-static struct search begin(struct hooke_pick *pick, const char *method) {
+static struct search begin(struct hk_pick *pick, const char *method) {
   struct search s = {.pick = pick,
                      .method = method,
                      .adaptive = hooke_method_is_adaptive(method),
@@ -218,7 +218,7 @@ static struct search begin(struct hooke_pick *pick, const char *method) {
                      .error_fails = NAN,
                      .rate = INFINITY,
                      .until = INFINITY};
-  s.order = s.adaptive ? 1.0 : (double)hooke_method_find(method)->order;
+  s.order = s.adaptive ? 1.0 : (double)hk_method_find(method)->order;
   find_largest(&s);
   s.first = s.adaptive ? s.most / pick->reference.extent : s.largest;
   return s;
@@ -235,7 +235,7 @@ static int32_t try_value(struct search *s, double value) {
 
 /* What the next run is going to take [s], about; infinity where the search of this method is over. */
 static double promise(const struct search *s, double *value) {
-  const struct hooke_pick *pick = s->pick;
+  const struct hk_pick *pick = s->pick;
   *value = s->over || s->runs == MOST_RUNS ? NAN : next_value(s);
   if (isnan(*value) || (!s->adaptive && pick->duration / *value > MOST_STEPS)) return INFINITY;
   if (s->runs > 0) return cost_of(s, &s->last, *value);
@@ -252,8 +252,8 @@ static int32_t loosen(struct search *s, double value) {
 
 /* The next run of a method, unless it cannot become the cheapest, or there is no time. */
 static int32_t advance(struct search *s, double value) {
-  const struct hooke_pick *pick = s->pick;
-  const double now = hooke_clock_seconds(), cost = cost_of(s, &s->last, value);
+  const struct hk_pick *pick = s->pick;
+  const double now = hk_clock_seconds(), cost = cost_of(s, &s->last, value);
   s->over = (pick->met && cost > pick->best.seconds) || (pick->best.method && now + cost > pick->deadline);
   if (s->over) return HOOKE_OK;
   /* a first row is found in any case */
@@ -284,7 +284,7 @@ static int32_t search_all(int32_t count, struct search *all) {
   return status;
 }
 
-int32_t hooke_pick_search(struct hooke_pick *pick) {
+int32_t hk_pick_search(struct hk_pick *pick) {
   struct search all[MOST_METHODS];
   int32_t count = 0;
   for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS; m++) {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-const double hooke_soundness_most_rise = 0.01, hooke_soundness_limit_share = 0.9;
+const double hk_soundness_most_rise = 0.01, hk_soundness_limit_share = 0.9;
 
 enum { LEAST_STATES = 8 };
 static const double SIGNIFICANT = 3.0; /* standard errors */
@@ -17,57 +17,55 @@ static int is_driven(const hooke_system *system) {
   return system->force != NULL || system->drive_count > 0;
 }
 
-int32_t hooke_soundness_begin(struct hooke_soundness *s, const hooke_system *system, const char *method,
-                              double step, double patience, const hooke_state *state, int64_t capacity) {
+int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, const char *method,
+                           double step, double patience, const hooke_state *state, int64_t capacity) {
   const double *q = hooke_state_position(state);
-  *s = (struct hooke_soundness){.system = system,
-                                .method = method,
-                                .step = step,
-                                .least_limit = INFINITY,
-                                .patience = patience,
-                                .capacity = capacity};
-  s->time = hooke_new(2 * capacity, sizeof(double));
+  *s = (struct hk_soundness){.system = system,
+                             .method = method,
+                             .step = step,
+                             .least_limit = INFINITY,
+                             .patience = patience,
+                             .capacity = capacity};
+  s->time = hk_new(2 * capacity, sizeof(double));
   if (s->time == NULL) return HOOKE_NO_MEMORY;
   s->energy = s->time + capacity;
   s->gravity0 = hooke_system_gravity_energy(system, q);
-  s->scale =
-      hooke_system_kinetic_energy(system, hooke_state_velocity(state)) + hooke_elastic_energy(system, q);
-  return hooke_step_is_bounded(method) && step > 0.0 ? hooke_node_blocks_create(system, q, &s->blocks)
-                                                     : HOOKE_OK;
+  s->scale = hooke_system_kinetic_energy(system, hooke_state_velocity(state)) + hk_elastic_energy(system, q);
+  return hk_step_is_bounded(method) && step > 0.0 ? hk_node_blocks_create(system, q, &s->blocks) : HOOKE_OK;
 }
 
 /* The limit itself is asked for only where the step is not clear of the bound, until it is not clear of a limit; from there on
  * the limit is taken to follow the bound, which tells what step to try next. */
-static void see_step(struct hooke_soundness *s, const double *q) {
+static void see_step(struct hk_soundness *s, const double *q) {
   int64_t particle;
-  hooke_node_blocks_fill(&s->blocks, q);
-  if (hooke_step_is_safe(&s->blocks, s->method, s->step / hooke_soundness_limit_share, &particle)) return;
-  const double bound = hooke_step_bound_of(&s->blocks, s->method);
+  hk_node_blocks_fill(&s->blocks, q);
+  if (hk_step_is_safe(&s->blocks, s->method, s->step / hk_soundness_limit_share, &particle)) return;
+  const double bound = hk_step_bound_of(&s->blocks, s->method);
   double limit = s->limit_over_bound * bound;
   if (s->patience > 0.0 && isinf(s->least_limit)) {
-    const double begun = hooke_clock_seconds();
-    struct hooke_patience patience = hooke_patience_of(s->patience, NULL, NULL);
-    (void)hooke_limit_sure(s->system, q, s->method, &patience, &limit);
-    s->patience -= hooke_clock_seconds() - begun;
+    const double begun = hk_clock_seconds();
+    struct hk_patience patience = hk_patience_of(s->patience, NULL, NULL);
+    (void)hk_limit_sure(s->system, q, s->method, &patience, &limit);
+    s->patience -= hk_clock_seconds() - begun;
     s->limit_over_bound = limit > 0.0 && s->patience > 0.0 ? limit / bound : 1.0;
   }
-  if (s->step > hooke_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
+  if (s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
 }
 
-void hooke_soundness_see(struct hooke_soundness *s, const hooke_state *state) {
+void hk_soundness_see(struct hk_soundness *s, const hooke_state *state) {
   if (s->count == s->capacity) return;
   const double *q = hooke_state_position(state);
   const double gravity = hooke_system_gravity_energy(s->system, q);
   s->swing = fmax(s->swing, fabs(gravity - s->gravity0));
   s->time[s->count] = hooke_state_time(state);
   s->energy[s->count++] = hooke_system_kinetic_energy(s->system, hooke_state_velocity(state)) +
-                          hooke_elastic_energy(s->system, q) + (gravity - s->gravity0);
+                          hk_elastic_energy(s->system, q) + (gravity - s->gravity0);
   if (s->blocks.system) see_step(s, q);
 }
 
-void hooke_soundness_release(struct hooke_soundness *s) {
-  hooke_free(s->time);
-  hooke_node_blocks_release(&s->blocks);
+void hk_soundness_release(struct hk_soundness *s) {
+  hk_free(s->time);
+  hk_node_blocks_release(&s->blocks);
   memset(s, 0, sizeof *s);
 }
 
@@ -89,7 +87,7 @@ static double fit_slope(int64_t count, const double *x, const double *y, double 
   return slope;
 }
 
-double hooke_soundness_rise(const struct hooke_soundness *s) {
+double hk_soundness_rise(const struct hk_soundness *s) {
   if (is_driven(s->system) || s->count < LEAST_STATES) return NAN;
   const int64_t from = s->count / 2, count = s->count - from;
   const double span = s->time[s->count - 1] - s->time[from], scale = s->scale + s->swing;

@@ -6,11 +6,11 @@
 
 #include "hooke/state.h"
 
-struct hooke_soundness {
+struct hk_soundness {
   const hooke_system *system;
   const char *method;
-  double step;                     /* NaN for an error-controlled method [s] */
-  struct hooke_node_blocks blocks; /* without memory for a method that has no limit */
+  double step;                  /* NaN for an error-controlled method [s] */
+  struct hk_node_blocks blocks; /* without memory for a method that has no limit */
   double
       least_limit; /* smallest stable step at a state where the step is not clear of it [s]; else infinity */
   double
@@ -23,19 +23,18 @@ struct hooke_soundness {
 
 /* Begins at `state`, with memory for `capacity` states and `patience` [s] for limits; to be released in either case.
  * HOOKE_NO_MEMORY. */
-int32_t hooke_soundness_begin(struct hooke_soundness *soundness, const hooke_system *system,
-                              const char *method, double step, double patience, const hooke_state *state,
-                              int64_t capacity);
+int32_t hk_soundness_begin(struct hk_soundness *soundness, const hooke_system *system, const char *method,
+                           double step, double patience, const hooke_state *state, int64_t capacity);
 /* Takes another state, such as a frame; those beyond the capacity are left out. */
-void hooke_soundness_see(struct hooke_soundness *soundness, const hooke_state *state);
-void hooke_soundness_release(struct hooke_soundness *soundness);
+void hk_soundness_see(struct hk_soundness *soundness, const hooke_state *state);
+void hk_soundness_release(struct hk_soundness *soundness);
 
 /* How far the energy rises over the last half of the states seen, as a share of the scale: the slope of a least-squares
  * line times the time it covers, where the slope is over three times its standard error; else 0. NaN where energy comes
  * from outside (callbacks, drives) or there are fewer than eight states. */
-double hooke_soundness_rise(const struct hooke_soundness *soundness);
+double hk_soundness_rise(const struct hk_soundness *soundness);
 
 /* The share from which on a run gains energy by itself, and the share of the stable step that may be taken. */
-extern const double hooke_soundness_most_rise, hooke_soundness_limit_share;
+extern const double hk_soundness_most_rise, hk_soundness_limit_share;
 
 #endif

@@ -88,15 +88,15 @@ static double kinetic(const hooke_system *system, const double *v) {
 
 /* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as would a free scene,
  * and turn the springs. */
-static void start_randomly(struct hooke_growth *growth, double *x, double *v) {
+static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   const hooke_system *system = growth->frozen->system;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    x[k] = hooke_random_uniform(&growth->random) * sqrt(system->inverse_mass[k / 3]);
-  hooke_frozen_push(growth->frozen, x, v);
+    x[k] = hk_random_uniform(&growth->random) * sqrt(system->inverse_mass[k / 3]);
+  hk_frozen_push(growth->frozen, x, v);
 }
 
 /* Displacements of one step are at most 1 m. */
-static void start(struct hooke_growth *growth, double step, int random_only) {
+static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->frozen->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
   const int64_t size = 3 * system->particle_count;
@@ -114,13 +114,13 @@ static void start(struct hooke_growth *growth, double step, int random_only) {
     v[k] /= most * step;
 }
 
-static double log_amplitude(const struct hooke_growth *growth) {
-  return 0.5 * log(hooke_frozen_energy(growth->frozen, hooke_state_position(growth->state),
-                                       hooke_state_velocity(growth->state)));
+static double log_amplitude(const struct hk_growth *growth) {
+  return 0.5 * log(hk_frozen_energy(growth->frozen, hooke_state_position(growth->state),
+                                    hooke_state_velocity(growth->state)));
 }
 
 /* Displacements stay where springs are linear. */
-static void scale(const struct hooke_growth *growth, struct course *course) {
+static void scale(const struct hk_growth *growth, struct course *course) {
   const double off = course->last - course->offset - course->first, *place = growth->frozen->place;
   if (!isfinite(off) || off < SCALE_DOWN) return;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state);
@@ -133,26 +133,26 @@ static void scale(const struct hooke_growth *growth, struct course *course) {
 }
 
 static int32_t watch(double done, const char *method, void *ctx) {
-  struct hooke_growth *growth = ctx;
+  struct hk_growth *growth = ctx;
   (void)done;
-  growth->out_of_time = hooke_clock_seconds() > growth->deadline;
+  growth->out_of_time = hk_clock_seconds() > growth->deadline;
   return growth->out_of_time ||
          (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
 }
 
 /* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped mode swings by
  * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told apart. */
-static double certain_rise(const struct hooke_growth *growth) {
+static double certain_rise(const struct hk_growth *growth) {
   return log(30.0 / sqrt(0.5 * growth->accuracy));
 }
 
 /* Two swings of a mode at such a distance below the limit. */
-static int64_t least_steps(const struct hooke_growth *growth) {
+static int64_t least_steps(const struct hk_growth *growth) {
   return 256 + (int64_t)(10.0 / sqrt(growth->accuracy));
 }
 
-static int judge(const struct hooke_growth *growth, const struct course *course, int64_t taken, int thorough,
-                 enum hooke_verdict *verdict) {
+static int judge(const struct hk_growth *growth, const struct course *course, int64_t taken, int thorough,
+                 enum hk_verdict *verdict) {
   const double rise = course->last - course->first;
   const double speed = kinetic(growth->frozen->system, hooke_state_velocity(growth->state));
   if (rise > certain_rise(growth)) {
@@ -171,7 +171,7 @@ static int judge(const struct hooke_growth *growth, const struct course *course,
 }
 
 /* What is said of a run that has taken all its steps. */
-static enum hooke_verdict last_word(const struct course *course) {
+static enum hk_verdict last_word(const struct course *course) {
   const struct trend trend = find_trend(course);
   if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
     return trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
@@ -180,14 +180,14 @@ static enum hooke_verdict last_word(const struct course *course) {
 }
 
 /* `count` steps, beginning anew: the integrator then looks for numbers that are not finite and for no rise of energy. */
-static int32_t take(struct hooke_growth *growth, hooke_integrator *integrator, int64_t count,
-                    enum hooke_verdict *verdict, int *ended) {
+static int32_t take(struct hk_growth *growth, hooke_integrator *integrator, int64_t count,
+                    enum hk_verdict *verdict, int *ended) {
   hooke_state_set_time(growth->state, 0.0);
   const int32_t status = hooke_integrator_step(integrator, growth->state, count);
   growth->steps_run += count;
   *ended = status != HOOKE_OK;
   if (status == HOOKE_STOPPED && !growth->out_of_time)
-    return hooke_fail(status, NULL, "the progress callback asked to stop while a limit was measured");
+    return hk_fail(status, NULL, "the progress callback asked to stop while a limit was measured");
   if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STOPPED) return status;
   *verdict = status == HOOKE_DIVERGED  ? HOOKE_GROWS
              : status == HOOKE_STOPPED ? HOOKE_OUT_OF_TIME
@@ -195,8 +195,8 @@ static int32_t take(struct hooke_growth *growth, hooke_integrator *integrator, i
   return HOOKE_OK;
 }
 
-static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int thorough, int64_t most_steps,
-                  enum hooke_verdict *verdict) {
+static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int thorough, int64_t most_steps,
+                  enum hk_verdict *verdict) {
   struct course course = {.length = FIRST_WINDOW};
   course.first = course.last = log_amplitude(growth);
   *verdict = HOOKE_HOLDS;
@@ -204,8 +204,7 @@ static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int
   int64_t taken = 0, longest = 1;
   while (taken < most_steps) {
     const int64_t twice_the_mean = 2 * course.length / SAMPLES;
-    int64_t count =
-        1 + (int64_t)(0.5 * (hooke_random_uniform(&growth->random) + 1.0) * (double)twice_the_mean);
+    int64_t count = 1 + (int64_t)(0.5 * (hk_random_uniform(&growth->random) + 1.0) * (double)twice_the_mean);
     count = count < longest ? count : longest;
     count = count < course.length - course.steps ? count : course.length - course.steps;
     int ended;
@@ -226,8 +225,8 @@ static int32_t go(struct hooke_growth *growth, hooke_integrator *integrator, int
   return HOOKE_OK;
 }
 
-int32_t hooke_growth_see(struct hooke_growth *growth, double step, int32_t thorough, int64_t most_steps,
-                         enum hooke_verdict *verdict) {
+int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
+                      enum hk_verdict *verdict) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_options_set_number(growth->run, "step", step);
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->frozen->system, growth->run, &integrator);
@@ -249,18 +248,17 @@ int32_t hooke_growth_see(struct hooke_growth *growth, double step, int32_t thoro
 
 /* ---- making ---- */
 
-int32_t hooke_growth_create(const struct hooke_frozen *frozen, const hooke_options *run, const char *method,
-                            const double *mode, double accuracy, double deadline,
-                            struct hooke_growth *growth) {
+int32_t hk_growth_create(const struct hk_frozen *frozen, const hooke_options *run, const char *method,
+                         const double *mode, double accuracy, double deadline, struct hk_growth *growth) {
   const int64_t size = 3 * frozen->system->particle_count;
-  *growth = (struct hooke_growth){.frozen = frozen, .accuracy = accuracy, .deadline = deadline, .random = 1};
+  *growth = (struct hk_growth){.frozen = frozen, .accuracy = accuracy, .deadline = deadline, .random = 1};
   int32_t status = run ? hooke_options_copy(run, &growth->run) : hooke_run_options_create(&growth->run);
   if (status == HOOKE_OK) status = hooke_options_set_text(growth->run, "method", method);
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "duration");
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "every");
   if (status == HOOKE_OK) status = hooke_state_create(frozen->system, &growth->state);
   if (status == HOOKE_OK) {
-    growth->direction = hooke_new(size, sizeof(double));
+    growth->direction = hk_new(size, sizeof(double));
     if (growth->direction == NULL) status = HOOKE_NO_MEMORY;
   }
   if (status == HOOKE_OK && mode) {
@@ -268,13 +266,13 @@ int32_t hooke_growth_create(const struct hooke_frozen *frozen, const hooke_optio
     const double sum = kinetic(frozen->system, mode);
     growth->has_direction = isfinite(sum) && sum > 0.0;
   }
-  if (status != HOOKE_OK) hooke_growth_release(growth);
+  if (status != HOOKE_OK) hk_growth_release(growth);
   return status;
 }
 
-void hooke_growth_release(struct hooke_growth *growth) {
+void hk_growth_release(struct hk_growth *growth) {
   hooke_options_destroy(growth->run);
   hooke_state_destroy(growth->state);
-  hooke_free(growth->direction);
+  hk_free(growth->direction);
   memset(growth, 0, sizeof *growth);
 }

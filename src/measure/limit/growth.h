@@ -6,7 +6,7 @@
 #include "hooke/measure.h"
 #include "measure/spectrum/frozen.h"
 
-enum hooke_verdict {
+enum hk_verdict {
   HOOKE_GROWS,
   HOOKE_HOLDS,  /* it decays */
   HOOKE_STEADY, /* neither is seen in the steps that were allowed */
@@ -14,15 +14,15 @@ enum hooke_verdict {
   HOOKE_UNSOLVED /* the method did not solve its step */
 };
 
-struct hooke_growth {
-  const struct hooke_frozen *frozen;
+struct hk_growth {
+  const struct hk_frozen *frozen;
   hooke_options *run; /* its own copy, without frames */
   hooke_state *state;
   double *direction;     /* velocities to start with, 3n; all zeros: none known */
   int32_t has_direction; /* 1: one was given or found */
   double accuracy;       /* of the limit that is looked for, relative */
   int64_t most_steps;    /* of one run */
-  double deadline;       /* hooke_clock_seconds() at which runs end */
+  double deadline;       /* hk_clock_seconds() at which runs end */
   int64_t steps_run;     /* of all runs */
   uint64_t random;       /* of the generator */
   hooke_progress *progress;
@@ -32,16 +32,15 @@ struct hooke_growth {
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */
-int32_t hooke_growth_create(const struct hooke_frozen *frozen, const hooke_options *run, const char *method,
-                            const double *mode, double accuracy, double deadline,
-                            struct hooke_growth *growth);
-void hooke_growth_release(struct hooke_growth *growth);
+int32_t hk_growth_create(const struct hk_frozen *frozen, const hooke_options *run, const char *method,
+                         const double *mode, double accuracy, double deadline, struct hk_growth *growth);
+void hk_growth_release(struct hk_growth *growth);
 
 /* Runs at `step` from the known direction with a thousandth of random motion, or from random motion alone, until the energy
  * clearly grows or decays, or for `most_steps`. A `thorough` run starts from random motion and takes all of its steps before
  * it says that motion holds: a mode that nobody thought of has had the time to show. Motion that grew is the direction of
  * later runs where none was known or the run was thorough. HOOKE_STOPPED by the progress; HOOKE_NO_MEMORY. */
-int32_t hooke_growth_see(struct hooke_growth *growth, double step, int32_t thorough, int64_t most_steps,
-                         enum hooke_verdict *verdict);
+int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
+                      enum hk_verdict *verdict);
 
 #endif

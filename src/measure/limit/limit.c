@@ -18,7 +18,7 @@
 /* Progress: predictions are quick beside measurements. */
 static const double PREDICTING = 0.05;
 
-static const struct hooke_option_row limit_rows[] = {
+static const struct hk_option_row limit_rows[] = {
     {.name = "methods",
      .type = HOOKE_OPTION_TEXT,
      .doc = "methods, separated by commas; every fixed-step one if not given"},
@@ -43,10 +43,10 @@ static const struct hooke_option_row limit_rows[] = {
      .doc = "time that the measuring may take"},
 };
 
-static const struct hooke_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(limit_rows)};
+static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(limit_rows)};
 
 int32_t hooke_limit_options_create(hooke_options **options) {
-  return hooke_options_create(&limit_table, options);
+  return hk_options_create(&limit_table, options);
 }
 
 /* ---- making ---- */
@@ -54,7 +54,7 @@ int32_t hooke_limit_options_create(hooke_options **options) {
 static int32_t add_row(const char *method, void *ctx) {
   hooke_limit *limit = ctx;
   if (limit->row_count == HOOKE_LIMIT_METHODS)
-    return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
+    return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
   limit->row[limit->row_count++].method = method;
   return HOOKE_OK;
 }
@@ -64,17 +64,17 @@ static int32_t has_fixed_step(const char *method) {
 }
 
 static void forget(hooke_limit *limit) {
-  limit->endless = hooke_patience_of(INFINITY, hooke_limit_tell, limit);
+  limit->endless = hk_patience_of(INFINITY, hk_limit_tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = NAN;
   limit->mode_count = limit->products = limit->clamped = 0;
-  hooke_free(limit->mode);
+  hk_free(limit->mode);
   limit->mode = NULL;
-  hooke_blame_release(&limit->blame);
+  hk_blame_release(&limit->blame);
   memset(&limit->blame, 0, sizeof limit->blame);
   memset(&limit->remedy, 0, sizeof limit->remedy);
   for (int32_t k = 0; k < limit->row_count; k++) {
-    struct hooke_limit_row *row = &limit->row[k];
+    struct hk_limit_row *row = &limit->row[k];
     row->bound = row->predicted = row->measured = row->steps_run = NAN;
     row->exact = row->never_stable = row->has_mode = 0;
     row->note[0] = '\0';
@@ -88,11 +88,11 @@ static void forget_smallest(hooke_limit *limit) {
 
 static int32_t make_room(hooke_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
-  limit->shape = hooke_new(size, sizeof(double));
-  limit->stiffest = hooke_new(size, sizeof(double));
+  limit->shape = hk_new(size, sizeof(double));
+  limit->stiffest = hk_new(size, sizeof(double));
   int32_t status = limit->shape && limit->stiffest ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++) {
-    limit->row[k].mode = hooke_new(size, sizeof(double));
+    limit->row[k].mode = hk_new(size, sizeof(double));
     if (limit->row[k].mode == NULL) status = HOOKE_NO_MEMORY;
   }
   return status;
@@ -100,14 +100,14 @@ static int32_t make_room(hooke_limit *limit) {
 
 int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                            hooke_limit **out) {
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK && run) status = hooke_run_options_require(run, "run");
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
-    status = hooke_options_require(options, &limit_table, "options", "hooke_limit_options_create()");
+    status = hk_options_require(options, &limit_table, "options", "hooke_limit_options_create()");
   if (status != HOOKE_OK) return status;
   if (!HOOKE_HAVE_LAPACK)
-    return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
-  hooke_limit *limit = hooke_handle_new("hooke_limit", sizeof *limit);
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
+  hooke_limit *limit = hk_handle_new("hooke_limit", sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
   limit->system = system;
   limit->patience = &limit->endless;
@@ -116,7 +116,7 @@ int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
   if (status == HOOKE_OK && run) status = hooke_options_copy(run, &limit->run);
   if (status == HOOKE_OK) {
     const char *names = hooke_options_text(limit->options, "methods");
-    status = hooke_method_list_read(names, has_fixed_step, add_row, limit);
+    status = hk_method_list_read(names, has_fixed_step, add_row, limit);
   }
   if (status == HOOKE_OK) status = make_room(limit);
   if (status != HOOKE_OK) {
@@ -133,12 +133,12 @@ void hooke_limit_destroy(hooke_limit *limit) {
   if (limit == NULL) return;
   forget(limit);
   for (int32_t k = 0; k < limit->row_count; k++)
-    hooke_free(limit->row[k].mode);
+    hk_free(limit->row[k].mode);
   hooke_options_destroy(limit->run);
   hooke_options_destroy(limit->options);
-  hooke_free(limit->shape);
-  hooke_free(limit->stiffest);
-  hooke_handle_free(limit);
+  hk_free(limit->shape);
+  hk_free(limit->stiffest);
+  hk_handle_free(limit);
 }
 
 void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void *ctx) {
@@ -146,29 +146,29 @@ void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void 
   limit->progress_ctx = ctx;
 }
 
-int32_t hooke_limit_tell(double done, const char *what, void *ctx) {
+int32_t hk_limit_tell(double done, const char *what, void *ctx) {
   hooke_limit *limit = ctx;
   if (limit->progress == NULL) return HOOKE_OK;
   const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
   const char *words = limit->under_way ? limit->under_way : what;
   if (limit->progress(share, words, limit->progress_ctx) == 0) return HOOKE_OK;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
 static int32_t begin_part(hooke_limit *limit, double share, double width, const char *under_way) {
   limit->share = share;
   limit->width = width;
   limit->under_way = under_way;
-  return hooke_limit_tell(0.0, under_way, limit);
+  return hk_limit_tell(0.0, under_way, limit);
 }
 
 /* ---- one state ---- */
 
-const struct hooke_limit_row *hooke_limit_blamed(const hooke_limit *limit) {
+const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit) {
   const char *method = limit->run ? hooke_options_text(limit->run, "method") : "symplectic-euler";
-  const struct hooke_limit_row *first = NULL;
+  const struct hk_limit_row *first = NULL;
   for (int32_t k = 0; k < limit->row_count; k++) {
-    const struct hooke_limit_row *row = &limit->row[k];
+    const struct hk_limit_row *row = &limit->row[k];
     if (!row->has_mode) continue;
     if (strcmp(row->method, method) == 0) return row;
     if (first == NULL || (first->predicted == 0.0 && row->predicted > 0.0)) first = row;
@@ -178,7 +178,7 @@ const struct hooke_limit_row *hooke_limit_blamed(const hooke_limit *limit) {
 
 /* The mode, and the springs and particles that it hangs on. */
 static int32_t find_blame(hooke_limit *limit, const double *q) {
-  const struct hooke_limit_row *row = hooke_limit_blamed(limit);
+  const struct hk_limit_row *row = hk_limit_blamed(limit);
   if (row == NULL) return HOOKE_OK;
   const int64_t n = limit->system->particle_count;
   double longest = 0.0;
@@ -189,34 +189,34 @@ static int32_t find_blame(hooke_limit *limit, const double *q) {
   for (int64_t k = 0; k < 3 * n; k++)
     limit->shape[k] = longest > 0.0 ? row->mode[k] / longest : 0.0;
   /* where nothing is stable, stiffness alone is to blame */
-  const int stiffness_alone = hooke_limit_rule_damps_implicitly(row->method) || !(row->predicted > 0.0);
+  const int stiffness_alone = hk_limit_rule_damps_implicitly(row->method) || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
-      hooke_blame_find(limit->system, q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
+      hk_blame_find(limit->system, q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
   limit->blame.patience = limit->patience;
   limit->blame.room = limit->room;
   if (status == HOOKE_OK && row->predicted > 0.0)
-    status = hooke_remedy_find(limit->system, q, row->method, row->predicted, &limit->blame, &limit->remedy);
+    status = hk_remedy_find(limit->system, q, row->method, row->predicted, &limit->blame, &limit->remedy);
   return status;
 }
 
-static void add_note(struct hooke_limit_row *row, const char *note) {
+static void add_note(struct hk_limit_row *row, const char *note) {
   const size_t used = strlen(row->note);
   if (note && note[0]) snprintf(row->note + used, sizeof row->note - used, "%s%s", used ? "; " : "", note);
 }
 
-static int32_t measure_row(hooke_limit *limit, struct hooke_limit_row *row, const hooke_state *state,
+static int32_t measure_row(hooke_limit *limit, struct hk_limit_row *row, const hooke_state *state,
                            double budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
   const double *q = hooke_state_position((hooke_state *)state);
-  struct hooke_measurement m = {.step = NAN, .note = ""};
+  struct hk_measurement m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   const int32_t status =
-      nonlinear ? hooke_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,
-                                                accuracy, budget, hooke_limit_tell, limit, &m)
-                : hooke_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
-                                      row->has_mode ? row->mode : NULL, accuracy, budget, hooke_limit_tell,
-                                      limit, &m);
+      nonlinear
+          ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,
+                                       accuracy, budget, hk_limit_tell, limit, &m)
+          : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
+                             row->has_mode ? row->mode : NULL, accuracy, budget, hk_limit_tell, limit, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
   row->steps_run = (double)m.steps_run;
@@ -230,25 +230,25 @@ static int32_t measure(hooke_limit *limit, const hooke_state *state) {
   const double budget = hooke_options_number(limit->options, "budget");
   double left = budget, width = (1.0 - PREDICTING) / limit->row_count;
   for (int32_t k = 0; k < limit->row_count; k++) {
-    struct hooke_limit_row *row = &limit->row[k];
+    struct hk_limit_row *row = &limit->row[k];
     if (hooke_method_is_adaptive(row->method)) continue;
     int32_t status = begin_part(limit, PREDICTING + k * width, width, row->method);
-    const double begun = hooke_clock_seconds();
+    const double begun = hk_clock_seconds();
     if (status == HOOKE_OK) status = measure_row(limit, row, state, left / (limit->row_count - k));
     if (status != HOOKE_OK) return status;
-    left = fmax(0.01 * budget, left - (hooke_clock_seconds() - begun));
+    left = fmax(0.01 * budget, left - (hk_clock_seconds() - begun));
   }
   return begin_part(limit, 1.0, 0.0, "done");
 }
 
 int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state) {
-  int32_t status = hooke_state_check(state, limit->system);
+  int32_t status = hk_state_check(state, limit->system);
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);
   const double *q = hooke_state_position((hooke_state *)state);
   status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
-  if (status == HOOKE_OK) status = hooke_limit_predict_rows(limit, q);
+  if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, q);
   if (status == HOOKE_OK) status = find_blame(limit, q);
   if (status == HOOKE_OK && hooke_options_number(limit->options, "predict") == 0.0)
     status = measure(limit, state);
@@ -271,9 +271,9 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   walk->status =
       begin_part(limit, (double)walk->frame++ / (double)walk->frame_count, 0.0, "limits along the run");
   if (walk->status == HOOKE_OK)
-    walk->status = hooke_limit_predict_rows(limit, hooke_state_position((hooke_state *)state));
+    walk->status = hk_limit_predict_rows(limit, hooke_state_position((hooke_state *)state));
   for (int32_t k = 0; k < limit->row_count && walk->status == HOOKE_OK; k++) {
-    struct hooke_limit_row *row = &limit->row[k];
+    struct hk_limit_row *row = &limit->row[k];
     if (row->predicted >= row->smallest || isnan(row->predicted)) continue;
     row->smallest = row->predicted;
     if (isfinite(row->predicted)) row->smallest_time = hooke_state_time(state);
@@ -290,11 +290,11 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
 
 int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
   hooke_integrator *integrator = NULL;
-  int32_t status = hooke_state_check(state, limit->system);
+  int32_t status = hk_state_check(state, limit->system);
   if (status != HOOKE_OK) return status;
   if (limit->run == NULL) {
-    return hooke_fail(HOOKE_BAD_VALUE, "run",
-                      "limits along a run need the options of the run; they were not given");
+    return hk_fail(HOOKE_BAD_VALUE, "run",
+                   "limits along a run need the options of the run; they were not given");
   }
   status = hooke_integrator_create(limit->system, limit->run, &integrator);
   if (status != HOOKE_OK) return status;

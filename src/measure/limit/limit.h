@@ -8,7 +8,7 @@
 
 enum { HOOKE_LIMIT_METHODS = 32, HOOKE_LIMIT_NOTE = 640 };
 
-struct hooke_limit_row {
+struct hk_limit_row {
   const char *method;
   double bound, predicted, measured; /* [s] */
   double steps_run, smallest, smallest_time;
@@ -17,7 +17,7 @@ struct hooke_limit_row {
   char note[HOOKE_LIMIT_NOTE];
 };
 
-struct hooke_limit_mode {
+struct hk_limit_mode {
   double real, imaginary;  /* of its eigenvalue */
   double frequency, decay; /* x'' + 2 decay x' + frequency^2 x = 0 */
 };
@@ -26,21 +26,21 @@ struct hooke_limit {
   const hooke_system *system;
   hooke_options *run, *options; /* `run` may be NULL */
   int32_t row_count;
-  struct hooke_limit_row row[HOOKE_LIMIT_METHODS];
+  struct hk_limit_row row[HOOKE_LIMIT_METHODS];
 
   /* of the last state */
   int32_t found;
   double frequency, decay; /* [rad/s], [1/s] */
   int64_t products, clamped;
   int64_t mode_count;
-  struct hooke_limit_mode *mode;
+  struct hk_limit_mode *mode;
   double *shape, *stiffest; /* 3n; the second, a start for the next state, x, y and z apart */
   int32_t has_stiffest;
-  struct hooke_blame blame;
-  struct hooke_remedy remedy;
+  struct hk_blame blame;
+  struct hk_remedy remedy;
 
-  struct hooke_patience endless;   /* which only the caller ends */
-  struct hooke_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
+  struct hk_patience endless;   /* which only the caller ends */
+  struct hk_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
   double room;
   hooke_progress *progress;
   void *progress_ctx;
@@ -49,12 +49,12 @@ struct hooke_limit {
 };
 
 /* Bounds, predictions and modes at positions q (3n), in place of those before. */
-int32_t hooke_limit_predict_rows(hooke_limit *limit, const double *q);
+int32_t hk_limit_predict_rows(hooke_limit *limit, const double *q);
 
 /* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none has. */
-const struct hooke_limit_row *hooke_limit_blamed(const hooke_limit *limit);
+const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit);
 
 /* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the context. */
-int32_t hooke_limit_tell(double done, const char *what, void *limit);
+int32_t hk_limit_tell(double done, const char *what, void *limit);
 
 #endif

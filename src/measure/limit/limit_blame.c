@@ -26,9 +26,9 @@ static void keep(void *list, int64_t *count, size_t size, size_t share_at, const
 }
 
 /* x.Kx and x.Cx of one spring; particles that are held do not move. */
-static void weigh(const hooke_system *system, const struct hooke_spring *spring, const double *q,
+static void weigh(const hooke_system *system, const struct hk_spring *spring, const double *q,
                   const double *mode, double *stiffness, double *damping) {
-  const struct hooke_frozen_spring view = hooke_frozen_view(spring, q);
+  const struct hk_frozen_spring view = hk_frozen_view(spring, q);
   double along = 0.0, square = 0.0;
   for (int a = 0; a < 3; a++) {
     const double d = (system->held[view.head] ? 0.0 : mode[3 * view.head + a]) -
@@ -50,25 +50,25 @@ struct whole {
 };
 
 static void find_springs(const hooke_system *system, const double *q, const double *mode, double h2, double h,
-                         struct whole *whole, struct hooke_blame *blame) {
+                         struct whole *whole, struct hk_blame *blame) {
   int64_t group = 0, in_group = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       while (in_group == system->group[group].count)
         group++, in_group = 0;
       in_group++;
       double stiffness, damping;
       weigh(system, &spring, q, mode, &stiffness, &damping);
-      const struct hooke_blamed_spring blamed = {
+      const struct hk_blamed_spring blamed = {
           run->first + k, spring.head, spring.tail, group, h2 * stiffness + 2.0 * h * damping,
           h2 * stiffness};
       whole->all += blamed.share;
       blame->force_share[HOOKE_BLAME_DAMPING] += 2.0 * h * damping;
       whole->stiffness += blamed.stiffness_share;
       blame->group_share[group] += blamed.share;
-      keep(blame->spring, &blame->spring_count, sizeof blamed, offsetof(struct hooke_blamed_spring, share),
+      keep(blame->spring, &blame->spring_count, sizeof blamed, offsetof(struct hk_blamed_spring, share),
            &blamed);
     }
   }
@@ -76,16 +76,16 @@ static void find_springs(const hooke_system *system, const double *q, const doub
 
 /* Of particles that are held nothing moves. */
 static void find_bending(const hooke_system *system, const double *mode, double h2, struct whole *whole,
-                         struct hooke_blame *blame) {
-  struct hooke_triples at = {&system->bending, 0, 0};
-  struct hooke_triple triple;
+                         struct hk_blame *blame) {
+  struct hk_triples at = {&system->bending, 0, 0};
+  struct hk_triple triple;
   for (int64_t g = 0; g < system->bending_group_count; g++) {
-    for (int64_t k = 0; k < system->bending_group[g].count && hooke_next_triple(&at, &triple); k++) {
+    for (int64_t k = 0; k < system->bending_group[g].count && hk_next_triple(&at, &triple); k++) {
       double d[3] = {0.0, 0.0, 0.0};
       for (int e = 0; e < 3; e++) {
         const int64_t p = triple.particle[e];
         for (int a = 0; a < 3 && !system->held[p]; a++)
-          d[a] += hooke_triple_factor(e) * mode[3 * p + a];
+          d[a] += hk_triple_factor(e) * mode[3 * p + a];
       }
       blame->group_share[system->group_count + g] += h2 * triple.coefficient * square_of(d);
     }
@@ -96,14 +96,14 @@ static void find_bending(const hooke_system *system, const double *mode, double 
 }
 
 static void find_altitude(const hooke_system *system, const double *q, const double *mode, double h2,
-                          double h, struct whole *whole, struct hooke_blame *blame) {
-  const struct hooke_tetrahedron *t = system->altitudes.tetrahedron;
+                          double h, struct whole *whole, struct hk_blame *blame) {
+  const struct hk_tetrahedron *t = system->altitudes.tetrahedron;
   for (int64_t g = 0; g < system->altitude_group_count; g++) {
     double *share = &blame->group_share[system->group_count + system->bending_group_count + g];
     for (int64_t k = 0; k < system->altitude_group[g].count; k++, t++) {
-      struct hooke_altitude_view view;
+      struct hk_altitude_view view;
       double along = 0.0;
-      if (!hooke_altitude_see(t, q, &view)) continue;
+      if (!hk_altitude_see(t, q, &view)) continue;
       for (int j = 0; j < 4; j++) {
         const int64_t p = t->particle[j];
         for (int a = 0; a < 3 && !system->held[p]; a++)
@@ -119,25 +119,25 @@ static void find_altitude(const hooke_system *system, const double *q, const dou
 }
 
 static void find_particles(const hooke_system *system, const double *mode, double h, struct whole *whole,
-                           struct hooke_blame *blame) {
+                           struct hk_blame *blame) {
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
     const double square = square_of(mode + 3 * p);
-    const struct hooke_blamed_particle blamed = {p, system->mass[p] * square, system->mass[p]};
+    const struct hk_blamed_particle blamed = {p, system->mass[p] * square, system->mass[p]};
     whole->all += 2.0 * h * system->drag * square;
     blame->force_share[HOOKE_BLAME_DRAG] += 2.0 * h * system->drag * square;
     whole->kinetic += blamed.share;
-    keep(blame->particle, &blame->particle_count, sizeof blamed,
-         offsetof(struct hooke_blamed_particle, share), &blamed);
+    keep(blame->particle, &blame->particle_count, sizeof blamed, offsetof(struct hk_blamed_particle, share),
+         &blamed);
   }
 }
 
-int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
-                         struct hooke_blame *blame) {
+int32_t hk_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
+                      struct hk_blame *blame) {
   struct whole whole = {0.0, 0.0, 0.0};
-  *blame = (struct hooke_blame){.group_count = system->group_count + system->bending_group_count +
-                                               system->altitude_group_count};
-  blame->group_share = hooke_new(blame->group_count, sizeof(double));
+  *blame = (struct hk_blame){.group_count = system->group_count + system->bending_group_count +
+                                            system->altitude_group_count};
+  blame->group_share = hk_new(blame->group_count, sizeof(double));
   if (blame->group_share == NULL) return HOOKE_NO_MEMORY;
   if (mode == NULL) return HOOKE_OK;
   find_springs(system, q, mode, h2, h, &whole, blame);
@@ -158,7 +158,7 @@ int32_t hooke_blame_find(const hooke_system *system, const double *q, const doub
   return HOOKE_OK;
 }
 
-const char *hooke_blame_group_name(const hooke_system *system, int64_t group) {
+const char *hk_blame_group_name(const hooke_system *system, int64_t group) {
   const int64_t bending = group - system->group_count, altitude = bending - system->bending_group_count;
   const char *name = bending < 0    ? hooke_system_group_name(system, group)
                      : altitude < 0 ? hooke_system_bending_group_name(system, bending)
@@ -166,19 +166,19 @@ const char *hooke_blame_group_name(const hooke_system *system, int64_t group) {
   return name ? name : "";
 }
 
-int32_t hooke_blame_force(const struct hooke_blame *blame) {
+int32_t hk_blame_force(const struct hk_blame *blame) {
   for (int32_t k = 0; k < HOOKE_BLAME_FORCES; k++) {
     if (blame->force_share[k] >= 0.5) return k;
   }
   return -1;
 }
 
-const char *hooke_blame_force_name(int32_t force) {
+const char *hk_blame_force_name(int32_t force) {
   static const char *const names[HOOKE_BLAME_FORCES] = {"drag", "damping", "bending", "altitude"};
   return force < 0 ? "" : names[force];
 }
 
-void hooke_blame_release(struct hooke_blame *blame) {
-  hooke_free(blame->group_share);
+void hk_blame_release(struct hk_blame *blame) {
+  hk_free(blame->group_share);
   memset(blame, 0, sizeof *blame);
 }

@@ -7,13 +7,13 @@
 
 enum { HOOKE_BLAME_MOST = 100 };
 
-struct hooke_blamed_spring {
+struct hk_blamed_spring {
   int64_t spring, first, second, group;
   double share; /* of x.(h^2 K + 2 h C)x, bending, altitude springs and drag included in the whole */
   double stiffness_share; /* the part of `share` that is of h^2 K */
 };
 
-struct hooke_blamed_particle {
+struct hk_blamed_particle {
   int64_t particle;
   double share; /* of the kinetic energy */
   double mass;  /* [kg] */
@@ -22,11 +22,11 @@ struct hooke_blamed_particle {
 /* Forces other than the pull of springs. */
 enum { HOOKE_BLAME_DRAG, HOOKE_BLAME_DAMPING, HOOKE_BLAME_BENDING, HOOKE_BLAME_ALTITUDE, HOOKE_BLAME_FORCES };
 
-struct hooke_blame {
+struct hk_blame {
   /* the largest shares first */
   int64_t spring_count, particle_count;
-  struct hooke_blamed_spring spring[HOOKE_BLAME_MOST];
-  struct hooke_blamed_particle particle[HOOKE_BLAME_MOST];
+  struct hk_blamed_spring spring[HOOKE_BLAME_MOST];
+  struct hk_blamed_particle particle[HOOKE_BLAME_MOST];
   double stiffness_share; /* of h^2 K in the whole */
   double force_share
       [HOOKE_BLAME_FORCES]; /* damping is that of springs and of altitude springs; altitude, their stiffness */
@@ -34,24 +34,24 @@ struct hooke_blame {
   double
       *group_share; /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
   /* of whoever asks for a remedy: as in linearised.h */
-  struct hooke_patience *patience;
+  struct hk_patience *patience;
   double room;
 };
 
 /* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a mode (3n displacements, NULL: none is known),
  * `h2` being the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
-int32_t hooke_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
-                         struct hooke_blame *blame);
-void hooke_blame_release(struct hooke_blame *blame);
+int32_t hk_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
+                      struct hk_blame *blame);
+void hk_blame_release(struct hk_blame *blame);
 
 /* The force that has half of the whole or more, HOOKE_BLAME_*; -1 if springs by their stiffness have, or none has. Its name. */
-int32_t hooke_blame_force(const struct hooke_blame *blame);
-const char *hooke_blame_force_name(int32_t force);
+int32_t hk_blame_force(const struct hk_blame *blame);
+const char *hk_blame_force_name(int32_t force);
 
 /* The name of a group by its place in `group_share`; "" without one. */
-const char *hooke_blame_group_name(const hooke_system *system, int64_t group);
+const char *hk_blame_group_name(const hooke_system *system, int64_t group);
 
-struct hooke_remedy {
+struct hk_remedy {
   const char *kind;      /* "soften" springs or make particles "heavier"; NULL: no small set is to blame */
   int64_t count;         /* springs or particles to change, the first of the blame */
   double cost;           /* factor of the step that the limit without them has */
@@ -64,8 +64,8 @@ struct hooke_remedy {
 
 /* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the step without
  * it would be larger; `factor` is what the set costs. `limit` is that of `method` at q as it is. Where there is no such set
- * `sentence` says what there is instead, the counts are 0 and the numbers NaN. The failures of hooke_limit_predict(). */
-int32_t hooke_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
-                          const struct hooke_blame *blame, struct hooke_remedy *remedy);
+ * `sentence` says what there is instead, the counts are 0 and the numbers NaN. The failures of hk_limit_predict(). */
+int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
+                       const struct hk_blame *blame, struct hk_remedy *remedy);
 
 #endif

@@ -26,18 +26,18 @@ static const char TURNING[] =
 enum { STEPS_OF_VIOLENCE = 300 };
 
 struct trial {
-  struct hooke_growth *growth;
+  struct hk_growth *growth;
   int64_t most_steps;
   int32_t slow; /* forward Euler: steadiness means that growth is too slow to be seen */
   const char *note;
   int32_t tries;
 };
 
-static int32_t try_frozen(void *ctx, double step, enum hooke_trial_end *end) {
+static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
   struct trial *trial = ctx;
-  enum hooke_verdict verdict;
+  enum hk_verdict verdict;
   trial->growth->done = 1.0 - 1.0 / (1.0 + 0.2 * (double)trial->tries++);
-  const int32_t status = hooke_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
+  const int32_t status = hk_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
   if (status != HOOKE_OK) return status;
   *end = verdict == HOOKE_GROWS ? HOOKE_TRIAL_FAILS : HOOKE_TRIAL_HOLDS;
   if (verdict == HOOKE_OUT_OF_TIME) trial->note = OUT_OF_TIME;
@@ -49,7 +49,7 @@ static int32_t try_frozen(void *ctx, double step, enum hooke_trial_end *end) {
 
 /* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or somewhat less, and
  * forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
-static int64_t steps_for(const struct hooke_growth *growth, int slow) {
+static int64_t steps_for(const struct hk_growth *growth, int slow) {
   const double accuracy = growth->accuracy;
   const double steps = slow                     ? 4000.0 / accuracy
                        : growth->frozen->damped ? 40.0 / accuracy
@@ -58,13 +58,13 @@ static int64_t steps_for(const struct hooke_growth *growth, int slow) {
 }
 
 /* Is there a mode that the search did not see? It has a run just below what was found. */
-static int32_t confirm(struct trial *trial, struct hooke_bracket *bracket) {
+static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   for (int k = 0; k < 5 && !bracket->unknown && bracket->holds > 0.0 && isfinite(bracket->fails); k++) {
     const double found = bracket->holds;
-    enum hooke_verdict verdict;
+    enum hk_verdict verdict;
     const int64_t steps = 1000 + (int64_t)fmin(8.0 / bracket->accuracy, 1e15);
     const int32_t status =
-        hooke_growth_see(trial->growth, found * (1.0 - 0.5 * bracket->accuracy), 1, steps, &verdict);
+        hk_growth_see(trial->growth, found * (1.0 - 0.5 * bracket->accuracy), 1, steps, &verdict);
     if (status != HOOKE_OK) return status;
     if (verdict == HOOKE_OUT_OF_TIME) {
       trial->note = "the budget ended before the limit was confirmed";
@@ -74,7 +74,7 @@ static int32_t confirm(struct trial *trial, struct hooke_bracket *bracket) {
     trial->note = NULL;
     bracket->fails = found;
     bracket->holds = 0.0;
-    const int32_t searched = hooke_bracket_search(bracket, found);
+    const int32_t searched = hk_bracket_search(bracket, found);
     if (searched != HOOKE_OK) return searched;
     if (!trial->note) trial->note = DIFFERS;
   }
@@ -84,7 +84,7 @@ static int32_t confirm(struct trial *trial, struct hooke_bracket *bracket) {
 /* What a search that ended early has to be certain to, if its result is to be told at all. */
 static const double CERTAIN = 0.05;
 
-static void read_bracket(const struct hooke_bracket *bracket, struct hooke_measurement *out) {
+static void read_bracket(const struct hk_bracket *bracket, struct hk_measurement *out) {
   const int both = bracket->holds > 0.0 && isfinite(bracket->fails);
   if (both && (!bracket->unknown || bracket->fails - bracket->holds < 2.0 * CERTAIN * bracket->fails))
     out->step = 0.5 * (bracket->holds + bracket->fails);
@@ -98,7 +98,7 @@ static void read_bracket(const struct hooke_bracket *bracket, struct hooke_measu
 
 /* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none may be seen at
  * large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
-static int32_t try_extremes(struct trial *trial, struct hooke_bracket *bracket, int small, int *confirmed) {
+static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int small, int *confirmed) {
   static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
   const int64_t most_steps = trial->most_steps;
   *confirmed = 1;
@@ -106,7 +106,7 @@ static int32_t try_extremes(struct trial *trial, struct hooke_bracket *bracket, 
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
     const double step = share[small][k] * trial->growth->frozen->slow_step;
-    enum hooke_trial_end end = HOOKE_TRIAL_UNKNOWN;
+    enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
     status = try_frozen(trial, step, &end);
     if (end == HOOKE_TRIAL_UNKNOWN) bracket->unknown = 1;
     if (end == HOOKE_TRIAL_HOLDS) bracket->holds = fmax(step, bracket->holds);
@@ -117,14 +117,14 @@ static int32_t try_extremes(struct trial *trial, struct hooke_bracket *bracket, 
   return status;
 }
 
-static int32_t measure(struct trial *trial, double predicted, struct hooke_measurement *out) {
+static int32_t measure(struct trial *trial, double predicted, struct hk_measurement *out) {
   const double slow_step = trial->growth->frozen->slow_step;
-  struct hooke_bracket bracket = {.try_step = try_frozen,
-                                  .ctx = trial,
-                                  .accuracy = trial->growth->accuracy,
-                                  .least = 1e-6 * slow_step,
-                                  .most = 2e3 * slow_step,
-                                  .fails = INFINITY};
+  struct hk_bracket bracket = {.try_step = try_frozen,
+                               .ctx = trial,
+                               .accuracy = trial->growth->accuracy,
+                               .least = 1e-6 * slow_step,
+                               .most = 2e3 * slow_step,
+                               .fails = INFINITY};
   if (isinf(slow_step)) {
     out->step = INFINITY;
     return HOOKE_OK;
@@ -144,7 +144,7 @@ static int32_t measure(struct trial *trial, double predicted, struct hooke_measu
     bracket.least = fmin(bracket.least, 1e-3 * predicted);
     bracket.most = fmax(bracket.most, 1e3 * predicted);
   }
-  int32_t status = hooke_bracket_search(&bracket, guess);
+  int32_t status = hk_bracket_search(&bracket, guess);
   if (status == HOOKE_OK) status = confirm(trial, &bracket);
   read_bracket(&bracket, out);
   return status;
@@ -152,26 +152,25 @@ static int32_t measure(struct trial *trial, double predicted, struct hooke_measu
 
 static int32_t check(const char *method, double accuracy) {
   const int32_t adaptive = hooke_method_is_adaptive(method);
-  if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+  if (adaptive < 0) return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   if (adaptive)
-    return hooke_fail(HOOKE_BAD_VALUE, "method",
-                      "%s chooses its steps; the limit of a fixed step was asked for", method);
+    return hk_fail(HOOKE_BAD_VALUE, "method", "%s chooses its steps; the limit of a fixed step was asked for",
+                   method);
   if (accuracy > 0.0 && accuracy <= 0.1) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, "accuracy", "%g is not allowed; a number > 0 and <= 0.1 is", accuracy);
+  return hk_fail(HOOKE_BAD_VALUE, "accuracy", "%g is not allowed; a number > 0 and <= 0.1 is", accuracy);
 }
 
-int32_t hooke_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
-                            const char *method, double predicted, const double *mode, double accuracy,
-                            double budget, hooke_progress *progress, void *ctx,
-                            struct hooke_measurement *out) {
-  *out = (struct hooke_measurement){.step = NAN, .note = ""};
+int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
+                         const char *method, double predicted, const double *mode, double accuracy,
+                         double budget, hooke_progress *progress, void *ctx, struct hk_measurement *out) {
+  *out = (struct hk_measurement){.step = NAN, .note = ""};
   int32_t status = check(method, accuracy);
   if (status != HOOKE_OK) return status;
-  struct hooke_frozen frozen;
-  struct hooke_growth growth;
-  status = hooke_frozen_create(system, q, &frozen);
+  struct hk_frozen frozen;
+  struct hk_growth growth;
+  status = hk_frozen_create(system, q, &frozen);
   if (status != HOOKE_OK) return status;
-  status = hooke_growth_create(&frozen, run, method, mode, accuracy, hooke_clock_seconds() + budget, &growth);
+  status = hk_growth_create(&frozen, run, method, mode, accuracy, hk_clock_seconds() + budget, &growth);
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
@@ -189,9 +188,9 @@ int32_t hooke_limit_measure(const hooke_system *system, const double *q, const h
       out->note = WITHOUT_DIRECTION;
     else if (frozen.turning > 0)
       out->note = TURNING;
-    hooke_growth_release(&growth);
+    hk_growth_release(&growth);
   }
-  hooke_frozen_release(&frozen);
+  hk_frozen_release(&frozen);
   return status;
 }
 
@@ -212,14 +211,14 @@ struct whole {
 static int32_t watch(double done, const char *method, void *ctx) {
   struct whole *whole = ctx;
   (void)done;
-  whole->out_of_time = hooke_clock_seconds() > whole->deadline;
+  whole->out_of_time = hk_clock_seconds() > whole->deadline;
   whole->asked_to_stop = whole->progress && whole->progress(1.0 - 1.0 / (1.0 + 0.2 * (double)whole->tries),
                                                             method, whole->ctx) != 0;
   return whole->out_of_time || whole->asked_to_stop;
 }
 
 /* The whole duration, rounded up to whole steps. */
-static int32_t try_whole(void *ctx, double step, enum hooke_trial_end *end) {
+static int32_t try_whole(void *ctx, double step, enum hk_trial_end *end) {
   struct whole *whole = ctx;
   hooke_integrator *integrator = NULL;
   const double duration = step * fmax(1.0, ceil(whole->duration / step * (1.0 - 1e-12)));
@@ -239,14 +238,14 @@ static int32_t try_whole(void *ctx, double step, enum hooke_trial_end *end) {
     return HOOKE_OK;
   }
   if (status == HOOKE_STOPPED && whole->asked_to_stop)
-    return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
+    return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
 static int32_t prepare(struct whole *whole, const hooke_options *run, const char *method) {
   whole->duration = run ? hooke_options_number(run, "duration") : NAN;
   if (!(whole->duration > 0.0))
-    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
   int32_t status = hooke_options_copy(run, &whole->run);
   if (status == HOOKE_OK) status = hooke_options_set_text(whole->run, "method", method);
   if (status == HOOKE_OK) status = hooke_state_create(whole->system, &whole->state);
@@ -254,21 +253,21 @@ static int32_t prepare(struct whole *whole, const hooke_options *run, const char
 }
 
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
-                             struct hooke_measurement *out) {
-  struct hooke_frozen frozen;
+                             struct hk_measurement *out) {
+  struct hk_frozen frozen;
   int32_t status =
-      hooke_frozen_create(whole->system, hooke_state_position((hooke_state *)whole->start), &frozen);
+      hk_frozen_create(whole->system, hooke_state_position((hooke_state *)whole->start), &frozen);
   if (status != HOOKE_OK) return status;
   const double guess =
       fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : frozen.slow_step);
-  hooke_frozen_release(&frozen);
-  struct hooke_bracket bracket = {.try_step = try_whole,
-                                  .ctx = whole,
-                                  .accuracy = accuracy,
-                                  .least = 1e-4 * guess,
-                                  .most = whole->duration,
-                                  .fails = INFINITY};
-  status = hooke_bracket_search(&bracket, guess);
+  hk_frozen_release(&frozen);
+  struct hk_bracket bracket = {.try_step = try_whole,
+                               .ctx = whole,
+                               .accuracy = accuracy,
+                               .least = 1e-4 * guess,
+                               .most = whole->duration,
+                               .fails = INFINITY};
+  status = hk_bracket_search(&bracket, guess);
   out->steps_run = whole->steps_run;
   read_bracket(&bracket, out);
   if (bracket.unknown)
@@ -280,16 +279,16 @@ static int32_t measure_whole(struct whole *whole, double predicted, double accur
   return status;
 }
 
-int32_t hooke_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
-                                      const hooke_options *run, const char *method, double predicted,
-                                      double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                      struct hooke_measurement *out) {
-  *out = (struct hooke_measurement){.step = NAN, .note = ""};
+int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
+                                   const hooke_options *run, const char *method, double predicted,
+                                   double accuracy, double budget, hooke_progress *progress, void *ctx,
+                                   struct hk_measurement *out) {
+  *out = (struct hk_measurement){.step = NAN, .note = ""};
   int32_t status = check(method, accuracy);
   if (status != HOOKE_OK) return status;
   struct whole whole = {.system = system,
                         .start = start,
-                        .deadline = hooke_clock_seconds() + budget,
+                        .deadline = hk_clock_seconds() + budget,
                         .progress = progress,
                         .ctx = ctx};
   status = prepare(&whole, run, method);

@@ -4,7 +4,7 @@
 
 #include "hooke/measure.h"
 
-struct hooke_measurement {
+struct hk_measurement {
   double
       step; /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
   int64_t steps_run;    /* steps that it took */
@@ -17,17 +17,16 @@ struct hooke_measurement {
  * in `mode` (3n displacements, or NULL) and some random motion. What is found is confirmed by a run just below it that starts
  * from random motion alone. `run` (options of a run) and `progress` may be NULL. A budget that ends too early is told in
  * the note. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
-int32_t hooke_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
-                            const char *method, double predicted, const double *mode, double accuracy,
-                            double budget, hooke_progress *progress, void *ctx,
-                            struct hooke_measurement *out);
+int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
+                         const char *method, double predicted, const double *mode, double accuracy,
+                         double budget, hooke_progress *progress, void *ctx, struct hk_measurement *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without divergence. With
  * callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE without a duration; HOOKE_STOPPED
  * also where a callback of the scene asked for it. */
-int32_t hooke_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
-                                      const hooke_options *run, const char *method, double predicted,
-                                      double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                      struct hooke_measurement *out);
+int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
+                                   const hooke_options *run, const char *method, double predicted,
+                                   double accuracy, double budget, hooke_progress *progress, void *ctx,
+                                   struct hk_measurement *out);
 
 #endif

@@ -9,52 +9,52 @@
 
 static const double SURE = 1e-3; /* accuracy of a limit that is taken for sure */
 
-int32_t hooke_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
-                            hooke_progress *progress, void *ctx, double *limit) {
-  struct hooke_patience endless = hooke_patience_of(INFINITY, progress, ctx);
-  return hooke_limit_predict_within(system, q, method, NULL, NULL, accuracy, 0.0, &endless, limit);
+int32_t hk_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
+                         hooke_progress *progress, void *ctx, double *limit) {
+  struct hk_patience endless = hk_patience_of(INFINITY, progress, ctx);
+  return hk_limit_predict_within(system, q, method, NULL, NULL, accuracy, 0.0, &endless, limit);
 }
 
 /* `prediction` without its mode. */
-static int32_t predict(struct hooke_linearised *linearised, const char *method, double accuracy,
-                       enum hooke_spectrum_extent extent, struct hooke_prediction *prediction) {
-  struct hooke_spectrum spectrum;
-  if (!hooke_limit_rule_needs_all(method)) extent = HOOKE_SPECTRUM_STIFFEST;
-  int32_t status = hooke_spectrum_create(linearised, accuracy, extent, NULL, &spectrum);
+static int32_t predict(struct hk_linearised *linearised, const char *method, double accuracy,
+                       enum hk_spectrum_extent extent, struct hk_prediction *prediction) {
+  struct hk_spectrum spectrum;
+  if (!hk_limit_rule_needs_all(method)) extent = HOOKE_SPECTRUM_STIFFEST;
+  int32_t status = hk_spectrum_create(linearised, accuracy, extent, NULL, &spectrum);
   if (status != HOOKE_OK) return status;
-  prediction->mode = hooke_new(linearised->size, sizeof(double));
-  status = prediction->mode ? hooke_limit_rule(&spectrum, method, prediction) : HOOKE_NO_MEMORY;
-  hooke_free(prediction->mode);
+  prediction->mode = hk_new(linearised->size, sizeof(double));
+  status = prediction->mode ? hk_limit_rule(&spectrum, method, prediction) : HOOKE_NO_MEMORY;
+  hk_free(prediction->mode);
   prediction->mode = NULL;
-  hooke_spectrum_release(&spectrum);
+  hk_spectrum_release(&spectrum);
   return status;
 }
 
-int32_t hooke_limit_predict_within(const hooke_system *system, const double *q, const char *method,
-                                   const double *spring_scale, const double *mass_scale, double accuracy,
-                                   double room, struct hooke_patience *patience, double *limit) {
-  struct hooke_linearised linearised;
-  struct hooke_prediction prediction;
-  int32_t status = hooke_linearised_create(system, q, spring_scale, mass_scale, &linearised);
+int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const char *method,
+                                const double *spring_scale, const double *mass_scale, double accuracy,
+                                double room, struct hk_patience *patience, double *limit) {
+  struct hk_linearised linearised;
+  struct hk_prediction prediction;
+  int32_t status = hk_linearised_create(system, q, spring_scale, mass_scale, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   linearised.room = room;
   status = predict(&linearised, method, accuracy, HOOKE_SPECTRUM_ALL, &prediction);
   if (status == HOOKE_OK) *limit = prediction.limit;
-  hooke_linearised_release(&linearised);
+  hk_linearised_release(&linearised);
   return status;
 }
 
-int32_t hooke_limit_sure(const hooke_system *system, const double *q, const char *method,
-                         struct hooke_patience *patience, double *limit) {
-  struct hooke_linearised linearised;
-  struct hooke_prediction prediction;
+int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *method,
+                      struct hk_patience *patience, double *limit) {
+  struct hk_linearised linearised;
+  struct hk_prediction prediction;
   int32_t status = hooke_step_bound(system, method, q, limit);
-  if (status == HOOKE_OK) status = hooke_linearised_create(system, q, NULL, NULL, &linearised);
+  if (status == HOOKE_OK) status = hk_linearised_create(system, q, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);
   if (status == HOOKE_OK) *limit = fmax(*limit, (1.0 - SURE) * prediction.sure);
-  hooke_linearised_release(&linearised);
+  hk_linearised_release(&linearised);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }

@@ -31,7 +31,7 @@ static int is_small(int64_t count, int64_t of) {
   return count > 0 && of > 1 && (double)count <= fmax(1.0, SMALL * (double)of);
 }
 
-static struct set spring_set(const hooke_system *system, const struct hooke_blame *blame) {
+static struct set spring_set(const hooke_system *system, const struct hk_blame *blame) {
   struct set set = {.springs = 1, .of = system->springs.count};
   while (set.share < MOST_OF_THE_MODE && set.count < blame->spring_count) {
     set.share += blame->spring[set.count].share;
@@ -41,7 +41,7 @@ static struct set spring_set(const hooke_system *system, const struct hooke_blam
   return set;
 }
 
-static struct set particle_set(const hooke_system *system, const struct hooke_blame *blame) {
+static struct set particle_set(const hooke_system *system, const struct hk_blame *blame) {
   struct set set = {.of = system->particle_count - system->held_count};
   while (set.share < MOST_OF_THE_MODE && set.count < blame->particle_count)
     set.share += blame->particle[set.count++].share;
@@ -55,9 +55,9 @@ static double find_kappa(const hooke_system *system, int64_t number, double *mea
   double found = 0.0, sum = 0.0;
   int64_t count = 0;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const double kappa = hooke_run_spring(run, k).kappa;
+      const double kappa = hk_run_spring(run, k).kappa;
       if (run->first + k == number) found = kappa;
       if (kappa > 0.0) sum += log(kappa), count++;
     }
@@ -67,7 +67,7 @@ static double find_kappa(const hooke_system *system, int64_t number, double *mea
 }
 
 /* Geometric means: a few odd ones hardly move them. */
-static void find_oddness(const hooke_system *system, const struct hooke_blame *blame, struct set *springs,
+static void find_oddness(const hooke_system *system, const struct hk_blame *blame, struct set *springs,
                          struct set *particles) {
   double mean, sum = 0.0;
   const double kappa = find_kappa(system, blame->spring[0].spring, &mean);
@@ -81,10 +81,9 @@ static void find_oddness(const hooke_system *system, const struct hooke_blame *b
 
 /* The limit with the set changed by `factor`: stiffness and damping over it, or masses times it. */
 static int32_t limit_with(const hooke_system *system, const double *q, const char *method,
-                          const struct hooke_blame *blame, const struct set *set, double factor,
-                          double *limit) {
+                          const struct hk_blame *blame, const struct set *set, double factor, double *limit) {
   const int64_t size = set->springs ? system->springs.count : system->particle_count;
-  double *scale = hooke_new(size, sizeof(double));
+  double *scale = hk_new(size, sizeof(double));
   if (scale == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < size; k++)
     scale[k] = 1.0;
@@ -95,14 +94,14 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
       scale[blame->particle[k].particle] = factor;
   }
   const int32_t status =
-      hooke_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
-                                 ACCURACY, blame->room, blame->patience, limit);
-  hooke_free(scale);
+      hk_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
+                              ACCURACY, blame->room, blame->patience, limit);
+  hk_free(scale);
   return status;
 }
 
 /* By how much the mode as it is would be slower: the positive root g of g^2 k + g c = m, all over the whole. */
-static double perturbed(const struct hooke_blame *blame, const struct set *set, double factor) {
+static double perturbed(const struct hk_blame *blame, const struct set *set, double factor) {
   const double cut = set->springs ? 1.0 - 1.0 / factor : 0.0;
   const double k = blame->stiffness_share - cut * set->stiffness_share;
   const double c = (1.0 - blame->stiffness_share) - cut * (set->share - set->stiffness_share);
@@ -111,7 +110,7 @@ static double perturbed(const struct hooke_blame *blame, const struct set *set, 
 }
 
 /* The factor that makes the set as slow as the rest, for a step `gain` times larger: g^2 k + g c of its own k and c. */
-static double fitting_factor(const struct hooke_blame *blame, const struct set *set, double gain) {
+static double fitting_factor(const struct hk_blame *blame, const struct set *set, double gain) {
   const double stiff = set->springs ? set->stiffness_share / set->share : blame->stiffness_share;
   const double factor = gain * gain * stiff + gain * (1.0 - stiff);
   const double unit = pow(10.0, floor(log10(factor)) - 1.0);
@@ -125,7 +124,7 @@ static void add(char *text, size_t size, const char *format, ...) {
   const size_t used = strlen(text);
   va_list arguments;
   va_start(arguments, format);
-  hooke_print_list(text + used, size - used, format, arguments);
+  hk_print_list(text + used, size - used, format, arguments);
   va_end(arguments);
 }
 
@@ -133,30 +132,30 @@ static void add(char *text, size_t size, const char *format, ...) {
 static const char *figure(double value, char text[24]) {
   const double unit = value >= 10.0 && value < 1e6 ? pow(10.0, floor(log10(value)) - 1.0) : 0.0;
   if (unit > 0.0)
-    hooke_print(text, 24, "%.0f", round(value / unit) * unit);
+    hk_print(text, 24, "%.0f", round(value / unit) * unit);
   else
-    hooke_print(text, 24, "%.2g", value);
+    hk_print(text, 24, "%.2g", value);
   return text;
 }
 
 /* ", group `hem`" if all are of one that has a name; a single one by its number else. */
-static void add_place(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
+static void add_place(const hooke_system *system, const struct hk_blame *blame, const struct set *set,
                       char *text, size_t size) {
   if (!set->springs) {
     if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->particle[0].particle);
     return;
   }
   const int64_t group = blame->spring[0].group;
-  int one = hooke_blame_group_name(system, group)[0] != '\0';
+  int one = hk_blame_group_name(system, group)[0] != '\0';
   for (int64_t k = 0; k < set->count; k++)
     one &= blame->spring[k].group == group;
   if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->spring[0].spring);
   if (one)
-    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", hooke_blame_group_name(system, group));
+    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", hk_blame_group_name(system, group));
 }
 
-static void tell(const hooke_system *system, const struct hooke_blame *blame, const struct set *set,
-                 struct hooke_remedy *remedy) {
+static void tell(const hooke_system *system, const struct hk_blame *blame, const struct set *set,
+                 struct hk_remedy *remedy) {
   char *text = remedy->sentence;
   const size_t size = sizeof remedy->sentence;
   const int one = set->count == 1;
@@ -176,8 +175,7 @@ static void tell(const hooke_system *system, const struct hooke_blame *blame, co
 }
 
 /* No small set: shares by group, the largest first. */
-static void tell_groups(const hooke_system *system, const struct hooke_blame *blame,
-                        struct hooke_remedy *remedy) {
+static void tell_groups(const hooke_system *system, const struct hk_blame *blame, struct hk_remedy *remedy) {
   char *text = remedy->sentence;
   const size_t size = sizeof remedy->sentence;
   if (!(blame->stiffness_share > 0.0) && blame->spring_count == 0) {
@@ -195,8 +193,8 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
     if (best < 0 || blame->group_share[best] < 0.01) break;
     before = blame->group_share[best];
     add(text, size, k == 0 ? " (" : ", ");
-    if (hooke_blame_group_name(system, best)[0] != '\0')
-      add(text, size, "group `%.60s`", hooke_blame_group_name(system, best));
+    if (hk_blame_group_name(system, best)[0] != '\0')
+      add(text, size, "group `%.60s`", hk_blame_group_name(system, best));
     else if (best < system->group_count)
       add(text, size, "group %lld", (long long)best);
     else if (best < system->group_count + system->bending_group_count)
@@ -213,19 +211,19 @@ static void tell_groups(const hooke_system *system, const struct hooke_blame *bl
 
 /* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it either way. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
-                             const struct hooke_blame *blame, int32_t force, double *limit) {
+                             const struct hk_blame *blame, int32_t force, double *limit) {
   hooke_system without = *system;
   without.drag = 0.0;
   const int drag = force == HOOKE_BLAME_DRAG;
-  const int32_t status = hooke_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL,
-                                                    ACCURACY, blame->room, blame->patience, limit);
+  const int32_t status = hk_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL, ACCURACY,
+                                                 blame->room, blame->patience, limit);
   if (!drag && strcmp(method, "rk4") == 0) *limit *= sqrt(2.0);
   if (!drag && strcmp(method, "forward-euler") == 0) *limit = 0.0;
   return status;
 }
 
 static int32_t tell_force(const hooke_system *system, const double *q, const char *method, double limit,
-                          const struct hooke_blame *blame, int32_t force, struct hooke_remedy *remedy) {
+                          const struct hk_blame *blame, int32_t force, struct hk_remedy *remedy) {
   double without = 0.0;
   const int32_t status = limit_without(system, q, method, blame, force, &without);
   if (status != HOOKE_OK) return status;
@@ -247,7 +245,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
 
 /* Fills in the remedy if changing the set buys anything; `kind` stays NULL if not. */
 static int32_t try_set(const hooke_system *system, const double *q, const char *method, double limit,
-                       const struct hooke_blame *blame, const struct set *set, struct hooke_remedy *remedy) {
+                       const struct hk_blame *blame, const struct set *set, struct hk_remedy *remedy) {
   double without, changed;
   int32_t status = limit_with(system, q, method, blame, set, 1.0 / NOTHING, &without);
   if (status != HOOKE_OK) return status;
@@ -265,9 +263,9 @@ static int32_t try_set(const hooke_system *system, const double *q, const char *
   return HOOKE_OK;
 }
 
-int32_t hooke_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
-                          const struct hooke_blame *blame, struct hooke_remedy *remedy) {
-  *remedy = (struct hooke_remedy){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
+int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
+                       const struct hk_blame *blame, struct hk_remedy *remedy) {
+  *remedy = (struct hk_remedy){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
   struct set first = spring_set(system, blame), second = particle_set(system, blame);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
   if (springs && particles) find_oddness(system, blame, &first, &second);
@@ -284,11 +282,11 @@ int32_t hooke_remedy_find(const hooke_system *system, const double *q, const cha
     if (status == HOOKE_OK && remedy->kind == NULL && springs && particles)
       status = try_set(system, q, method, limit, blame, &second, remedy);
   }
-  const int32_t force = hooke_blame_force(blame);
+  const int32_t force = hk_blame_force(blame);
   if (status == HOOKE_OK && (force == HOOKE_BLAME_DRAG || force == HOOKE_BLAME_DAMPING))
     status = tell_force(system, q, method, limit, blame, force, remedy);
   else if (status == HOOKE_OK && remedy->kind == NULL)
     tell_groups(system, blame, remedy);
-  hooke_utf8_make_plain(remedy->sentence);
+  hk_utf8_make_plain(remedy->sentence);
   return status;
 }

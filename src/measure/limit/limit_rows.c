@@ -10,20 +10,20 @@
 #include <string.h>
 
 static int32_t find_bounds(hooke_limit *limit, const double *q) {
-  struct hooke_node_blocks blocks;
-  const int32_t status = hooke_node_blocks_create(limit->system, q, &blocks);
+  struct hk_node_blocks blocks;
+  const int32_t status = hk_node_blocks_create(limit->system, q, &blocks);
   if (status != HOOKE_OK) return status;
   for (int32_t k = 0; k < limit->row_count; k++)
-    limit->row[k].bound = hooke_step_bound_of(&blocks, limit->row[k].method);
-  hooke_node_blocks_release(&blocks);
+    limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method);
+  hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
 
-static int32_t find_row(hooke_limit *limit, struct hooke_spectrum *spectrum, double *mode,
-                        struct hooke_limit_row *row) {
+static int32_t find_row(hooke_limit *limit, struct hk_spectrum *spectrum, double *mode,
+                        struct hk_limit_row *row) {
   const int64_t n = limit->system->particle_count;
-  struct hooke_prediction prediction = {.mode = mode};
-  const int32_t status = hooke_limit_rule(spectrum, row->method, &prediction);
+  struct hk_prediction prediction = {.mode = mode};
+  const int32_t status = hk_limit_rule(spectrum, row->method, &prediction);
   if (status != HOOKE_OK) return status;
   /* a prediction to some digits may come out below the bound, which is certain */
   row->predicted = prediction.never_stable ? 0.0 : fmax(prediction.limit, row->bound);
@@ -32,22 +32,22 @@ static int32_t find_row(hooke_limit *limit, struct hooke_spectrum *spectrum, dou
   row->has_mode = prediction.has_mode;
   snprintf(row->note, sizeof row->note, "%s", prediction.note);
   double *const component[3] = {mode, mode + n, mode + 2 * n};
-  if (row->has_mode) hooke_rows_from_components(n, component, row->mode);
+  if (row->has_mode) hk_rows_from_components(n, component, row->mode);
   return HOOKE_OK;
 }
 
-static int32_t keep_modes(hooke_limit *limit, const struct hooke_spectrum *s) {
+static int32_t keep_modes(hooke_limit *limit, const struct hk_spectrum *s) {
   const double rate = s->linearised->rate;
-  limit->mode = hooke_new(s->count, sizeof *limit->mode);
+  limit->mode = hk_new(s->count, sizeof *limit->mode);
   if (limit->mode == NULL) return HOOKE_NO_MEMORY;
   limit->mode_count = s->count;
   for (int64_t k = 0; k < s->count; k++) {
     const double real = s->real[k],
                  half = s->imaginary[k] != 0.0 ? real : 0.5 * (real + s->stiffness[k] / real);
-    limit->mode[k] = (struct hooke_limit_mode){.real = rate * real,
-                                               .imaginary = rate * s->imaginary[k],
-                                               .frequency = rate * sqrt(s->stiffness[k]),
-                                               .decay = -rate * half};
+    limit->mode[k] = (struct hk_limit_mode){.real = rate * real,
+                                            .imaginary = rate * s->imaginary[k],
+                                            .frequency = rate * sqrt(s->stiffness[k]),
+                                            .decay = -rate * half};
   }
   limit->frequency = rate * sqrt(s->stiffest);
   limit->decay = rate * s->fastest_decay;
@@ -57,26 +57,26 @@ static int32_t keep_modes(hooke_limit *limit, const struct hooke_spectrum *s) {
   return HOOKE_OK;
 }
 
-static int32_t find_rows(hooke_limit *limit, struct hooke_linearised *linearised) {
-  struct hooke_spectrum spectrum;
-  double *mode = hooke_new(linearised->size, sizeof(double));
+static int32_t find_rows(hooke_limit *limit, struct hk_linearised *linearised) {
+  struct hk_spectrum spectrum;
+  double *mode = hk_new(linearised->size, sizeof(double));
   if (mode == NULL) return HOOKE_NO_MEMORY;
   const double accuracy = hooke_options_number(limit->options, "accuracy");
-  int32_t status = hooke_spectrum_create(linearised, accuracy, HOOKE_SPECTRUM_ALL,
-                                         limit->has_stiffest ? limit->stiffest : NULL, &spectrum);
+  int32_t status = hk_spectrum_create(linearised, accuracy, HOOKE_SPECTRUM_ALL,
+                                      limit->has_stiffest ? limit->stiffest : NULL, &spectrum);
   if (status == HOOKE_OK) {
     status = keep_modes(limit, &spectrum);
     for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++)
       status = find_row(limit, &spectrum, mode, &limit->row[k]);
-    hooke_spectrum_release(&spectrum);
+    hk_spectrum_release(&spectrum);
   }
-  hooke_free(mode);
+  hk_free(mode);
   return status;
 }
 
-int32_t hooke_limit_predict_rows(hooke_limit *limit, const double *q) {
-  struct hooke_linearised linearised;
-  int32_t status = hooke_linearised_create(limit->system, q, NULL, NULL, &linearised);
+int32_t hk_limit_predict_rows(hooke_limit *limit, const double *q) {
+  struct hk_linearised linearised;
+  int32_t status = hk_linearised_create(limit->system, q, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = limit->patience;
   linearised.room = limit->room;
@@ -84,6 +84,6 @@ int32_t hooke_limit_predict_rows(hooke_limit *limit, const double *q) {
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
   limit->products = linearised.products;
   limit->found = status == HOOKE_OK;
-  hooke_linearised_release(&linearised);
+  hk_linearised_release(&linearised);
   return status;
 }

@@ -17,7 +17,7 @@
 static const double LEAST_JUDGED = 0.05; /* of the duration: less says nothing of the run */
 static const double RESTS = 1e-3;        /* of the want: what moves by less says nothing of what moves it */
 
-static const struct hooke_option_row needs_rows[] = {
+static const struct hk_option_row needs_rows[] = {
     {.name = "want",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "m",
@@ -33,47 +33,47 @@ static const struct hooke_option_row needs_rows[] = {
          "given"},
 };
 
-static const struct hooke_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};
+static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};
 
 int32_t hooke_needs_options_create(hooke_options **options) {
-  return hooke_options_create(&needs_table, options);
+  return hk_options_create(&needs_table, options);
 }
 
 /* ---- making ---- */
 
 static int32_t read_times(hooke_needs *needs) {
-  const int32_t status = hooke_step_times(needs->run, &needs->duration, &needs->every);
+  const int32_t status = hk_step_times(needs->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = 1 + (int64_t)floor(needs->duration / needs->every * (1.0 + 1e-9));
-  return hooke_step_unit(needs->duration, needs->every, &needs->unit);
+  return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
 static int32_t read_method(hooke_needs *needs) {
   const char *method = hooke_options_text(needs->run, "method");
   if (hooke_method_is_adaptive(method) < 0) {
     char shown[HOOKE_OPTION_SHOWN];
-    hooke_option_show(method, (int64_t)strlen(method), shown);
-    return hooke_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method", shown);
+    hk_option_show(method, (int64_t)strlen(method), shown);
+    return hk_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method", shown);
   }
   if (!hooke_method_is_built(method)) {
-    return hooke_fail(HOOKE_NOT_BUILT, "method", "this build is without %s", method);
+    return hk_fail(HOOKE_NOT_BUILT, "method", "this build is without %s", method);
   }
   return HOOKE_OK;
 }
 
 static int32_t prepare(hooke_needs *needs, const hooke_options *run, const hooke_options *options) {
-  int32_t status = hooke_options_require(options, &needs_table, "options", "hooke_needs_options_create()");
-  if (status == HOOKE_OK) status = hooke_run_options_require(run, "run");
-  if (status == HOOKE_OK) status = hooke_options_check_required(options);
+  int32_t status = hk_options_require(options, &needs_table, "options", "hooke_needs_options_create()");
+  if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
+  if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = hooke_options_copy(run, &needs->run);
   if (status == HOOKE_OK) status = hooke_options_copy(options, &needs->options);
   if (status != HOOKE_OK) return status;
   needs->want = hooke_options_number(options, "want");
   status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
-  if (status == HOOKE_OK) status = hooke_needs_read_watch(needs);
+  if (status == HOOKE_OK) status = hk_needs_read_watch(needs);
   if (status == HOOKE_OK) {
-    needs->largest_force = hooke_new(needs->system->springs.count, sizeof *needs->largest_force);
+    needs->largest_force = hk_new(needs->system->springs.count, sizeof *needs->largest_force);
     if (needs->largest_force == NULL) status = HOOKE_NO_MEMORY;
   }
   return status;
@@ -81,9 +81,9 @@ static int32_t prepare(hooke_needs *needs, const hooke_options *run, const hooke
 
 int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                            hooke_needs **out) {
-  int32_t status = hooke_system_require_committed(system);
+  int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  hooke_needs *needs = hooke_handle_new("hooke_needs", sizeof *needs);
+  hooke_needs *needs = hk_handle_new("hooke_needs", sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
   needs->system = system;
   needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
@@ -98,20 +98,20 @@ int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
 void hooke_needs_destroy(hooke_needs *needs) {
   if (needs == NULL) return;
   for (int64_t k = 0; k < needs->row_count; k++)
-    hooke_variant_release(&needs->row[k].variant);
-  hooke_needs_path_release(&needs->path);
-  hooke_needs_path_release(&needs->lean_path);
-  hooke_variant_release(&needs->lean_variant);
-  hooke_variant_map_release(&needs->lean_map);
+    hk_variant_release(&needs->row[k].variant);
+  hk_needs_path_release(&needs->path);
+  hk_needs_path_release(&needs->lean_path);
+  hk_variant_release(&needs->lean_variant);
+  hk_variant_map_release(&needs->lean_map);
   hooke_system_destroy(needs->lean);
   hooke_options_destroy(needs->lean_run);
   hooke_options_destroy(needs->run);
   hooke_options_destroy(needs->options);
-  hooke_free(needs->row);
-  hooke_free(needs->part);
-  hooke_free(needs->watch);
-  hooke_free(needs->largest_force);
-  hooke_handle_free(needs);
+  hk_free(needs->row);
+  hk_free(needs->part);
+  hk_free(needs->watch);
+  hk_free(needs->largest_force);
+  hk_handle_free(needs);
 }
 
 void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx) {
@@ -119,7 +119,7 @@ void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void 
   needs->progress_ctx = ctx;
 }
 
-int32_t hooke_needs_tell(hooke_needs *needs, double share) {
+int32_t hk_needs_tell(hooke_needs *needs, double share) {
   if (needs->progress == NULL) return 0;
   const double done = ((double)needs->pieces_done + share) / fmax(1.0, (double)needs->pieces);
   needs->told = fmax(needs->told, fmin(1.0, done));
@@ -130,7 +130,7 @@ int32_t hooke_needs_tell(hooke_needs *needs, double share) {
 
 static int32_t tell_pick(double done, const char *what, void *ctx) {
   (void)what;
-  return hooke_needs_tell(ctx, done);
+  return hk_needs_tell(ctx, done);
 }
 
 /* Without a method in the options of the run, the one that a study would take. */
@@ -145,41 +145,40 @@ static int32_t pick_method(hooke_needs *needs) {
 }
 
 static int32_t refuse_full(const hooke_needs *needs) {
-  return hooke_fail(
+  return hk_fail(
       HOOKE_BAD_VALUE, "want",
       "%s, %g m: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
       "judging; take a larger want, a shorter duration or another method",
       "the want", needs->want, hooke_options_text(needs->run, "method"));
 }
 
-int32_t hooke_needs_rests(const hooke_needs *needs) {
+int32_t hk_needs_rests(const hooke_needs *needs) {
   return needs->moved <= RESTS * needs->want;
 }
 
 static void say_how_it_moves(hooke_needs *needs) {
-  needs->moved = hooke_needs_moved(needs, &needs->path);
-  if (hooke_needs_rests(needs)) {
-    hooke_print(
-        needs->note, sizeof needs->note,
-        "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
-        "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
-        needs->moved);
+  needs->moved = hk_needs_moved(needs, &needs->path);
+  if (hk_needs_rests(needs)) {
+    hk_print(needs->note, sizeof needs->note,
+             "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
+             "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
+             needs->moved);
   } else if (needs->moved <= needs->want) {
-    hooke_print(needs->note, sizeof needs->note,
-                "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "
-                "stands still would do; take a smaller want to learn what moves them",
-                needs->moved);
+    hk_print(needs->note, sizeof needs->note,
+             "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "
+             "stands still would do; take a smaller want to learn what moves them",
+             needs->moved);
   }
 }
 
-int32_t hooke_needs_run_full(hooke_needs *needs) {
+int32_t hk_needs_run_full(hooke_needs *needs) {
   if (needs->path.position) return HOOKE_OK;
   needs->pieces += 2;
   int32_t status = pick_method(needs);
   needs->pieces_done++;
-  const struct hooke_needs_trial trial = {needs->system, NULL};
+  const struct hk_needs_trial trial = {needs->system, NULL};
   needs->under_way = "the full scene";
-  if (status == HOOKE_OK) status = hooke_needs_measure(needs, &trial, &needs->full, &needs->path);
+  if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
   needs->pieces_done++;
   const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
@@ -187,7 +186,7 @@ int32_t hooke_needs_run_full(hooke_needs *needs) {
   if (status == HOOKE_OK) {
     say_how_it_moves(needs);
   } else {
-    hooke_needs_path_release(&needs->path);
+    hk_needs_path_release(&needs->path);
     needs->judged = needs->frame_count;
   }
   return status;

@@ -9,7 +9,7 @@ enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
 #define HOOKE_NEEDS_STEP_SHARE 0.1 /* of the want: what a time step may put a run off by */
 
 /* What a run takes, of one variant. NaN where it does not apply. */
-struct hooke_needs_cost {
+struct hk_needs_cost {
   double particles, springs, step_limit;
   int64_t indexed; /* springs whose ends are looked up one by one */
   double step, rtol, atol, steps, force_evaluations, wall_seconds;
@@ -17,23 +17,23 @@ struct hooke_needs_cost {
 };
 
 /* Watched positions at every frame: count numbers a frame. */
-struct hooke_needs_path {
+struct hk_needs_path {
   int64_t recorded;
   double *position;
 };
 
-struct hooke_needs_row {
+struct hk_needs_row {
   char without[HOOKE_NEEDS_NAME];
   const char *kind;
   char note[HOOKE_NEEDS_NOTE];
-  struct hooke_variant variant;
+  struct hk_variant variant;
   double error; /* [m] */
   int32_t measured, needed, left_out;
   int32_t untold; /* 1: nothing moves, so that it cannot be told; needed, too */
-  struct hooke_needs_cost cost;
+  struct hk_needs_cost cost;
 };
 
-struct hooke_needs_part {
+struct hk_needs_part {
   const char *name;
   int32_t axes;
   int64_t cells[3];
@@ -49,32 +49,32 @@ struct hooke_needs {
   int64_t watch_count, *watch; /* particles */
   int64_t frame_count, judged; /* frames; those up to which differences of the step stay small */
 
-  struct hooke_needs_cost full;
-  struct hooke_needs_path path; /* of the full system */
-  double own_error;             /* how far `path` may be off itself [m] */
-  double moved;                 /* by `path`, from where it begins [m] */
+  struct hk_needs_cost full;
+  struct hk_needs_path path; /* of the full system */
+  double own_error;          /* how far `path` may be off itself [m] */
+  double moved;              /* by `path`, from where it begins [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
   int64_t row_count, row_capacity;
-  struct hooke_needs_row *row;
+  struct hk_needs_row *row;
 
   hooke_system *lean;
-  struct hooke_variant lean_variant;
-  struct hooke_variant_map lean_map;
+  struct hk_variant lean_variant;
+  struct hk_variant_map lean_map;
   hooke_options *lean_run;
-  struct hooke_needs_cost lean_cost;
-  struct hooke_needs_path lean_path; /* of the run that is recommended */
+  struct hk_needs_cost lean_cost;
+  struct hk_needs_path lean_path; /* of the run that is recommended */
   double lean_error;
   char lean_note[HOOKE_NEEDS_NOTE];
-  struct hooke_needs_cost cheapest; /* of the full system within the want, as of the lean one */
+  struct hk_needs_cost cheapest; /* of the full system within the want, as of the lean one */
   double cheapest_error;
   const char
       *other_method; /* by which the full system is cheaper than by its own; NULL: none is seen to be */
   double other_seconds;
 
   int64_t part_count;
-  struct hooke_needs_part *part;
+  struct hk_needs_part *part;
 
   hooke_progress *progress;
   void *progress_ctx;
@@ -86,65 +86,65 @@ struct hooke_needs {
 /* ---- needs_watch.c ---- */
 
 /* Fills `watch` from the option. HOOKE_BAD_VALUE. */
-int32_t hooke_needs_read_watch(hooke_needs *needs);
+int32_t hk_needs_read_watch(hooke_needs *needs);
 
 /* ---- needs_ingredients.c ---- */
 
 /* A row for every ingredient that the system has. */
-int32_t hooke_needs_list(hooke_needs *needs);
+int32_t hk_needs_list(hooke_needs *needs);
 /* Puts into an idle row the springs whose force never passes `force` [N]; returns how many. */
-int64_t hooke_needs_mark_idle(const hooke_needs *needs, double force, struct hooke_needs_row *row);
+int64_t hk_needs_mark_idle(const hooke_needs *needs, double force, struct hk_needs_row *row);
 
 /* ---- needs_run.c, needs_step.c ---- */
 
-int32_t hooke_needs_path_create(const hooke_needs *needs, struct hooke_needs_path *path);
-void hooke_needs_path_release(struct hooke_needs_path *path);
+int32_t hk_needs_path_create(const hooke_needs *needs, struct hk_needs_path *path);
+void hk_needs_path_release(struct hk_needs_path *path);
 /* Maximum over frames of the root mean square distance of the watched particles [m]. */
-double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_path *a,
-                            const struct hooke_needs_path *b);
+double hk_needs_distance(const hooke_needs *needs, const struct hk_needs_path *a,
+                         const struct hk_needs_path *b);
 /* The same, from where they are at the first frame. */
-double hooke_needs_moved(const hooke_needs *needs, const struct hooke_needs_path *path);
+double hk_needs_moved(const hooke_needs *needs, const struct hk_needs_path *path);
 /* Frames up to which the same stays within `bound`. */
-int64_t hooke_needs_agreed(const hooke_needs *needs, const struct hooke_needs_path *a,
-                           const struct hooke_needs_path *b, double bound);
+int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
+                        const struct hk_needs_path *b, double bound);
 
 /* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as well). */
-struct hooke_needs_trial {
+struct hk_needs_trial {
   const hooke_system *system;
-  const struct hooke_variant_map *map;
+  const struct hk_variant_map *map;
 };
 /* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is the path of the
  * run with half the step, which for the full system may be off by `own_error`. Where differences grow so fast that no step is small enough, step_error is that of the best; the
  * full system then says how many frames are judged. It is NaN, and there is no path, if no run came to its end.
  * HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
-int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                            struct hooke_needs_cost *cost, struct hooke_needs_path *fine);
+int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+                         struct hk_needs_path *fine);
 /* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together, that
  * of the path of the full system included: the run to recommend. `error` is NaN, and there is no path, if none is not much
  * smaller than that of the full system. */
-int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                        struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error);
+int32_t hk_needs_fit(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+                     struct hk_needs_path *path, double *error);
 /* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than `most` [s], or the
  * method does not suit it. */
-int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
+int32_t hk_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
 /* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the least of each. */
-int32_t hooke_needs_time_in_turns(hooke_needs *needs, const struct hooke_needs_trial trial[2],
-                                  struct hooke_needs_cost *const cost[2]);
+int32_t hk_needs_time_in_turns(hooke_needs *needs, const struct hk_needs_trial trial[2],
+                               struct hk_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */
-int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run);
+int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 
 /* ---- needs.c, needs_rows.c, needs_lean.c, needs_refine.c ---- */
 
 /* Runs the full system unless that was done. */
-int32_t hooke_needs_run_full(hooke_needs *needs);
+int32_t hk_needs_run_full(hooke_needs *needs);
 /* 1 if it moves by so little that nothing can be told from it. */
-int32_t hooke_needs_rests(const hooke_needs *needs);
+int32_t hk_needs_rests(const hooke_needs *needs);
 /* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
-int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row);
-int32_t hooke_needs_run_rows(hooke_needs *needs);
-int32_t hooke_needs_find_lean(hooke_needs *needs);
+int32_t hk_needs_run_row(hooke_needs *needs, struct hk_needs_row *row);
+int32_t hk_needs_run_rows(hooke_needs *needs);
+int32_t hk_needs_find_lean(hooke_needs *needs);
 
 /* Tells the share of one measurement; anything but 0 asks to stop. */
-int32_t hooke_needs_tell(hooke_needs *needs, double share);
+int32_t hk_needs_tell(hooke_needs *needs, double share);
 
 #endif

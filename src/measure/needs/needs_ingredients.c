@@ -11,23 +11,23 @@
 #include <string.h>
 
 /* The last row, made from the words. */
-static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_row **row, const char *format,
+static int32_t add_row(hooke_needs *needs, const char *kind, struct hk_needs_row **row, const char *format,
                        ...) __attribute__((format(printf, 4, 5)));
-static int32_t add_row(hooke_needs *needs, const char *kind, struct hooke_needs_row **row, const char *format,
+static int32_t add_row(hooke_needs *needs, const char *kind, struct hk_needs_row **row, const char *format,
                        ...) {
   if (needs->row_count == needs->row_capacity) {
     const int64_t capacity = 2 * needs->row_capacity + 8;
-    const int32_t status = hooke_grow((void **)&needs->row, needs->row_count, capacity, sizeof *needs->row);
+    const int32_t status = hk_grow((void **)&needs->row, needs->row_count, capacity, sizeof *needs->row);
     if (status != HOOKE_OK) return status;
     needs->row_capacity = capacity;
   }
-  struct hooke_needs_row *made = &needs->row[needs->row_count];
-  *made = (struct hooke_needs_row){.kind = kind, .needed = 1};
+  struct hk_needs_row *made = &needs->row[needs->row_count];
+  *made = (struct hk_needs_row){.kind = kind, .needed = 1};
   va_list args;
   va_start(args, format);
-  hooke_print_list(made->without, sizeof made->without, format, args);
+  hk_print_list(made->without, sizeof made->without, format, args);
   va_end(args);
-  const int32_t status = hooke_variant_create(needs->system, &made->variant);
+  const int32_t status = hk_variant_create(needs->system, &made->variant);
   if (status != HOOKE_OK) return status;
   needs->row_count++;
   *row = made;
@@ -46,8 +46,8 @@ static int32_t is_taken(const char *name) {
 static int32_t list_groups(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->group_count; g++) {
-    const struct hooke_group *group = &system->group[g];
-    struct hooke_needs_row *row;
+    const struct hk_group *group = &system->group[g];
+    struct hk_needs_row *row;
     if (group->count == 0) continue;
     const int32_t status = group->name[0] ? add_row(needs, "springs", &row, "%s%s",
                                                     is_taken(group->name) ? "springs " : "", group->name)
@@ -61,8 +61,8 @@ static int32_t list_groups(hooke_needs *needs) {
 static int32_t list_bending(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->bending_group_count; g++) {
-    const struct hooke_bending_group *group = &system->bending_group[g];
-    struct hooke_needs_row *row;
+    const struct hk_bending_group *group = &system->bending_group[g];
+    struct hk_needs_row *row;
     if (group->count == 0) continue;
     const int32_t status = group->name[0] ? add_row(needs, "bending", &row, "%s", group->name)
                                           : add_row(needs, "bending", &row, "bending[%lld]", (long long)g);
@@ -75,8 +75,8 @@ static int32_t list_bending(hooke_needs *needs) {
 static int32_t list_altitude(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->altitude_group_count; g++) {
-    const struct hooke_altitude_group *group = &system->altitude_group[g];
-    struct hooke_needs_row *row;
+    const struct hk_altitude_group *group = &system->altitude_group[g];
+    struct hk_needs_row *row;
     if (group->count == 0) continue;
     const int32_t status = group->name[0] ? add_row(needs, "altitude", &row, "%s", group->name)
                                           : add_row(needs, "altitude", &row, "altitude[%lld]", (long long)g);
@@ -97,9 +97,9 @@ static int32_t resists_compression(const hooke_system *system) {
 
 static int32_t list_whole_forces(hooke_needs *needs) {
   const hooke_system *system = needs->system;
-  struct hooke_needs_row *row;
+  struct hk_needs_row *row;
   int32_t status = HOOKE_OK;
-  if (hooke_springs_are_damped(&system->springs) || system->altitudes.damped) {
+  if (hk_springs_are_damped(&system->springs) || system->altitudes.damped) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
@@ -124,15 +124,15 @@ static int32_t list_whole_forces(hooke_needs *needs) {
 
 static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
   const hooke_system *system = needs->system;
-  uint8_t *touched = hooke_new(system->particle_count, 1);
+  uint8_t *touched = hk_new(system->particle_count, 1);
   if (touched == NULL) return HOOKE_NO_MEMORY;
-  hooke_system_mark_touched(system, touched);
+  hk_system_mark_touched(system, touched);
   for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
     memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
   int64_t loose = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
     loose += !touched[p] && !watched[p];
-  struct hooke_needs_row *row;
+  struct hk_needs_row *row;
   int32_t status = HOOKE_OK;
   if (loose > 0) {
     status = loose == 1
@@ -141,15 +141,15 @@ static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
     for (int64_t p = 0; p < system->particle_count && status == HOOKE_OK; p++)
       row->variant.particle[p] = !touched[p] && !watched[p];
   }
-  hooke_free(touched);
+  hk_free(touched);
   return status;
 }
 
 static int32_t list_parts(hooke_needs *needs, const uint8_t *watched) {
   const hooke_system *system = needs->system;
   for (int64_t k = 0; k < system->part_count; k++) {
-    const struct hooke_part_record *part = &system->part[k];
-    struct hooke_needs_row *row;
+    const struct hk_part_record *part = &system->part[k];
+    struct hk_needs_row *row;
     if (memchr(watched + part->first, 1, (size_t)part->count)) continue;
     const int32_t status = add_row(needs, "part", &row, "%s", part->name);
     if (status != HOOKE_OK) return status;
@@ -162,8 +162,8 @@ static int32_t list_resolutions(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     int64_t cells[3], made[3];
-    struct hooke_needs_row *row;
-    const int32_t axes = hooke_variant_cells(&system->part[k], 0.5, cells, made);
+    struct hk_needs_row *row;
+    const int32_t axes = hk_variant_cells(&system->part[k], 0.5, cells, made);
     if (axes == 0 || memcmp(cells, made, (size_t)axes * sizeof *cells) == 0) continue;
     const int32_t status =
         add_row(needs, "resolution", &row, "half the resolution of %s", system->part[k].name);
@@ -173,8 +173,8 @@ static int32_t list_resolutions(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-int32_t hooke_needs_list(hooke_needs *needs) {
-  uint8_t *watched = hooke_new(needs->system->particle_count, 1);
+int32_t hk_needs_list(hooke_needs *needs) {
+  uint8_t *watched = hk_new(needs->system->particle_count, 1);
   if (watched == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < needs->watch_count; k++)
     watched[needs->watch[k]] = 1;
@@ -182,18 +182,18 @@ int32_t hooke_needs_list(hooke_needs *needs) {
   if (status == HOOKE_OK) status = list_bending(needs);
   if (status == HOOKE_OK) status = list_altitude(needs);
   if (status == HOOKE_OK) status = list_whole_forces(needs);
-  struct hooke_needs_row *row;
+  struct hk_needs_row *row;
   if (status == HOOKE_OK && needs->system->springs.count > 0) {
     status = add_row(needs, "idle", &row, "springs whose force stays small");
   }
   if (status == HOOKE_OK) status = list_loose(needs, watched);
   if (status == HOOKE_OK) status = list_parts(needs, watched);
   if (status == HOOKE_OK) status = list_resolutions(needs);
-  hooke_free(watched);
+  hk_free(watched);
   return status;
 }
 
-int64_t hooke_needs_mark_idle(const hooke_needs *needs, double force, struct hooke_needs_row *row) {
+int64_t hk_needs_mark_idle(const hooke_needs *needs, double force, struct hk_needs_row *row) {
   int64_t count = 0;
   for (int64_t s = 0; s < needs->system->springs.count; s++) {
     row->variant.spring[s] = needs->largest_force[s] <= force;

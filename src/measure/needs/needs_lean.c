@@ -16,18 +16,18 @@ static const double WORTH_SPLITTING =
 
 /* What a run of a lean system found. */
 struct candidate {
-  struct hooke_variant variant;
+  struct hk_variant variant;
   hooke_system *system;
-  struct hooke_variant_map map;
-  struct hooke_needs_cost cost;
-  struct hooke_needs_path path; /* of the run that is recommended */
+  struct hk_variant_map map;
+  struct hk_needs_cost cost;
+  struct hk_needs_path path; /* of the run that is recommended */
   double error;
 };
 
 static void release(struct candidate *candidate) {
-  hooke_variant_release(&candidate->variant);
-  hooke_variant_map_release(&candidate->map);
-  hooke_needs_path_release(&candidate->path);
+  hk_variant_release(&candidate->variant);
+  hk_variant_map_release(&candidate->map);
+  hk_needs_path_release(&candidate->path);
   hooke_system_destroy(candidate->system);
   memset(candidate, 0, sizeof *candidate);
 }
@@ -35,20 +35,19 @@ static void release(struct candidate *candidate) {
 /* The run to recommend of it; NaN where it has none. */
 static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
   candidate->error = NAN;
-  int32_t status =
-      hooke_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
+  int32_t status = hk_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
   if (status != HOOKE_OK) return status;
-  const struct hooke_needs_trial trial = {candidate->system, &candidate->map};
-  return hooke_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
+  const struct hk_needs_trial trial = {candidate->system, &candidate->map};
+  return hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
 }
 
 static int32_t take(hooke_needs *needs, struct candidate *candidate) {
-  hooke_variant_release(&needs->lean_variant);
-  hooke_variant_map_release(&needs->lean_map);
+  hk_variant_release(&needs->lean_variant);
+  hk_variant_map_release(&needs->lean_map);
   hooke_system_destroy(needs->lean);
   hooke_options_destroy(needs->lean_run);
-  hooke_needs_path_release(&needs->lean_path);
+  hk_needs_path_release(&needs->lean_path);
   needs->lean_variant = candidate->variant;
   needs->lean_map = candidate->map;
   needs->lean = candidate->system;
@@ -57,28 +56,28 @@ static int32_t take(hooke_needs *needs, struct candidate *candidate) {
   needs->lean_error = candidate->error;
   memset(candidate, 0, sizeof *candidate);
   const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
-  return status == HOOKE_OK ? hooke_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
+  return status == HOOKE_OK ? hk_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
 }
 
 /* In evaluations of springs and particles: unlike time, the same whenever it is counted. */
-static double work(const struct hooke_needs_cost *cost) {
+static double work(const struct hk_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
 /* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out break
  * up runs of others, whose ends are then looked up. */
-static int32_t may_save(const hooke_needs *needs, const struct hooke_needs_row *row) {
+static int32_t may_save(const hooke_needs *needs, const struct hk_needs_row *row) {
   if (strcmp(row->kind, "compression") == 0) return 0;
   return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
 }
 
-static int32_t is_split(const hooke_needs *needs, const struct hooke_variant *variant) {
-  return hooke_variant_next_split(needs->system, variant, 0) >= 0;
+static int32_t is_split(const hooke_needs *needs, const struct hk_variant *variant) {
+  return hk_variant_next_split(needs->system, variant, 0) >= 0;
 }
 
 /* What a part has no words for comes last: the part may have lost more by then. */
-static int32_t comes_before(const hooke_needs *needs, const struct hooke_needs_row *a,
-                            const struct hooke_needs_row *b) {
+static int32_t comes_before(const hooke_needs *needs, const struct hk_needs_row *a,
+                            const struct hk_needs_row *b) {
   const int32_t split = is_split(needs, &a->variant);
   if (split != is_split(needs, &b->variant)) return !split;
   if (a->error != b->error) return a->error < b->error;
@@ -90,9 +89,9 @@ static int32_t comes_before(const hooke_needs *needs, const struct hooke_needs_r
 static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
-    const struct hooke_needs_row *row = &needs->row[k];
+    const struct hk_needs_row *row = &needs->row[k];
     if (tried[k] || !row->measured || row->needed || !may_save(needs, row)) continue;
-    if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
+    if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
     if (found < 0 || comes_before(needs, row, &needs->row[found])) found = k;
   }
   return found;
@@ -103,12 +102,12 @@ static int32_t is_worth_it(const hooke_needs *needs, const struct candidate *can
   return work(&candidate->cost) <= share * work(&needs->lean_cost);
 }
 
-static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
+static int32_t add_row(hooke_needs *needs, struct hk_needs_row *row) {
   struct candidate candidate = {.system = NULL};
-  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) {
-    hooke_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
-    hooke_variant_join(needs->system, &candidate.variant, &row->variant);
+    hk_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
+    hk_variant_join(needs->system, &candidate.variant, &row->variant);
     status = try_variant(needs, &candidate);
   }
   if (status == HOOKE_OK && candidate.error <= needs->want && is_worth_it(needs, &candidate)) {
@@ -121,7 +120,7 @@ static int32_t add_row(hooke_needs *needs, struct hooke_needs_row *row) {
 
 static int32_t begin_with_everything(hooke_needs *needs) {
   struct candidate candidate = {.system = NULL};
-  int32_t status = hooke_variant_create(needs->system, &candidate.variant);
+  int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) status = try_variant(needs, &candidate);
   if (status == HOOKE_OK) {
     needs->cheapest = candidate.cost;
@@ -135,18 +134,18 @@ static int32_t begin_with_everything(hooke_needs *needs) {
 /* What went with another row is not told twice. */
 static void tidy_up(hooke_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++) {
-    struct hooke_needs_row *row = &needs->row[k];
+    struct hk_needs_row *row = &needs->row[k];
     for (int64_t other = 0; other < needs->row_count && row->left_out; other++) {
       row->left_out = other == k || !needs->row[other].left_out ||
-                      !hooke_variant_covers(needs->system, &needs->row[other].variant, &row->variant);
+                      !hk_variant_covers(needs->system, &needs->row[other].variant, &row->variant);
     }
   }
 }
 
 /* Why a row that is not needed stays in the lean system, where it has nothing else to say. */
-static void say_why_it_stays(const hooke_needs *needs, struct hooke_needs_row *row) {
+static void say_why_it_stays(const hooke_needs *needs, struct hk_needs_row *row) {
   if (row->needed || row->left_out || row->note[0]) return;
-  if (hooke_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
+  if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
            !may_save(needs, row)            ? "saves nothing, so it stays"
            : is_split(needs, &row->variant) ? "saves too little to write a part spring by spring"
@@ -158,7 +157,7 @@ static void note_splits(hooke_needs *needs) {
   const hooke_system *system = needs->system;
   char names[HOOKE_NEEDS_NAME] = "";
   int64_t count = 0;
-  for (int64_t g = -1; (g = hooke_variant_next_split(system, &needs->lean_variant, g + 1)) >= 0; count++) {
+  for (int64_t g = -1; (g = hk_variant_next_split(system, &needs->lean_variant, g + 1)) >= 0; count++) {
     const size_t used = strlen(names);
     snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", system->group[g].name);
   }
@@ -166,19 +165,19 @@ static void note_splits(hooke_needs *needs) {
   snprintf(needs->lean_note, sizeof needs->lean_note,
            "%s: written spring by spring, not as a part has it, since single springs of %s are left out",
            names, count == 1 ? "it" : "them");
-  hooke_utf8_make_plain(needs->lean_note);
+  hk_utf8_make_plain(needs->lean_note);
 }
 
 /* Once more, in turns, so that the two times may be compared. */
 static int32_t compare_times(hooke_needs *needs) {
-  const struct hooke_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
-  struct hooke_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
-  return hooke_needs_time_in_turns(needs, trial, cost);
+  const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
+  struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
+  return hk_needs_time_in_turns(needs, trial, cost);
 }
 
 static int32_t is_to_try(const hooke_needs *needs, const char *method) {
   return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
-         !hooke_method_find(method)->reference;
+         !hk_method_find(method)->reference;
 }
 
 /* So that what another method would save is not put down to what was left out. */
@@ -188,7 +187,7 @@ static int32_t find_other_method(hooke_needs *needs) {
   for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
     const char *method = hooke_method_name(k);
     double seconds = NAN;
-    if (is_to_try(needs, method)) status = hooke_needs_try_method(needs, method, most, &seconds);
+    if (is_to_try(needs, method)) status = hk_needs_try_method(needs, method, most, &seconds);
     if (!(seconds < most)) continue;
     needs->other_method = method;
     needs->other_seconds = most = seconds;
@@ -203,8 +202,8 @@ static int32_t has_left_out(const hooke_needs *needs) {
   return some;
 }
 
-int32_t hooke_needs_find_lean(hooke_needs *needs) {
-  uint8_t *tried = hooke_new(needs->row_count, 1);
+int32_t hk_needs_find_lean(hooke_needs *needs) {
+  uint8_t *tried = hk_new(needs->row_count, 1);
   if (tried == NULL) return HOOKE_NO_MEMORY;
   needs->under_way = "the lean scene";
   int32_t status = begin_with_everything(needs);
@@ -214,7 +213,7 @@ int32_t hooke_needs_find_lean(hooke_needs *needs) {
     status = add_row(needs, &needs->row[k]);
     needs->pieces_done++;
   }
-  hooke_free(tried);
+  hk_free(tried);
   tidy_up(needs);
   if (status != HOOKE_OK) return status;
   note_splits(needs);
@@ -229,11 +228,11 @@ int32_t hooke_needs_find_lean(hooke_needs *needs) {
 /* As it was before the table was begun. */
 static void forget(hooke_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
-    hooke_variant_release(&needs->row[k].variant);
+    hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
-  hooke_needs_path_release(&needs->lean_path);
-  hooke_variant_release(&needs->lean_variant);
-  hooke_variant_map_release(&needs->lean_map);
+  hk_needs_path_release(&needs->lean_path);
+  hk_variant_release(&needs->lean_variant);
+  hk_variant_map_release(&needs->lean_map);
   hooke_system_destroy(needs->lean);
   hooke_options_destroy(needs->lean_run);
   needs->lean = NULL;
@@ -247,13 +246,13 @@ static void forget(hooke_needs *needs) {
 
 int32_t hooke_needs_find(hooke_needs *needs) {
   if (needs->row_count > 0 || needs->lean) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
   }
-  int32_t status = hooke_needs_list(needs);
+  int32_t status = hk_needs_list(needs);
   needs->pieces += 2 * needs->row_count + 2;
-  if (status == HOOKE_OK) status = hooke_needs_run_full(needs);
-  if (status == HOOKE_OK) status = hooke_needs_run_rows(needs);
-  if (status == HOOKE_OK) status = hooke_needs_find_lean(needs);
+  if (status == HOOKE_OK) status = hk_needs_run_full(needs);
+  if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
+  if (status == HOOKE_OK) status = hk_needs_find_lean(needs);
   if (status < 0) forget(needs);
   return status;
 }

@@ -8,8 +8,8 @@
 #include <string.h>
 
 /* The words that full system, rows and lean system have in common. */
-static double cost_number(const struct hooke_needs_cost *cost, const char *what) {
-  const struct hooke_figure figures[] = {
+static double cost_number(const struct hk_needs_cost *cost, const char *what) {
+  const struct hk_figure figures[] = {
       {"particles", cost->particles},
       {"springs", cost->springs},
       {"step_limit", cost->step_limit},
@@ -25,7 +25,7 @@ static double cost_number(const struct hooke_needs_cost *cost, const char *what)
 }
 
 double hooke_needs_figure(const hooke_needs *needs, const char *what) {
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"want", needs->want},
       {"method_picked", (double)needs->method_picked},
       {"runs", (double)needs->runs},
@@ -57,7 +57,7 @@ const char *hooke_needs_word(const hooke_needs *needs, const char *what) {
 
 /* ---- rows ---- */
 
-static const struct hooke_needs_row *row_at(const hooke_needs *needs, int64_t row) {
+static const struct hk_needs_row *row_at(const hooke_needs *needs, int64_t row) {
   return row >= 0 && row < hooke_needs_row_count(needs) ? &needs->row[row] : NULL;
 }
 
@@ -70,7 +70,7 @@ int64_t hooke_needs_row_count(const hooke_needs *needs) {
 }
 
 const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *what) {
-  const struct hooke_needs_row *r = row_at(needs, row);
+  const struct hk_needs_row *r = row_at(needs, row);
   if (r == NULL) return NULL;
   if (strcmp(what, "without") == 0) return r->without;
   if (strcmp(what, "kind") == 0) return r->kind;
@@ -78,9 +78,9 @@ const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *
 }
 
 double hooke_needs_number(const hooke_needs *needs, int64_t row, const char *what) {
-  const struct hooke_needs_row *r = row_at(needs, row);
+  const struct hk_needs_row *r = row_at(needs, row);
   if (r == NULL) return NAN;
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"error", r->error},
       {"needed", r->untold ? (double)NAN : (double)r->needed},
       {"left_out", (double)r->left_out},
@@ -101,15 +101,15 @@ const hooke_options *hooke_needs_lean_run(const hooke_needs *needs) {
 
 int64_t hooke_needs_lean_particle(const hooke_needs *needs, int64_t particle) {
   if (needs->lean == NULL || particle < 0 || particle >= needs->system->particle_count) return -1;
-  return hooke_variant_is_same(&needs->lean_map, particle) ? needs->lean_map.to[particle] : -1;
+  return hk_variant_is_same(&needs->lean_map, particle) ? needs->lean_map.to[particle] : -1;
 }
 
 int32_t hooke_needs_lean_position(const hooke_needs *needs, const double *q, double *position) {
   if (needs->lean == NULL) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "there is no lean system yet; call hooke_needs_find() first");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is no lean system yet; call hooke_needs_find() first");
   }
   for (int64_t p = 0; p < needs->system->particle_count; p++)
-    hooke_variant_place(&needs->lean_map, p, q, position + 3 * p);
+    hk_variant_place(&needs->lean_map, p, q, position + 3 * p);
   return HOOKE_OK;
 }
 
@@ -125,16 +125,16 @@ const char *hooke_needs_part_text(const hooke_needs *needs, int64_t part, const 
   return strcmp(what, "note") == 0 ? needs->part[part].note : NULL;
 }
 
-static double cells_at(const struct hooke_needs_part *part, int32_t axis, double factor) {
+static double cells_at(const struct hk_needs_part *part, int32_t axis, double factor) {
   if (axis >= part->axes) return NAN;
   return fmax(1.0, ceil((double)part->cells[axis] * factor * (1.0 - 1e-12)));
 }
 
 double hooke_needs_part_number(const hooke_needs *needs, int64_t part, const char *what) {
   if (part < 0 || part >= needs->part_count) return NAN;
-  const struct hooke_needs_part *p = &needs->part[part];
+  const struct hk_needs_part *p = &needs->part[part];
   const int known = isfinite(p->factor);
-  const struct hooke_figure figures[] = {
+  const struct hk_figure figures[] = {
       {"cells", cells_at(p, 0, 1.0)},
       {"cells_second", cells_at(p, 1, 1.0)},
       {"cells_third", cells_at(p, 2, 1.0)},

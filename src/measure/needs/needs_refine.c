@@ -14,49 +14,47 @@ static const double RESOLVED =
     2.0; /* a change below this many errors of the step says nothing of the resolution */
 
 /* The path of the system with one part at `scale`. */
-static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hooke_needs_path *path,
-                      struct hooke_needs_cost *cost, char *note) {
-  struct hooke_variant variant;
-  struct hooke_variant_map map;
+static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hk_needs_path *path,
+                      struct hk_needs_cost *cost, char *note) {
+  struct hk_variant variant;
+  struct hk_variant_map map;
   hooke_system *made = NULL;
-  int32_t status = hooke_variant_create(needs->system, &variant);
+  int32_t status = hk_variant_create(needs->system, &variant);
   if (status != HOOKE_OK) return status;
   variant.scale[part] = scale;
-  status = hooke_variant_make(needs->system, &variant, &made, &map);
-  hooke_variant_release(&variant);
+  status = hk_variant_make(needs->system, &variant, &made, &map);
+  hk_variant_release(&variant);
   if (status == HOOKE_UNSUITED) {
     snprintf(note, HOOKE_NEEDS_NOTE, "%s", hooke_last_error());
     return HOOKE_OK;
   }
   if (status != HOOKE_OK) return status;
-  const struct hooke_needs_trial trial = {made, &map};
-  status = hooke_needs_measure(needs, &trial, cost, path);
+  const struct hk_needs_trial trial = {made, &map};
+  status = hk_needs_measure(needs, &trial, cost, path);
   if (status == HOOKE_OK && path->position == NULL)
-    hooke_print(note, HOOKE_NEEDS_NOTE,
-                "%g times finer, it does not run to its end with any step that was tried", scale);
-  hooke_variant_map_release(&map);
+    hk_print(note, HOOKE_NEEDS_NOTE,
+             "%g times finer, it does not run to its end with any step that was tried", scale);
+  hk_variant_map_release(&map);
   hooke_system_destroy(made);
   return status;
 }
 
 /* Richardson (1911): with a change d between N and 2N of order p, what is left at N is d 2^p / (2^p - 1). */
-static void extrapolate(const hooke_needs *needs, double step_error, struct hooke_needs_part *part) {
+static void extrapolate(const hooke_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
-    hooke_print(
-        part->note, sizeof part->note,
-        "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
-        "order cannot be seen",
-        step_error);
+    hk_print(part->note, sizeof part->note,
+             "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
+             "order cannot be seen",
+             step_error);
     if (part->change <= needs->want) part->factor = 1.0;
     return;
   }
   part->order = log2(part->change / part->change_fine);
   if (!(part->order >= LOWEST_ORDER && part->order <= HIGHEST_ORDER)) {
-    hooke_print(
-        part->note, sizeof part->note,
-        "the changes do not fall as a power of the resolution (order %.2g), so nothing can be said of a "
-        "finer one",
-        part->order);
+    hk_print(part->note, sizeof part->note,
+             "the changes do not fall as a power of the resolution (order %.2g), so nothing can be said of a "
+             "finer one",
+             part->order);
     return;
   }
   const double growth = exp2(part->order);
@@ -64,56 +62,55 @@ static void extrapolate(const hooke_needs *needs, double step_error, struct hook
   part->factor = pow(part->error / needs->want, 1.0 / part->order);
 }
 
-static int32_t refine_part(hooke_needs *needs, int64_t k, struct hooke_needs_part *part) {
-  struct hooke_needs_path twice = {0}, four = {0};
-  struct hooke_needs_cost cost_twice, cost_four;
+static int32_t refine_part(hooke_needs *needs, int64_t k, struct hk_needs_part *part) {
+  struct hk_needs_path twice = {0}, four = {0};
+  struct hk_needs_cost cost_twice, cost_four;
   needs->under_way = part->name;
   int32_t status = run_at(needs, k, 2.0, &twice, &cost_twice, part->note);
   needs->pieces_done++;
   if (status == HOOKE_OK && twice.position) {
-    part->change = hooke_needs_distance(needs, &needs->path, &twice);
+    part->change = hk_needs_distance(needs, &needs->path, &twice);
     status = run_at(needs, k, 4.0, &four, &cost_four, part->note);
   }
   needs->pieces_done++;
   if (status == HOOKE_OK && four.position) {
-    part->change_fine = hooke_needs_distance(needs, &twice, &four);
+    part->change_fine = hk_needs_distance(needs, &twice, &four);
     /* the paths are those of half the step, which is off by half of what the step is */
     const double largest = fmax(needs->full.step_error, fmax(cost_twice.step_error, cost_four.step_error));
     extrapolate(needs, 0.5 * largest, part);
   }
-  hooke_needs_path_release(&twice);
-  hooke_needs_path_release(&four);
+  hk_needs_path_release(&twice);
+  hk_needs_path_release(&four);
   return status;
 }
 
 int32_t hooke_needs_refine(hooke_needs *needs) {
   const hooke_system *system = needs->system;
-  if (needs->part)
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the parts were refined; make a new one for another");
+  if (needs->part) return hk_fail(HOOKE_BAD_CALL, NULL, "the parts were refined; make a new one for another");
   if (system->part_count == 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "the scene has no parts, so there is no resolution to change");
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "the scene has no parts, so there is no resolution to change");
   }
-  needs->part = hooke_new(system->part_count, sizeof *needs->part);
+  needs->part = hk_new(system->part_count, sizeof *needs->part);
   if (needs->part == NULL) return HOOKE_NO_MEMORY;
   needs->pieces += 2 * system->part_count;
-  int32_t status = hooke_needs_run_full(needs);
+  int32_t status = hk_needs_run_full(needs);
   for (int64_t k = 0; k < system->part_count && status == HOOKE_OK; k++) {
-    struct hooke_needs_part *part = &needs->part[needs->part_count++];
-    *part = (struct hooke_needs_part){.name = system->part[k].name,
-                                      .change = NAN,
-                                      .change_fine = NAN,
-                                      .order = NAN,
-                                      .error = NAN,
-                                      .factor = NAN};
+    struct hk_needs_part *part = &needs->part[needs->part_count++];
+    *part = (struct hk_needs_part){.name = system->part[k].name,
+                                   .change = NAN,
+                                   .change_fine = NAN,
+                                   .order = NAN,
+                                   .error = NAN,
+                                   .factor = NAN};
     int64_t made[3];
-    part->axes = hooke_variant_cells(&system->part[k], 1.0, part->cells, made);
+    part->axes = hk_variant_cells(&system->part[k], 1.0, part->cells, made);
     if (part->axes > 0)
       status = refine_part(needs, k, part);
     else
       snprintf(part->note, sizeof part->note, "a %s has no resolution to change", system->part[k].kind);
   }
   if (status < 0) {
-    hooke_free(needs->part);
+    hk_free(needs->part);
     needs->part = NULL;
     needs->part_count = 0;
   }

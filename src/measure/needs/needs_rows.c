@@ -13,47 +13,46 @@ static const double idle_shares[] = {1e-2, 1e-3, 1e-4, 1e-6};
 enum { IDLE_SHARES = sizeof idle_shares / sizeof idle_shares[0] };
 
 /* A failure that is about this variant alone becomes a note. */
-static int32_t note_failure(struct hooke_needs_row *row, int32_t status) {
+static int32_t note_failure(struct hk_needs_row *row, int32_t status) {
   if (status != HOOKE_BAD_VALUE && status != HOOKE_UNSUITED) return status;
   snprintf(row->note, sizeof row->note, "%s", hooke_last_error());
   return HOOKE_OK;
 }
 
 /* What the step may put it off by beyond its share counts against it. */
-static void judge(const hooke_needs *needs, const struct hooke_needs_path *path,
-                  struct hooke_needs_row *row) {
+static void judge(const hooke_needs *needs, const struct hk_needs_path *path, struct hk_needs_row *row) {
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
-  row->error = hooke_needs_distance(needs, &needs->path, path);
+  row->error = hk_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
-  row->untold = !row->needed && hooke_needs_rests(needs);
+  row->untold = !row->needed && hk_needs_rests(needs);
   if (row->untold) row->needed = 1;
   if (beyond > 0.0)
-    hooke_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
+    hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }
 
-int32_t hooke_needs_run_row(hooke_needs *needs, struct hooke_needs_row *row) {
+int32_t hk_needs_run_row(hooke_needs *needs, struct hk_needs_row *row) {
   hooke_system *made = NULL;
-  struct hooke_variant_map map;
-  struct hooke_needs_path fine = {0};
+  struct hk_variant_map map;
+  struct hk_needs_path fine = {0};
   row->error = NAN;
   row->note[0] = '\0';
-  int32_t status = hooke_variant_make(needs->system, &row->variant, &made, &map);
+  int32_t status = hk_variant_make(needs->system, &row->variant, &made, &map);
   if (status != HOOKE_OK) return note_failure(row, status);
-  const struct hooke_needs_trial trial = {made, &map};
-  status = hooke_needs_measure(needs, &trial, &row->cost, &fine);
+  const struct hk_needs_trial trial = {made, &map};
+  status = hk_needs_measure(needs, &trial, &row->cost, &fine);
   if (status == HOOKE_OK && fine.position)
     judge(needs, &fine, row);
   else if (status == HOOKE_OK)
     snprintf(row->note, sizeof row->note, "does not run to its end with any step that was tried");
-  hooke_needs_path_release(&fine);
-  hooke_variant_map_release(&map);
+  hk_needs_path_release(&fine);
+  hk_variant_map_release(&map);
   hooke_system_destroy(made);
   row->measured = status == HOOKE_OK;
   return status;
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all there are. */
-static int32_t is_known(const hooke_needs *needs, const struct hooke_needs_row *row, int64_t count) {
+static int32_t is_known(const hooke_needs *needs, const struct hk_needs_row *row, int64_t count) {
   const hooke_system *system = needs->system;
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
@@ -65,39 +64,39 @@ static int32_t is_known(const hooke_needs *needs, const struct hooke_needs_row *
   return count == system->springs.count;
 }
 
-static void name_idle(struct hooke_needs_row *row, double force, int64_t count) {
-  hooke_print(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
-              count == 1 ? "spring that never passes" : "springs that never pass", force);
+static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
+  hk_print(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
+           count == 1 ? "spring that never passes" : "springs that never pass", force);
 }
 
 /* The boldest threshold that the want allows; without springs for any, the row goes. */
-static int32_t run_idle(hooke_needs *needs, struct hooke_needs_row *row) {
+static int32_t run_idle(hooke_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
   int64_t tried = 0;
   for (int64_t s = 0; s < needs->system->springs.count; s++)
     most = fmax(most, needs->largest_force[s]);
   for (int k = 0; k < IDLE_SHARES; k++) {
-    const int64_t count = hooke_needs_mark_idle(needs, idle_shares[k] * most, row);
+    const int64_t count = hk_needs_mark_idle(needs, idle_shares[k] * most, row);
     if (count == 0 || count == tried || is_known(needs, row, count)) continue;
     tried = count;
     name_idle(row, idle_shares[k] * most, count);
-    const int32_t status = hooke_needs_run_row(needs, row);
+    const int32_t status = hk_needs_run_row(needs, row);
     if (status != HOOKE_OK || !row->needed) return status;
   }
   return HOOKE_OK;
 }
 
 static void drop_row(hooke_needs *needs, int64_t row) {
-  hooke_variant_release(&needs->row[row].variant);
+  hk_variant_release(&needs->row[row].variant);
   memmove(&needs->row[row], &needs->row[row + 1], (size_t)(--needs->row_count - row) * sizeof *needs->row);
 }
 
-int32_t hooke_needs_run_rows(hooke_needs *needs) {
+int32_t hk_needs_run_rows(hooke_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++) {
-    struct hooke_needs_row *row = &needs->row[k];
+    struct hk_needs_row *row = &needs->row[k];
     const int32_t idle = strcmp(row->kind, "idle") == 0;
     needs->under_way = row->without;
-    const int32_t status = idle ? run_idle(needs, row) : hooke_needs_run_row(needs, row);
+    const int32_t status = idle ? run_idle(needs, row) : hk_needs_run_row(needs, row);
     needs->pieces_done++;
     if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) drop_row(needs, k--);
     if (status != HOOKE_OK) return status;

@@ -12,15 +12,14 @@
 enum { TURNS = 20 };
 static const double TURNS_TAKE = 0.2; /* [s]: so long two runs are repeated in turns */
 
-int32_t hooke_needs_path_create(const hooke_needs *needs, struct hooke_needs_path *path) {
+int32_t hk_needs_path_create(const hooke_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;
-  path->position =
-      hooke_new(needs->frame_count, (size_t)(3 * needs->watch_count + 1) * sizeof *path->position);
+  path->position = hk_new(needs->frame_count, (size_t)(3 * needs->watch_count + 1) * sizeof *path->position);
   return path->position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-void hooke_needs_path_release(struct hooke_needs_path *path) {
-  hooke_free(path->position);
+void hk_needs_path_release(struct hk_needs_path *path) {
+  hk_free(path->position);
   memset(path, 0, sizeof *path);
 }
 
@@ -32,14 +31,14 @@ static double distance_of(const hooke_needs *needs, const double *a, const doubl
   return sqrt(sum / (double)needs->watch_count);
 }
 
-static double distance_at(const hooke_needs *needs, const struct hooke_needs_path *a,
-                          const struct hooke_needs_path *b, int64_t frame) {
+static double distance_at(const hooke_needs *needs, const struct hk_needs_path *a,
+                          const struct hk_needs_path *b, int64_t frame) {
   const int64_t at = frame * 3 * needs->watch_count;
   return distance_of(needs, a->position + at, b->position + at);
 }
 
-double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_path *a,
-                            const struct hooke_needs_path *b) {
+double hk_needs_distance(const hooke_needs *needs, const struct hk_needs_path *a,
+                         const struct hk_needs_path *b) {
   double most = 0.0;
   for (int64_t f = 0; f < needs->judged && f < a->recorded && f < b->recorded; f++) {
     const double distance = distance_at(needs, a, b, f);
@@ -49,15 +48,15 @@ double hooke_needs_distance(const hooke_needs *needs, const struct hooke_needs_p
   return most;
 }
 
-double hooke_needs_moved(const hooke_needs *needs, const struct hooke_needs_path *path) {
+double hk_needs_moved(const hooke_needs *needs, const struct hk_needs_path *path) {
   double most = 0.0;
   for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
     most = fmax(most, distance_of(needs, path->position, path->position + f * 3 * needs->watch_count));
   return most;
 }
 
-int64_t hooke_needs_agreed(const hooke_needs *needs, const struct hooke_needs_path *a,
-                           const struct hooke_needs_path *b, double bound) {
+int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
+                        const struct hk_needs_path *b, double bound) {
   int64_t frames = 0;
   while (frames < needs->judged && frames < a->recorded && frames < b->recorded &&
          distance_at(needs, a, b, frames) <= bound) {
@@ -69,14 +68,14 @@ int64_t hooke_needs_agreed(const hooke_needs *needs, const struct hooke_needs_pa
 /* ---- one run ---- */
 
 static void note_forces(hooke_needs *needs, int64_t frame, const hooke_state *state) {
-  const struct hooke_springs *springs = &needs->system->springs;
+  const struct hk_springs *springs = &needs->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
   for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
+    const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
-      struct hooke_stretch stretch;
-      hooke_spring_stretch(&spring, hooke_state_position(state), hooke_state_velocity(state), &stretch);
+      const struct hk_spring spring = hk_run_spring(run, k);
+      struct hk_stretch stretch;
+      hk_spring_stretch(&spring, hooke_state_position(state), hooke_state_velocity(state), &stretch);
       double *largest = &needs->largest_force[run->first + k];
       *largest = fmax(*largest, fabs(stretch.tension));
     }
@@ -84,9 +83,9 @@ static void note_forces(hooke_needs *needs, int64_t frame, const hooke_state *st
 }
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
-  struct hooke_needs_recorder *recorder = ctx;
+  struct hk_needs_recorder *recorder = ctx;
   const hooke_needs *needs = recorder->needs;
-  struct hooke_needs_path *path = recorder->path;
+  struct hk_needs_path *path = recorder->path;
   recorder->last_step = (double)step;
   if (path == NULL || path->recorded >= needs->frame_count) return 0;
   if (recorder->trial->map == NULL) note_forces(recorder->needs, frame, state);
@@ -94,7 +93,7 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   for (int64_t k = 0; k < needs->watch_count; k++) {
     const double *q = hooke_state_position(state);
     if (recorder->trial->map)
-      hooke_variant_place(recorder->trial->map, needs->watch[k], q, row + 3 * k);
+      hk_variant_place(recorder->trial->map, needs->watch[k], q, row + 3 * k);
     else
       memcpy(row + 3 * k, q + 3 * needs->watch[k], 3 * sizeof(double));
   }
@@ -102,23 +101,22 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
 }
 
 static int32_t see_progress(double share, void *ctx) {
-  struct hooke_needs_recorder *recorder = ctx;
-  recorder->expired = recorder->deadline > 0.0 && hooke_clock_seconds() > recorder->deadline;
+  struct hk_needs_recorder *recorder = ctx;
+  recorder->expired = recorder->deadline > 0.0 && hk_clock_seconds() > recorder->deadline;
   if (recorder->expired) return 1;
-  return hooke_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
+  return hk_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
 }
 
-int32_t hooke_needs_run_once(struct hooke_needs_recorder *recorder, const hooke_options *options,
-                             int32_t *finished, struct hooke_needs_cost *cost) {
-  const struct hooke_listener listener = {
-      .on_progress = see_progress, .on_frame = see_frame, .ctx = recorder};
-  struct hooke_frames none;
+int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
+                          struct hk_needs_cost *cost) {
+  const struct hk_listener listener = {.on_progress = see_progress, .on_frame = see_frame, .ctx = recorder};
+  struct hk_frames none;
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
-  int32_t status = hooke_frames_create(recorder->trial->system, 0, &none);
+  int32_t status = hk_frames_create(recorder->trial->system, 0, &none);
   if (status == HOOKE_OK)
-    status = hooke_frames_run(&none, options, &listener, &cost->wall_seconds, &cost->force_evaluations);
-  hooke_frames_release(&none);
+    status = hk_frames_run(&none, options, &listener, &cost->wall_seconds, &cost->force_evaluations);
+  hk_frames_release(&none);
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
   if (status == HOOKE_STOPPED && recorder->expired) return HOOKE_OK;
@@ -126,17 +124,17 @@ int32_t hooke_needs_run_once(struct hooke_needs_recorder *recorder, const hooke_
                                                                                                  : status;
 }
 
-int32_t hooke_needs_time_in_turns(hooke_needs *needs, const struct hooke_needs_trial trial[2],
-                                  struct hooke_needs_cost *const cost[2]) {
+int32_t hk_needs_time_in_turns(hooke_needs *needs, const struct hk_needs_trial trial[2],
+                               struct hk_needs_cost *const cost[2]) {
   hooke_options *options = NULL;
   double spent = 0.0;
   int32_t status = hooke_options_copy(needs->run, &options);
   for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
-    struct hooke_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
-    struct hooke_needs_cost again;
+    struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
+    struct hk_needs_cost again;
     int32_t finished;
-    status = hooke_needs_set_step(cost[k % 2], options);
-    if (status == HOOKE_OK) status = hooke_needs_run_once(&recorder, options, &finished, &again);
+    status = hk_needs_set_step(cost[k % 2], options);
+    if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
     if (status != HOOKE_OK) break;
     cost[k % 2]->wall_seconds = fmin(cost[k % 2]->wall_seconds, again.wall_seconds);
     spent += again.wall_seconds;

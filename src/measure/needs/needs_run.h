@@ -4,19 +4,19 @@
 
 #include "measure/needs/needs.h"
 
-struct hooke_needs_recorder {
+struct hk_needs_recorder {
   hooke_needs *needs;
-  const struct hooke_needs_trial *trial;
-  struct hooke_needs_path *path; /* NULL: only the time is wanted */
+  const struct hk_needs_trial *trial;
+  struct hk_needs_path *path; /* NULL: only the time is wanted */
   double last_step;
   double share_begun, share; /* of the measurement: before this run, and of it */
-  double deadline;           /* hooke_clock_seconds() at which a run is given up; 0: none */
+  double deadline;           /* hk_clock_seconds() at which a run is given up; 0: none */
   int32_t expired;           /* 1: it was */
 };
 
 /* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. HOOKE_STOPPED and other failures
  * come out. */
-int32_t hooke_needs_run_once(struct hooke_needs_recorder *recorder, const hooke_options *options,
-                             int32_t *finished, struct hooke_needs_cost *cost);
+int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
+                          struct hk_needs_cost *cost);
 
 #endif

@@ -29,7 +29,7 @@ static const double SHORT = 0.02;    /* [s]: runs are repeated that long for the
 
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
-  struct hooke_needs_recorder recorder;
+  struct hk_needs_recorder recorder;
   hooke_options *options;
   int32_t adaptive;
   double ratio; /* atol / rtol */
@@ -39,12 +39,12 @@ struct search {
   double error;      /* of the last pair; how far it agreed; how often in a row that did not improve */
   int64_t frames;
   int32_t stalls;
-  struct hooke_needs_path path[2];
-  struct hooke_needs_cost cost[2];
+  struct hk_needs_path path[2];
+  struct hk_needs_cost cost[2];
   int32_t finished[2];
 };
 
-int32_t hooke_needs_set_step(const struct hooke_needs_cost *cost, hooke_options *run) {
+int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
   if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
   int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
@@ -62,14 +62,14 @@ static int32_t is_shortened(const struct search *search) {
 }
 
 static int32_t run_at(struct search *search, double value, int32_t which) {
-  struct hooke_needs_cost *cost = &search->cost[which];
+  struct hk_needs_cost *cost = &search->cost[which];
   cost->step = search->adaptive ? NAN : search->recorder.needs->unit / value;
   cost->rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
   cost->atol = cost->rtol * search->ratio;
   search->recorder.path = &search->path[which];
-  const int32_t status = hooke_needs_set_step(cost, search->options);
+  const int32_t status = hk_needs_set_step(cost, search->options);
   return status == HOOKE_OK
-             ? hooke_needs_run_once(&search->recorder, search->options, &search->finished[which], cost)
+             ? hk_needs_run_once(&search->recorder, search->options, &search->finished[which], cost)
              : status;
 }
 
@@ -80,13 +80,13 @@ static int32_t is_exhausted(const struct search *search) {
 
 /* Frames up to which the two runs stay within `bound` of each other. */
 static int64_t agreed(const struct search *search, double bound) {
-  return hooke_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
-                            bound / DIFFERENCE_FACTOR);
+  return hk_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
+                         bound / DIFFERENCE_FACTOR);
 }
 
 /* 1 if the step is not yet as small as that of the full system. */
 static int32_t is_coarser_than_full(const struct search *search) {
-  const struct hooke_needs_cost *full = &search->recorder.needs->full, *own = &search->cost[0];
+  const struct hk_needs_cost *full = &search->recorder.needs->full, *own = &search->cost[0];
   if (search->recorder.trial->map == NULL) return 0;
   return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
 }
@@ -114,8 +114,8 @@ static int32_t has_stalled(struct search *search, double error, int64_t frames) 
 }
 
 static void swap_runs(struct search *search) {
-  const struct hooke_needs_path path = search->path[0];
-  const struct hooke_needs_cost cost = search->cost[0];
+  const struct hk_needs_path path = search->path[0];
+  const struct hk_needs_cost cost = search->cost[0];
   search->path[0] = search->path[1];
   search->cost[0] = search->cost[1];
   search->finished[0] = search->finished[1];
@@ -128,7 +128,7 @@ static void swap_runs(struct search *search) {
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const hooke_needs *needs = search->recorder.needs;
   if (search->recorder.trial->map == NULL) return 0;
-  const double distance = hooke_needs_distance(needs, &needs->path, &search->path[1]);
+  const double distance = hk_needs_distance(needs, &needs->path, &search->path[1]);
   if (!(distance - error > needs->want)) return 0;
   return error <= CERTAIN * distance || !is_coarser_than_full(search);
 }
@@ -142,8 +142,7 @@ static int32_t find_step(struct search *search) {
     status = run_at(search, finer(search, search->value), 1);
     if (status != HOOKE_OK) break;
     if (has_finished(search)) {
-      const double error =
-          DIFFERENCE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+      const double error = DIFFERENCE_FACTOR * hk_needs_distance(needs, &search->path[0], &search->path[1]);
       if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
       if (is_needed_for_certain(search, error)) break;
     } else {
@@ -159,7 +158,7 @@ static int32_t find_step(struct search *search) {
 
 static int32_t tell_limit(double done, const char *what, void *needs) {
   (void)what;
-  return hooke_needs_tell(needs, done);
+  return hk_needs_tell(needs, done);
 }
 
 /* Whoever stops it here stops the run after it. */
@@ -169,7 +168,7 @@ static double step_limit(hooke_needs *needs, const hooke_system *system) {
   double limit = NAN;
   if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
   const double *q = hooke_state_position(state);
-  if (hooke_limit_predict(system, q, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
+  if (hk_limit_predict(system, q, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
       hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
     limit = NAN;
   }
@@ -196,38 +195,38 @@ static void begin_search(struct search *search, double limit) {
 
 /* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if it does not
  * come to its end, beyond what was judged. */
-static int32_t find_time(struct search *search, struct hooke_needs_cost *cost, int32_t *finished) {
+static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
   const hooke_needs *needs = search->recorder.needs;
   double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
   search->recorder.path = NULL;
   if (is_shortened(search)) cost->wall_seconds = INFINITY;
   int32_t status = hooke_options_set_number(search->options, "duration", needs->duration);
-  if (status == HOOKE_OK) status = hooke_needs_set_step(cost, search->options);
+  if (status == HOOKE_OK) status = hk_needs_set_step(cost, search->options);
   for (int k = 0; k < REPEATS && spent < SHORT && *finished && status == HOOKE_OK; k++) {
-    struct hooke_needs_cost again = *cost;
-    status = hooke_needs_run_once(&search->recorder, search->options, finished, &again);
+    struct hk_needs_cost again = *cost;
+    status = hk_needs_run_once(&search->recorder, search->options, finished, &again);
     if (again.wall_seconds < cost->wall_seconds) *cost = again;
     spent += again.wall_seconds;
   }
   return status;
 }
 
-static void hand_over(struct hooke_needs_path *from, struct hooke_needs_path *to) {
-  hooke_needs_path_release(to);
+static void hand_over(struct hk_needs_path *from, struct hk_needs_path *to) {
+  hk_needs_path_release(to);
   *to = *from;
   from->position = NULL;
 }
 
 /* The full system is judged, and all others against it, up to where the best step can be trusted with a margin: variants
  * grow differences about as fast. Up to there a larger step may do. */
-static int32_t judge_full(struct search *search, double limit, struct hooke_needs_path *fine) {
+static int32_t judge_full(struct search *search, double limit, struct hk_needs_path *fine) {
   hooke_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
   needs->judged = agreed(search, bound / MARGIN);
-  needs->own_error = FINE_FACTOR * hooke_needs_distance(needs, &search->path[0], &search->path[1]);
+  needs->own_error = FINE_FACTOR * hk_needs_distance(needs, &search->path[0], &search->path[1]);
   hand_over(&search->path[1], fine);
-  const int32_t status = hooke_needs_path_create(needs, &search->path[1]);
+  const int32_t status = hk_needs_path_create(needs, &search->path[1]);
   begin_search(search, limit);
   return status == HOOKE_OK ? find_step(search) : status;
 }
@@ -240,23 +239,23 @@ static int32_t start(struct search *search, double limit) {
     status =
         hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
   for (int k = 0; k < 2 && status == HOOKE_OK; k++)
-    status = hooke_needs_path_create(needs, &search->path[k]);
+    status = hk_needs_path_create(needs, &search->path[k]);
   return status;
 }
 
 static void end(struct search *search) {
   for (int k = 0; k < 2; k++)
-    hooke_needs_path_release(&search->path[k]);
+    hk_needs_path_release(&search->path[k]);
   hooke_options_destroy(search->options);
 }
 
-static struct search new_search(hooke_needs *needs, const struct hooke_needs_trial *trial) {
+static struct search new_search(hooke_needs *needs, const struct hk_needs_trial *trial) {
   const char *method = hooke_options_text(needs->run, "method");
   return (struct search){.recorder = {.needs = needs, .trial = trial},
-                         .adaptive = hooke_method_find(method)->adaptive};
+                         .adaptive = hk_method_find(method)->adaptive};
 }
 
-static void fill_cost(const struct search *search, double limit, struct hooke_needs_cost *cost) {
+static void fill_cost(const struct search *search, double limit, struct hk_needs_cost *cost) {
   const hooke_system *system = search->recorder.trial->system;
   *cost = search->cost[0];
   cost->step_error = NAN;
@@ -266,8 +265,8 @@ static void fill_cost(const struct search *search, double limit, struct hooke_ne
   cost->particles = (double)hooke_system_particle_count(system);
 }
 
-int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                            struct hooke_needs_cost *cost, struct hooke_needs_path *fine) {
+int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+                         struct hk_needs_path *fine) {
   const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
@@ -289,7 +288,7 @@ int32_t hooke_needs_measure(hooke_needs *needs, const struct hooke_needs_trial *
 static double error_of(const struct search *search, int32_t which) {
   const hooke_needs *needs = search->recorder.needs;
   if (!search->finished[which]) return NAN;
-  return hooke_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
+  return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
 }
 
 /* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place 0. */
@@ -327,8 +326,8 @@ static int32_t find_coarsest(struct search *search, double *error) {
   return *error <= want && !isnan(failed) ? coarsen(search, failed, error) : HOOKE_OK;
 }
 
-int32_t hooke_needs_fit(hooke_needs *needs, const struct hooke_needs_trial *trial,
-                        struct hooke_needs_cost *cost, struct hooke_needs_path *path, double *error) {
+int32_t hk_needs_fit(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+                     struct hk_needs_path *path, double *error) {
   const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
@@ -366,7 +365,7 @@ static double safe_step(const hooke_system *system, const char *method) {
 
 /* As find_coarsest(), but no further than to runs that take longer than `most` [s]. */
 static int32_t find_quick(struct search *search, double most, double *error) {
-  search->recorder.deadline = hooke_clock_seconds() + TRIES * most + AT_LEAST;
+  search->recorder.deadline = hk_clock_seconds() + TRIES * most + AT_LEAST;
   for (;;) {
     const int32_t status = run_at(search, search->value, 0);
     if (status != HOOKE_OK) return status;
@@ -378,11 +377,11 @@ static int32_t find_quick(struct search *search, double most, double *error) {
   }
 }
 
-int32_t hooke_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
-  const struct hooke_needs_trial trial = {needs->system, NULL};
+int32_t hk_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
+  const struct hk_needs_trial trial = {needs->system, NULL};
   const double limit = safe_step(trial.system, method);
   struct search search = {.recorder = {.needs = needs, .trial = &trial},
-                          .adaptive = hooke_method_find(method)->adaptive};
+                          .adaptive = hk_method_find(method)->adaptive};
   double error = NAN;
   *wall_seconds = NAN;
   int32_t status = start_with(&search, method, limit), finished;

@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <string.h>
 
-void hooke_damped_modes_release(struct hooke_damped_modes *modes) {
-  hooke_free(modes->real);
+void hk_damped_modes_release(struct hk_damped_modes *modes) {
+  hk_free(modes->real);
   memset(modes, 0, sizeof *modes);
 }
 
@@ -28,18 +28,17 @@ extern void dgeev_(const char *left_job, const char *right_job, const int *n, do
 /* LAPACK ends the process over some matrices that are not finite, and counts by int. */
 static int32_t check(int64_t n, int64_t count, const double *matrix) {
   if (n > INT_MAX / 4) {
-    return hooke_fail(HOOKE_BAD_VALUE, NULL, "%lld unknowns are too many for dense eigenvalues",
-                      (long long)n);
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%lld unknowns are too many for dense eigenvalues", (long long)n);
   }
   for (int64_t k = 0; k < count; k++) {
     if (!isfinite(matrix[k]))
-      return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "eigenvalues of a matrix that is not finite");
+      return hk_fail(HOOKE_SOLVER_FAILED, NULL, "eigenvalues of a matrix that is not finite");
   }
   return HOOKE_OK;
 }
 
 static int32_t not_found(void) {
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "the eigenvalues were not found");
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "the eigenvalues were not found");
 }
 
 /* ---- symmetric ---- */
@@ -52,7 +51,7 @@ static void swap_rows(int64_t n, double *a, double *b) {
   }
 }
 
-int32_t hooke_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
+int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
   if (n == 0) return HOOKE_OK;
   int32_t status = check(n, n * n, matrix);
   if (status != HOOKE_OK) return status;
@@ -62,10 +61,10 @@ int32_t hooke_dense_symmetric(int64_t n, double *matrix, double *value, double *
   double best = 0.0;
   dsyev_(job, "U", &size, matrix, &size, value, &best, &ask, &info, 1, 1);
   const int room_size = (int)best;
-  double *room = hooke_new(room_size, sizeof(double));
+  double *room = hk_new(room_size, sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
   dsyev_(job, "U", &size, matrix, &size, value, room, &room_size, &info, 1, 1);
-  hooke_free(room);
+  hk_free(room);
   if (info != 0) return not_found();
   /* the smallest is first; its columns are our rows */
   for (int64_t k = 0; k < n / 2; k++) {
@@ -76,12 +75,12 @@ int32_t hooke_dense_symmetric(int64_t n, double *matrix, double *value, double *
   return HOOKE_OK;
 }
 
-int32_t hooke_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
-                                double *vector) {
+int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
+                             double *vector) {
   int32_t status = check(n, n, diagonal);
   if (status == HOOKE_OK) status = check(n, n - 1, beside);
   if (status != HOOKE_OK) return status;
-  double *room = hooke_new(4 * n + (vector ? n * n : 0), sizeof(double));
+  double *room = hk_new(4 * n + (vector ? n * n : 0), sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
   double *values = room + 2 * n, *off = values + n, *all = off + n;
   const int size = (int)n;
@@ -91,7 +90,7 @@ int32_t hooke_dense_tridiagonal(int64_t n, const double *diagonal, const double 
   dstev_(vector ? "V" : "N", &size, values, off, all, &size, room, &info, 1);
   *value = values[n - 1];
   if (vector) memcpy(vector, all + (n - 1) * n, (size_t)n * sizeof(double));
-  hooke_free(room);
+  hk_free(room);
   return info == 0 ? HOOKE_OK : not_found();
 }
 
@@ -101,7 +100,7 @@ int32_t hooke_dense_tridiagonal(int64_t n, const double *diagonal, const double 
 static const double NOTHING = 1e-14;
 
 static double *copy_of(int64_t count, const double *from) {
-  double *copy = hooke_new(count, sizeof(double));
+  double *copy = hk_new(count, sizeof(double));
   if (copy) memcpy(copy, from, (size_t)count * sizeof(double));
   return copy;
 }
@@ -127,7 +126,7 @@ static void project(int64_t n, int64_t r, const double *q, const double *a, doub
 /* The rows of `basis` span what K or C moves; returns how many there are. */
 static int32_t find_basis(int64_t n, const double *stiffness, const double *damping, double *basis,
                           int64_t *rank) {
-  double *sum = copy_of(n * n, stiffness), *value = hooke_new(n, sizeof(double));
+  double *sum = copy_of(n * n, stiffness), *value = hk_new(n, sizeof(double));
   int32_t status = sum && value ? HOOKE_OK : HOOKE_NO_MEMORY;
   /* both of size 1, so that neither hides the other */
   double size[2] = {0.0, 0.0};
@@ -139,20 +138,20 @@ static int32_t find_basis(int64_t n, const double *stiffness, const double *damp
     for (int64_t k = 0; k < n * n; k++) {
       sum[k] = (size[0] > 0.0 ? stiffness[k] / size[0] : 0.0) + (size[1] > 0.0 ? damping[k] / size[1] : 0.0);
     }
-    status = hooke_dense_symmetric(n, sum, value, basis);
+    status = hk_dense_symmetric(n, sum, value, basis);
   }
   for (*rank = 0; status == HOOKE_OK && *rank < n; ++*rank) {
     if (!(value[*rank] > (double)n * NOTHING * value[0])) break;
   }
-  hooke_free(sum);
-  hooke_free(value);
+  hk_free(sum);
+  hk_free(value);
   return status;
 }
 
-static int32_t make_room(int64_t n, struct hooke_damped_modes *modes) {
-  double *block = hooke_new(2 * n * (2 + 2 * n), sizeof(double));
+static int32_t make_room(int64_t n, struct hk_damped_modes *modes) {
+  double *block = hk_new(2 * n * (2 + 2 * n), sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  *modes = (struct hooke_damped_modes){.real = block, .imaginary = block + 2 * n};
+  *modes = (struct hk_damped_modes){.real = block, .imaginary = block + 2 * n};
   modes->vector_real = block + 4 * n;
   modes->vector_imaginary = modes->vector_real + 2 * n * n;
   return HOOKE_OK;
@@ -160,7 +159,7 @@ static int32_t make_room(int64_t n, struct hooke_damped_modes *modes) {
 
 /* Takes the vector of an eigenvalue from the companion's, (u, lambda u): from the larger half. */
 static void take(int64_t n, int64_t r, const double *basis, const double *real, const double *imaginary,
-                 double size, struct hooke_damped_modes *modes) {
+                 double size, struct hk_damped_modes *modes) {
   double *re = modes->vector_real + modes->count * n, *im = modes->vector_imaginary + modes->count * n;
   const int64_t from = size > 1.0 ? r : 0;
   for (int64_t i = 0; i < r; i++) {
@@ -174,7 +173,7 @@ static void take(int64_t n, int64_t r, const double *basis, const double *real, 
 /* Column k has the vector of a real eigenvalue; of a pair, columns k and k + 1 the two parts of the first one's, whose
  * imaginary part is positive. */
 static void take_all(int64_t n, int64_t r, const double *basis, const double *real, const double *imaginary,
-                     const double *vector, struct hooke_damped_modes *modes) {
+                     const double *vector, struct hk_damped_modes *modes) {
   for (int64_t k = 0; k < 2 * r; k++) {
     const double *column = vector + k * 2 * r;
     if (imaginary[k] < 0.0) continue;
@@ -187,18 +186,18 @@ static void take_all(int64_t n, int64_t r, const double *basis, const double *re
 }
 
 static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double *companion,
-                               struct hooke_damped_modes *modes) {
+                               struct hk_damped_modes *modes) {
   int32_t status = check(2 * r, 4 * r * r, companion);
   if (status != HOOKE_OK) return status;
   const int size = (int)(2 * r), ask = -1, one = 1;
   int info = 0;
-  double best = 0.0, *block = hooke_new(2 * r * (2 + 2 * r), sizeof(double));
+  double best = 0.0, *block = hk_new(2 * r * (2 + 2 * r), sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   double *real = block, *imaginary = real + 2 * r, *vector = imaginary + 2 * r;
   dgeev_("N", "V", &size, companion, &size, real, imaginary, NULL, &one, vector, &size, &best, &ask, &info, 1,
          1);
   const int room_size = (int)best;
-  double *room = hooke_new(room_size, sizeof(double));
+  double *room = hk_new(room_size, sizeof(double));
   if (room) {
     dgeev_("N", "V", &size, companion, &size, real, imaginary, NULL, &one, vector, &size, room, &room_size,
            &info, 1, 1);
@@ -209,20 +208,20 @@ static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double
   } else {
     status = HOOKE_NO_MEMORY;
   }
-  hooke_free(room);
-  hooke_free(block);
+  hk_free(room);
+  hk_free(block);
   return status;
 }
 
-int32_t hooke_dense_damped(int64_t n, const double *stiffness, const double *damping,
-                           struct hooke_damped_modes *modes) {
-  *modes = (struct hooke_damped_modes){.count = 0};
-  double *basis = hooke_new(n * n, sizeof(double)), *row = hooke_new(n, sizeof(double)), *matrix = NULL;
+int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
+                        struct hk_damped_modes *modes) {
+  *modes = (struct hk_damped_modes){.count = 0};
+  double *basis = hk_new(n * n, sizeof(double)), *row = hk_new(n, sizeof(double)), *matrix = NULL;
   int64_t r = 0;
   int32_t status = basis && row ? make_room(n, modes) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = find_basis(n, stiffness, damping, basis, &r);
   if (status == HOOKE_OK && r > 0) {
-    matrix = hooke_new(4 * r * r, sizeof(double));
+    matrix = hk_new(4 * r * r, sizeof(double));
     status = matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   }
   if (status == HOOKE_OK && r > 0) {
@@ -233,32 +232,32 @@ int32_t hooke_dense_damped(int64_t n, const double *stiffness, const double *dam
       matrix[(r + k) * 2 * r + k] = 1.0;
     status = solve_companion(n, r, basis, matrix, modes);
   }
-  hooke_free(matrix);
-  hooke_free(basis);
-  hooke_free(row);
-  if (status != HOOKE_OK) hooke_damped_modes_release(modes);
+  hk_free(matrix);
+  hk_free(basis);
+  hk_free(row);
+  if (status != HOOKE_OK) hk_damped_modes_release(modes);
   return status;
 }
 
 #else
 
 static int32_t not_built(void) {
-  return hooke_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
 }
 
-int32_t hooke_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
+int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
   (void)n, (void)matrix, (void)value, (void)vector;
   return not_built();
 }
 
-int32_t hooke_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
-                                double *vector) {
+int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
+                             double *vector) {
   (void)n, (void)diagonal, (void)beside, (void)value, (void)vector;
   return not_built();
 }
 
-int32_t hooke_dense_damped(int64_t n, const double *stiffness, const double *damping,
-                           struct hooke_damped_modes *modes) {
+int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
+                        struct hk_damped_modes *modes) {
   (void)n, (void)stiffness, (void)damping, (void)modes;
   return not_built();
 }

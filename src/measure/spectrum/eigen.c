@@ -23,7 +23,7 @@ static void rotate(double *p, double *q, double *a, double *b, double *c) {
 
 /* Jacobi's rotations: where eigenvalues are close, as in blocks of a flat cloth, a formula in closed form loses half
  * of the digits. */
-double hooke_eigen_largest(const double matrix[6]) {
+double hk_eigen_largest(const double matrix[6]) {
   double xx = matrix[0], yy = matrix[1], zz = matrix[2], xy = matrix[3], xz = matrix[4], yz = matrix[5];
   for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
     const double on = fmax(fabs(xx), fmax(fabs(yy), fabs(zz)));

@@ -4,6 +4,6 @@
 
 /* The largest eigenvalue of the symmetric matrix with entries xx, yy, zz, xy, xz, yz, to rounding of the largest of
  * them. NaN if one of them is. */
-double hooke_eigen_largest(const double matrix[6]);
+double hk_eigen_largest(const double matrix[6]);
 
 #endif

@@ -16,20 +16,20 @@
 #include "model/system.h"
 
 /* A spring as its displacements see it. */
-struct hooke_frozen_spring {
+struct hk_frozen_spring {
   int64_t head, tail;
   double u[3];                 /* direction; zeros where it has none */
   double kappa, across, gamma; /* stiffness along and across it, damping along it */
 };
 
-struct hooke_frozen {
+struct hk_frozen {
   hooke_system *system; /* committed */
   double *place;        /* where it rests, 3n */
   double *balance;      /* the constant force, 3n; NULL: none is needed */
   int64_t spring_count;
-  struct hooke_frozen_spring *spring; /* those with a free end */
+  struct hk_frozen_spring *spring; /* those with a free end */
   int64_t altitude_count;
-  struct hooke_altitude_view *altitude; /* those with a free corner */
+  struct hk_altitude_view *altitude; /* those with a free corner */
   int64_t clamped, left_out,
       turning;      /* springs compressed; without force; of length 0 and damped, not linear */
   int32_t damped;   /* damping along springs, or drag */
@@ -37,16 +37,16 @@ struct hooke_frozen {
 };
 
 /* `q`: 3n positions of a committed system. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hooke_frozen_create(const hooke_system *system, const double *q, struct hooke_frozen *frozen);
-void hooke_frozen_release(struct hooke_frozen *frozen);
+int32_t hk_frozen_create(const hooke_system *system, const double *q, struct hk_frozen *frozen);
+void hk_frozen_release(struct hk_frozen *frozen);
 
 /* Twice the energy of the displacement from `place` and the velocity (3n each): x.Kx + v.Mv. */
-double hooke_frozen_energy(const struct hooke_frozen *frozen, const double *q, const double *v);
+double hk_frozen_energy(const struct hk_frozen *frozen, const double *q, const double *v);
 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act on. */
-void hooke_frozen_push(const struct hooke_frozen *frozen, const double *x, double *out);
+void hk_frozen_push(const struct hk_frozen *frozen, const double *x, double *out);
 
 /* A spring at q as its displacements see it, clamped as above; one of length 0 is stiff in all directions. */
-struct hooke_frozen_spring hooke_frozen_view(const struct hooke_spring *spring, const double *q);
+struct hk_frozen_spring hk_frozen_view(const struct hk_spring *spring, const double *q);
 
 #endif

@@ -12,7 +12,7 @@
 static const char *const PART_KNOWN =
     "only the fastest modes are known: the limit lies between the bound and the prediction";
 
-static void take_mode(const struct hooke_spectrum *s, const double *mode, struct hooke_prediction *out) {
+static void take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
   out->has_mode = mode != NULL;
   if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
 }
@@ -29,43 +29,43 @@ static double symplectic_step(double k, double c) {
 }
 
 /* x.Cx */
-static int32_t damping_of(struct hooke_linearised *lin, const double *x, double *room, double *c) {
+static int32_t damping_of(struct hk_linearised *lin, const double *x, double *room, double *c) {
   *c = 0.0;
   if (!lin->damped) return HOOKE_OK;
-  hooke_linearised_weigh(lin, 0.0, 1.0);
-  hooke_linearised_multiply(lin, x, room);
-  *c = hooke_linearised_dot(lin, x, room);
+  hk_linearised_weigh(lin, 0.0, 1.0);
+  hk_linearised_multiply(lin, x, room);
+  *c = hk_linearised_dot(lin, x, room);
   return HOOKE_OK;
 }
 
 /* h at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. From the mode of one h its own step, which is the next h: the
  * eigenvalue is stationary in the mode, so this is Newton's iteration, from above after the first turn. */
-static int32_t symplectic_euler(struct hooke_spectrum *s, struct hooke_prediction *out) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out) {
+  struct hk_linearised *lin = s->linearised;
   take_mode(s, s->stiffest_mode, out);
   out->limit = symplectic_step(s->stiffest, s->beta * s->stiffest + s->delta);
   if (s->proportional) return HOOKE_OK;
   const double tolerance =
       lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
-  double *room = hooke_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
+  double *room = hk_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
   if (room == NULL) return HOOKE_NO_MEMORY;
   int32_t status = damping_of(lin, out->mode, room, &c);
   double h = symplectic_step(s->stiffest, c);
   /* nothing stiff: the start is no mode at all */
   if (!(h < INFINITY)) {
-    status = hooke_top_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
+    status = hk_top_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
     h = symplectic_step(0.0, c);
   }
   for (int k = 0; k < MOST_TURNS && status == HOOKE_OK && change > tolerance; k++) {
     memcpy(room, out->mode, (size_t)lin->size * sizeof(double));
-    status = hooke_top_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
+    status = hk_top_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
     if (status == HOOKE_OK) status = damping_of(lin, out->mode, room, &c);
     const double next = symplectic_step(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c);
     change = fabs(next - h) / next;
     h = next;
   }
   out->limit = h;
-  hooke_free(room);
+  hk_free(room);
   return status;
 }
 
@@ -77,16 +77,15 @@ static double verlet_step(double k, double c) {
   return 2.0 / sqrt(k);
 }
 
-static int32_t verlet(struct hooke_spectrum *s, struct hooke_prediction *out) {
+static int32_t verlet(struct hk_spectrum *s, struct hk_prediction *out) {
   out->limit = verlet_step(s->stiffest, 0.0);
   take_mode(s, s->stiffest_mode, out);
   return HOOKE_OK;
 }
 
 /* The smallest step over the eigenvalues that are known. */
-static void smallest(const struct hooke_spectrum *s,
-                     double (*step)(double real, double imaginary, double best),
-                     struct hooke_prediction *out) {
+static void smallest(const struct hk_spectrum *s, double (*step)(double real, double imaginary, double best),
+                     struct hk_prediction *out) {
   int64_t worst = -1;
   out->limit = INFINITY;
   for (int64_t k = 0; k < s->count; k++) {
@@ -103,7 +102,7 @@ static void smallest(const struct hooke_spectrum *s,
 /* The smaller one of the two steps of a mode. */
 static double step_of_roots(double k, double c, double (*step)(double real, double imaginary, double best)) {
   double real[2], imaginary[2], h = INFINITY;
-  hooke_spectrum_roots(c, k, real, imaginary);
+  hk_spectrum_roots(c, k, real, imaginary);
   for (int j = 0; j < 2; j++) {
     if (real[j] != 0.0 || imaginary[j] != 0.0) h = fmin(h, step(real[j], imaginary[j], INFINITY));
   }
@@ -115,7 +114,7 @@ static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 
 static double rk4_step(double real, double imaginary, double best) {
   const double size = hypot(real, imaginary);
   if (best * size <= HALF_DISC) return INFINITY;
-  return hooke_rk4_reach(real, imaginary) / size;
+  return hk_rk4_reach(real, imaginary) / size;
 }
 
 static double rk4_mode(double k, double c) {
@@ -123,7 +122,7 @@ static double rk4_mode(double k, double c) {
 }
 
 /* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
-static int32_t rk4(struct hooke_spectrum *s, struct hooke_prediction *out) {
+static int32_t rk4(struct hk_spectrum *s, struct hk_prediction *out) {
   smallest(s, rk4_step, out);
   if (!out->exact) out->sure = HALF_DISC / fmax(sqrt(s->stiffest), s->fastest_decay);
   return HOOKE_OK;
@@ -139,7 +138,7 @@ static double forward_euler_mode(double k, double c) {
   return step_of_roots(k, c, forward_euler_step);
 }
 
-static int32_t forward_euler(struct hooke_spectrum *s, struct hooke_prediction *out) {
+static int32_t forward_euler(struct hk_spectrum *s, struct hk_prediction *out) {
   smallest(s, forward_euler_step, out);
   if (!s->linearised->damped && s->stiffest > 0.0) {
     out->limit = 0.0; /* whatever modes are known */
@@ -163,7 +162,7 @@ static int32_t forward_euler(struct hooke_spectrum *s, struct hooke_prediction *
 
 /* ---- the table ---- */
 
-static int32_t unlimited(struct hooke_spectrum *s, struct hooke_prediction *out) {
+static int32_t unlimited(struct hk_spectrum *s, struct hk_prediction *out) {
   (void)s;
   out->limit = INFINITY;
   return HOOKE_OK;
@@ -176,7 +175,7 @@ static double unlimited_mode(double k, double c) {
 
 static const struct rule {
   const char *method;
-  int32_t (*find)(struct hooke_spectrum *s, struct hooke_prediction *out);
+  int32_t (*find)(struct hk_spectrum *s, struct hk_prediction *out);
   double (*of_mode)(double k, double c); /* the step of one mode, x'' + c x' + k x = 0 */
   int32_t needs_all, damps_implicitly;
   const char *note;
@@ -200,12 +199,12 @@ static const struct rule *rule_of(const char *method) {
   return NULL;
 }
 
-int32_t hooke_limit_rule_needs_all(const char *method) {
+int32_t hk_limit_rule_needs_all(const char *method) {
   const struct rule *rule = rule_of(method);
   return rule ? rule->needs_all : 0;
 }
 
-int32_t hooke_limit_rule_damps_implicitly(const char *method) {
+int32_t hk_limit_rule_damps_implicitly(const char *method) {
   const struct rule *rule = rule_of(method);
   return rule ? rule->damps_implicitly : 0;
 }
@@ -216,9 +215,9 @@ double hooke_limit_of_mode(const char *method, double frequency, double decay) {
   return rule->of_mode(frequency * frequency, 2.0 * decay);
 }
 
-int32_t hooke_limit_rule(struct hooke_spectrum *s, const char *method, struct hooke_prediction *out) {
+int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_prediction *out) {
   const int32_t adaptive = hooke_method_is_adaptive(method);
-  if (adaptive < 0) return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+  if (adaptive < 0) return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   out->limit = adaptive ? INFINITY : NAN;
   out->exact = 1;
   out->sure = NAN;

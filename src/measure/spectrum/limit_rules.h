@@ -4,7 +4,7 @@
 
 #include "measure/spectrum/spectrum.h"
 
-struct hooke_prediction {
+struct hk_prediction {
   double
       limit; /* [s]: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known */
   double
@@ -16,15 +16,15 @@ struct hooke_prediction {
 };
 
 /* 1 if the rule asks for eigenvalues other than the extreme ones of K and of h^2 K + 2 h C. */
-int32_t hooke_limit_rule_needs_all(const char *method);
+int32_t hk_limit_rule_needs_all(const char *method);
 
 /* 1 if the method solves for damping, which then has no part in its limit. */
-int32_t hooke_limit_rule_damps_implicitly(const char *method);
+int32_t hk_limit_rule_damps_implicitly(const char *method);
 
 /* HOOKE_BAD_VALUE for an unknown method. */
-int32_t hooke_limit_rule(struct hooke_spectrum *spectrum, const char *method, struct hooke_prediction *out);
+int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct hk_prediction *out);
 
 /* How far from 0 Runge-Kutta 4 is stable on the ray to (real, imaginary), real <= 0 (stable_ray.c). */
-double hooke_rk4_reach(double real, double imaginary);
+double hk_rk4_reach(double real, double imaginary);
 
 #endif

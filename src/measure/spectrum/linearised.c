@@ -13,10 +13,10 @@ static const double ROUNDING = 1e-9;
 
 /* ---- springs ---- */
 
-static void see_spring(struct hooke_linearised *lin, int64_t k, const struct hooke_spring *spring,
-                       const double *q, double scale) {
-  struct hooke_stretch s;
-  hooke_spring_stretch_taut(spring, q, &s);
+static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spring *spring, const double *q,
+                       double scale) {
+  struct hk_stretch s;
+  hk_spring_stretch_taut(spring, q, &s);
   const double slight = ROUNDING * spring->kappa * s.length;
   for (int a = 0; a < 3; a++)
     lin->u[a][k] = s.direction[a];
@@ -32,28 +32,28 @@ static void see_spring(struct hooke_linearised *lin, int64_t k, const struct hoo
 }
 
 /* Between held ends it moves nothing. */
-static int32_t moves(const hooke_system *system, const struct hooke_spring *spring) {
+static int32_t moves(const hooke_system *system, const struct hk_spring *spring) {
   return !system->held[spring->head] || !system->held[spring->tail];
 }
 
-static void see_runs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
+static void see_runs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
   for (int64_t r = 0; r < lin->run_count; r++) {
-    const struct hooke_run *run = &lin->run[r];
+    const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       const double scale = spring_scale ? spring_scale[run->first + k] : 1.0;
       if (moves(lin->system, &spring)) see_spring(lin, run->first + k, &spring, q, scale);
     }
   }
 }
 
-static void see_batches(struct hooke_linearised *lin, const double *q) {
+static void see_batches(struct hk_linearised *lin, const double *q) {
   int32_t *head = lin->ends, *tail = lin->ends + lin->own.count;
   int64_t place = 0;
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(lin->system, &batch);) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(lin->system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++, place++) {
-      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
       head[place] = batch.head[k];
       tail[place] = batch.tail[k];
       if (moves(lin->system, &spring)) see_spring(lin, place, &spring, q, 1.0);
@@ -62,20 +62,20 @@ static void see_batches(struct hooke_linearised *lin, const double *q) {
 }
 
 /* Springs in no order are many times faster in that of their batches. */
-static int32_t see_springs(struct hooke_linearised *lin, const double *q, const double *spring_scale) {
-  const struct hooke_springs *springs = &lin->system->springs;
+static int32_t see_springs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
+  const struct hk_springs *springs = &lin->system->springs;
   if (spring_scale || lin->system->net.particles == 0) {
     lin->run = springs->run;
     lin->run_count = springs->run_count;
     see_runs(lin, q, spring_scale);
     return HOOKE_OK;
   }
-  lin->ends = hooke_new(2 * springs->count, sizeof *lin->ends);
+  lin->ends = hk_new(2 * springs->count, sizeof *lin->ends);
   if (lin->ends == NULL) return HOOKE_NO_MEMORY;
-  lin->own = (struct hooke_run){.count = springs->count,
-                                .shape = HOOKE_RUN_INDEXED,
-                                .head = lin->ends,
-                                .tail = lin->ends + springs->count};
+  lin->own = (struct hk_run){.count = springs->count,
+                             .shape = HOOKE_RUN_INDEXED,
+                             .head = lin->ends,
+                             .tail = lin->ends + springs->count};
   lin->run = &lin->own;
   lin->run_count = 1;
   see_batches(lin, q);
@@ -83,24 +83,24 @@ static int32_t see_springs(struct hooke_linearised *lin, const double *q, const 
 }
 
 /* Triples of held particles move nothing. */
-static void see_triples(struct hooke_linearised *lin) {
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&lin->system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+static void see_triples(struct hk_linearised *lin) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {&lin->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++)
       lin->bends |= !lin->system->held[triple.particle[e]];
   }
 }
 
-static int32_t see_tetrahedra(struct hooke_linearised *lin, const double *q) {
-  const struct hooke_altitudes *altitudes = &lin->system->altitudes;
-  lin->tetrahedron = hooke_new(altitudes->count, sizeof *lin->tetrahedron);
-  lin->altitude_kappa = hooke_new(2 * altitudes->count, sizeof(double));
+static int32_t see_tetrahedra(struct hk_linearised *lin, const double *q) {
+  const struct hk_altitudes *altitudes = &lin->system->altitudes;
+  lin->tetrahedron = hk_new(altitudes->count, sizeof *lin->tetrahedron);
+  lin->altitude_kappa = hk_new(2 * altitudes->count, sizeof(double));
   if (lin->tetrahedron == NULL || lin->altitude_kappa == NULL) return HOOKE_NO_MEMORY;
   lin->altitude_gamma = lin->altitude_kappa + altitudes->count;
   for (int64_t k = 0; k < altitudes->count; k++) {
-    struct hooke_altitude_view view;
-    if (!hooke_tetrahedron_moves(lin->system, &altitudes->tetrahedron[k]) ||
-        !hooke_altitude_see(&altitudes->tetrahedron[k], q, &view))
+    struct hk_altitude_view view;
+    if (!hk_tetrahedron_moves(lin->system, &altitudes->tetrahedron[k]) ||
+        !hk_altitude_see(&altitudes->tetrahedron[k], q, &view))
       continue;
     lin->altitude_kappa[lin->tetrahedra] = view.kappa;
     lin->altitude_gamma[lin->tetrahedra] = view.gamma;
@@ -112,13 +112,13 @@ static int32_t see_tetrahedra(struct hooke_linearised *lin, const double *q) {
 /* ---- units ---- */
 
 /* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
-static double largest_row(const struct hooke_linearised *lin, const double *weight, const double *altitude,
+static double largest_row(const struct hk_linearised *lin, const double *weight, const double *altitude,
                           double bending, double drag, double *sum) {
   const hooke_system *system = lin->system;
   double most = 0.0;
   memset(sum, 0, (size_t)system->particle_count * sizeof(double));
   for (int64_t r = 0; r < lin->run_count; r++) {
-    const struct hooke_run *run = &lin->run[r];
+    const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
       const int64_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
@@ -126,30 +126,29 @@ static double largest_row(const struct hooke_linearised *lin, const double *weig
       sum[j] += 2.0 * weight[run->first + k];
     }
   }
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&system->bending, 0, 0};
-       bending > 0.0 && hooke_next_triple(&at, &triple);) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; bending > 0.0 && hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++)
-      sum[triple.particle[e]] += bending * hooke_triple_row(system, &triple, e) * triple.coefficient;
+      sum[triple.particle[e]] += bending * hk_triple_row(system, &triple, e) * triple.coefficient;
   }
   for (int64_t k = 0; k < lin->tetrahedra; k++) {
-    const struct hooke_altitude_tangent *t = &lin->tetrahedron[k];
+    const struct hk_altitude_tangent *t = &lin->tetrahedron[k];
     for (int j = 0; j < 4; j++)
-      sum[t->particle[j]] += altitude[k] * hooke_altitude_row(system, t->particle, t->weight, j);
+      sum[t->particle[j]] += altitude[k] * hk_altitude_row(system, t->particle, t->weight, j);
   }
   for (int64_t p = 0; p < system->particle_count; p++)
     most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   return most;
 }
 
-static int32_t choose_rate(struct hooke_linearised *lin, double *sum) {
+static int32_t choose_rate(struct hk_linearised *lin, double *sum) {
   const double stiffest = largest_row(lin, lin->kappa, lin->altitude_kappa, 1.0, 0.0, sum);
   const double quickest = largest_row(lin, lin->gamma, lin->altitude_gamma, 0.0, lin->drag, sum);
   lin->damped = quickest > 0.0;
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
   if (!(stiffest < INFINITY) || !(quickest < INFINITY) || !(quickest * c < 1e150) || !(k < INFINITY)) {
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "stiffness over mass is up to %g 1/s^2, damping over mass up to %g 1/s; limits can be found up to "
         "1e308, and where the second is below 1e150 times the root of the first",
@@ -178,23 +177,23 @@ static double *part(double **block, int64_t count) {
   return start;
 }
 
-double hooke_linearised_bytes(const hooke_system *system) {
+double hk_linearised_bytes(const hooke_system *system) {
   enum { OF_SPRINGS = 11, OF_PARTICLES = 3 + 3 * 20, OF_TETRAHEDRA = 14 };
   return sizeof(double) *
          (OF_SPRINGS * (double)system->springs.count + OF_PARTICLES * (double)system->particle_count +
           OF_TETRAHEDRA * (double)system->altitudes.count);
 }
 
-int32_t hooke_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
-                                const double *mass_scale, struct hooke_linearised *lin) {
+int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
+                             const double *mass_scale, struct hk_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs.count;
-  *lin = (struct hooke_linearised){.system = system, .size = 3 * n, .drag = system->drag};
+  *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
   for (int64_t k = 0; k < 3 * n; k++) {
     if (isfinite(q[k])) continue;
-    return hooke_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
-                      (long long)(k / 3));
+    return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
+                   (long long)(k / 3));
   }
-  double *block = hooke_new(10 * m + 3 * n, sizeof(double));
+  double *block = hk_new(10 * m + 3 * n, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   lin->mass = part(&block, n);
   lin->inverse = part(&block, n);
@@ -216,22 +215,22 @@ int32_t hooke_linearised_create(const hooke_system *system, const double *q, con
   see_triples(lin);
   if (status == HOOKE_OK) status = see_tetrahedra(lin, q);
   if (status == HOOKE_OK) status = choose_rate(lin, sum);
-  if (status != HOOKE_OK) hooke_linearised_release(lin);
+  if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;
 }
 
-void hooke_linearised_release(struct hooke_linearised *lin) {
-  hooke_free(lin->mass);
-  hooke_free(lin->ends);
-  hooke_free(lin->tetrahedron);
-  hooke_free(lin->altitude_kappa);
+void hk_linearised_release(struct hk_linearised *lin) {
+  hk_free(lin->mass);
+  hk_free(lin->ends);
+  hk_free(lin->tetrahedron);
+  hk_free(lin->altitude_kappa);
   memset(lin, 0, sizeof *lin);
 }
 
 /* ---- products ---- */
 
 /* A spring is g g^T + b I with g = sqrt(along - across) u: tension over length is below kappa, so nothing is negative. */
-void hooke_linearised_weigh(struct hooke_linearised *lin, double a, double b) {
+void hk_linearised_weigh(struct hk_linearised *lin, double a, double b) {
   const int64_t m = lin->system->springs.count;
   for (int64_t s = 0; s < m; s++) {
     const double along = a * (lin->kappa[s] - lin->across[s]) + b * lin->gamma[s];
@@ -246,26 +245,26 @@ void hooke_linearised_weigh(struct hooke_linearised *lin, double a, double b) {
     lin->tetrahedron[t].size = a * lin->altitude_kappa[t] + b * lin->altitude_gamma[t];
   lin->brake = b * lin->drag;
   lin->bent = lin->bends ? a * lin->bending : 0.0;
-  lin->tangent = (struct hooke_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
-                                        .e = {lin->g[0], lin->g[1], lin->g[2]},
-                                        .b = across ? lin->g_across : NULL};
+  lin->tangent = (struct hk_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
+                                     .e = {lin->g[0], lin->g[1], lin->g[2]},
+                                     .b = across ? lin->g_across : NULL};
 }
 
-void hooke_linearised_add_product(struct hooke_linearised *lin, const double *x, double *out) {
+void hk_linearised_add_product(struct hk_linearised *lin, const double *x, double *out) {
   const int64_t n = lin->system->particle_count;
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   lin->products++;
   for (int64_t k = 0; k < lin->run_count; k++)
-    hooke_tangent_product(&lin->run[k], &lin->tangent, from, to);
-  if (lin->bent > 0.0) hooke_bending_add(&lin->system->bending, -lin->bent, from, to);
-  hooke_altitude_tangent_add(lin->tetrahedra, lin->tetrahedron, from, to);
-  if (lin->brake > 0.0) hooke_add_multiple(lin->size, lin->brake, x, out);
+    hk_tangent_product(&lin->run[k], &lin->tangent, from, to);
+  if (lin->bent > 0.0) hk_bending_add(&lin->system->bending, -lin->bent, from, to);
+  hk_altitude_tangent_add(lin->tetrahedra, lin->tetrahedron, from, to);
+  if (lin->brake > 0.0) hk_add_multiple(lin->size, lin->brake, x, out);
 }
 
-void hooke_linearised_multiply(struct hooke_linearised *lin, const double *x, double *out) {
+void hk_linearised_multiply(struct hk_linearised *lin, const double *x, double *out) {
   memset(out, 0, (size_t)lin->size * sizeof(double));
-  hooke_linearised_add_product(lin, x, out);
+  hk_linearised_add_product(lin, x, out);
   const int64_t n = lin->system->particle_count;
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < n; p++)
@@ -274,12 +273,11 @@ void hooke_linearised_multiply(struct hooke_linearised *lin, const double *x, do
 }
 
 /* Of bending alone. */
-static double bending_energy(const struct hooke_linearised *lin, const double *x) {
+static double bending_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
-  struct hooke_triple t;
+  struct hk_triple t;
   double sum = 0.0;
-  for (struct hooke_triples at = {&lin->system->bending, 0, 0};
-       lin->bent > 0.0 && hooke_next_triple(&at, &t);) {
+  for (struct hk_triples at = {&lin->system->bending, 0, 0}; lin->bent > 0.0 && hk_next_triple(&at, &t);) {
     for (int a = 0; a < 3; a++) {
       const double *component = x + a * n;
       const double d = (component[t.particle[0]] - 2.0 * component[t.particle[1]]) + component[t.particle[2]];
@@ -289,25 +287,25 @@ static double bending_energy(const struct hooke_linearised *lin, const double *x
   return sum;
 }
 
-static double altitude_energy(const struct hooke_linearised *lin, const double *x) {
+static double altitude_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
   const double *const from[3] = {x, x + n, x + 2 * n};
   double sum = 0.0;
   for (int64_t k = 0; k < lin->tetrahedra; k++) {
-    const double along = hooke_altitude_tangent_along(&lin->tetrahedron[k], from);
+    const double along = hk_altitude_tangent_along(&lin->tetrahedron[k], from);
     sum += lin->tetrahedron[k].size * along * along;
   }
   return sum;
 }
 
 /* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
-double hooke_linearised_energy(const struct hooke_linearised *lin, const double *x) {
+double hk_linearised_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
   double sum = bending_energy(lin, x) + altitude_energy(lin, x);
   for (int64_t r = 0; r < lin->run_count; r++) {
-    const struct hooke_run *run = &lin->run[r];
+    const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       const int64_t i = spring.head, j = spring.tail, s = run->first + k;
       const double d[3] = {x[i] - x[j], x[n + i] - x[n + j], x[2 * n + i] - x[2 * n + j]};
       const double along = lin->g[0][s] * d[0] + lin->g[1][s] * d[1] + lin->g[2][s] * d[2];
@@ -315,16 +313,16 @@ double hooke_linearised_energy(const struct hooke_linearised *lin, const double 
       if (lin->tangent.b) sum += lin->tangent.b[s] * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     }
   }
-  return lin->brake > 0.0 ? sum + lin->brake * hooke_dot(lin->size, x, x) : sum;
+  return lin->brake > 0.0 ? sum + lin->brake * hk_dot(lin->size, x, x) : sum;
 }
 
 /* ---- vectors ---- */
 
-double hooke_linearised_dot(const struct hooke_linearised *lin, const double *x, const double *y) {
-  return hooke_dot_weighed(lin->system->particle_count, lin->mass, x, y);
+double hk_linearised_dot(const struct hk_linearised *lin, const double *x, const double *y) {
+  return hk_dot_weighed(lin->system->particle_count, lin->mass, x, y);
 }
 
-void hooke_linearised_start(const struct hooke_linearised *lin, double *x) {
+void hk_linearised_start(const struct hk_linearised *lin, double *x) {
   uint64_t seed = 0x9e3779b97f4a7c15u;
   const int64_t n = lin->system->particle_count;
   for (int64_t k = 0; k < lin->size; k++) {
@@ -337,7 +335,7 @@ void hooke_linearised_start(const struct hooke_linearised *lin, double *x) {
   }
 }
 
-void hooke_linearised_pack(const struct hooke_linearised *lin, const double *x, double *unknown) {
+void hk_linearised_pack(const struct hk_linearised *lin, const double *x, double *unknown) {
   const int64_t n = lin->system->particle_count;
   for (int64_t p = 0, u = 0; p < n; p++) {
     for (int64_t a = 0; a < 3 && !lin->system->held[p]; a++)
@@ -345,7 +343,7 @@ void hooke_linearised_pack(const struct hooke_linearised *lin, const double *x, 
   }
 }
 
-void hooke_linearised_unpack(const struct hooke_linearised *lin, const double *unknown, double *x) {
+void hk_linearised_unpack(const struct hk_linearised *lin, const double *unknown, double *x) {
   const int64_t n = lin->system->particle_count;
   for (int64_t p = 0, u = 0; p < n; p++) {
     for (int64_t a = 0; a < 3; a++)
@@ -353,16 +351,16 @@ void hooke_linearised_unpack(const struct hooke_linearised *lin, const double *u
   }
 }
 
-int32_t hooke_linearised_assemble(struct hooke_linearised *lin, double *matrix) {
+int32_t hk_linearised_assemble(struct hk_linearised *lin, double *matrix) {
   const int64_t n = lin->unknowns;
-  double *room = hooke_new(2 * lin->size + n, sizeof(double));
+  double *room = hk_new(2 * lin->size + n, sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
   double *x = room, *out = x + lin->size, *one = out + lin->size;
   for (int64_t k = 0; k < n; k++) {
     one[k] = 1.0;
-    hooke_linearised_unpack(lin, one, x);
-    hooke_linearised_multiply(lin, x, out);
-    hooke_linearised_pack(lin, out, matrix + k * n);
+    hk_linearised_unpack(lin, one, x);
+    hk_linearised_multiply(lin, x, out);
+    hk_linearised_pack(lin, out, matrix + k * n);
     one[k] = 0.0;
   }
   /* to the bit */
@@ -370,6 +368,6 @@ int32_t hooke_linearised_assemble(struct hooke_linearised *lin, double *matrix) 
     for (int64_t j = 0; j < i; j++)
       matrix[i * n + j] = matrix[j * n + i] = 0.5 * (matrix[i * n + j] + matrix[j * n + i]);
   }
-  hooke_free(room);
+  hk_free(room);
   return HOOKE_OK;
 }

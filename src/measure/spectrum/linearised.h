@@ -17,7 +17,7 @@
 #include "measure/trial/patience.h"
 #include "model/system.h"
 
-struct hooke_linearised {
+struct hk_linearised {
   const hooke_system *system;
   int64_t size;              /* 3n */
   int64_t unknowns;          /* three a free particle */
@@ -27,56 +27,56 @@ struct hooke_linearised {
   double *mass, *inverse; /* n; the inverse is 0 where a particle is held */
   /* springs: by their numbers, or in the order of batches, in one run of our own */
   int64_t run_count;
-  const struct hooke_run *run;
-  struct hooke_run own;
+  const struct hk_run *run;
+  struct hk_run own;
   int32_t *ends;                         /* of that */
   double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
   double drag, bending;                  /* of coefficients: 1 over rate^2 */
   /* altitude springs that move something: their tangents, weighed too, kappa and gamma */
   int64_t tetrahedra;
-  struct hooke_altitude_tangent *tetrahedron;
+  struct hk_altitude_tangent *tetrahedron;
   double *altitude_kappa, *altitude_gamma;
-  /* a K + b C, from the last hooke_linearised_weigh() */
-  struct hooke_tangent tangent;
+  /* a K + b C, from the last hk_linearised_weigh() */
+  struct hk_tangent tangent;
   double *g[3], *g_across, brake, bent;
   /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with HOOKE_STOPPED (NULL:
    * none); and bytes that a basis may take (0: as many as are usual) */
-  struct hooke_patience *patience;
+  struct hk_patience *patience;
   double room;
 };
 
 /* Bytes that it takes at most, with what a search for the largest eigenvalue needs besides. */
-double hooke_linearised_bytes(const hooke_system *system);
+double hk_linearised_bytes(const hooke_system *system);
 
 /* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL. HOOKE_BAD_VALUE for
  * numbers that are not finite; HOOKE_NO_MEMORY. */
-int32_t hooke_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
-                                const double *mass_scale, struct hooke_linearised *linearised);
-void hooke_linearised_release(struct hooke_linearised *linearised);
+int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
+                             const double *mass_scale, struct hk_linearised *linearised);
+void hk_linearised_release(struct hk_linearised *linearised);
 
 /* Makes products those with a K + b C; a, b >= 0. */
-void hooke_linearised_weigh(struct hooke_linearised *linearised, double a, double b);
+void hk_linearised_weigh(struct hk_linearised *linearised, double a, double b);
 
 /* out += (a K + b C) x; what it has where a particle is held means nothing. */
-void hooke_linearised_add_product(struct hooke_linearised *linearised, const double *x, double *out);
+void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);
 
 /* out = M^-1 (a K + b C) x. */
-void hooke_linearised_multiply(struct hooke_linearised *linearised, const double *x, double *out);
+void hk_linearised_multiply(struct hk_linearised *linearised, const double *x, double *out);
 
 /* The symmetric matrix M^-1/2 (a K + b C) M^-1/2 over the unknowns, in rows. HOOKE_NO_MEMORY. */
-int32_t hooke_linearised_assemble(struct hooke_linearised *linearised, double *matrix);
+int32_t hk_linearised_assemble(struct hk_linearised *linearised, double *matrix);
 
 /* x.(a K + b C) x */
-double hooke_linearised_energy(const struct hooke_linearised *linearised, const double *x);
+double hk_linearised_energy(const struct hk_linearised *linearised, const double *x);
 
 /* x.My */
-double hooke_linearised_dot(const struct hooke_linearised *linearised, const double *x, const double *y);
+double hk_linearised_dot(const struct hk_linearised *linearised, const double *x, const double *y);
 
 /* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is held. */
-void hooke_linearised_start(const struct hooke_linearised *linearised, double *x);
+void hk_linearised_start(const struct hk_linearised *linearised, double *x);
 
 /* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns` long). */
-void hooke_linearised_pack(const struct hooke_linearised *linearised, const double *x, double *unknown);
-void hooke_linearised_unpack(const struct hooke_linearised *linearised, const double *unknown, double *x);
+void hk_linearised_pack(const struct hk_linearised *linearised, const double *x, double *unknown);
+void hk_linearised_unpack(const struct hk_linearised *linearised, const double *unknown, double *x);
 
 #endif

@@ -19,10 +19,10 @@ static void add_axial(double block[6], const double u[3], double along, double a
   }
 }
 
-static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spring *spring, const double *q) {
+static void add_spring(struct hk_node_blocks *blocks, const struct hk_spring *spring, const double *q) {
   const hooke_system *system = blocks->system;
-  struct hooke_stretch s;
-  hooke_spring_stretch_taut(spring, q, &s);
+  struct hk_stretch s;
+  hk_spring_stretch_taut(spring, q, &s);
   const int no_direction = s.length == 0.0;
   const double across = no_direction ? spring->kappa : fmax(0.0, s.tension / s.length);
   if (spring->kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, spring->gamma / spring->kappa);
@@ -36,67 +36,65 @@ static void add_spring(struct hooke_node_blocks *blocks, const struct hooke_spri
   }
 }
 
-static void add_triple(struct hooke_node_blocks *blocks, const struct hooke_triple *triple) {
+static void add_triple(struct hk_node_blocks *blocks, const struct hk_triple *triple) {
   for (int e = 0; e < 3; e++) {
     const int64_t p = triple->particle[e];
     if (blocks->system->held[p]) continue;
     blocks->across = 1;
     for (int a = 0; a < 3; a++)
-      blocks->stiffness[6 * p + a] += hooke_triple_row(blocks->system, triple, e) * triple->coefficient;
+      blocks->stiffness[6 * p + a] += hk_triple_row(blocks->system, triple, e) * triple->coefficient;
   }
 }
 
-static void add_tetrahedron(struct hooke_node_blocks *blocks, const struct hooke_tetrahedron *t,
-                            const double *q) {
+static void add_tetrahedron(struct hk_node_blocks *blocks, const struct hk_tetrahedron *t, const double *q) {
   const hooke_system *system = blocks->system;
-  struct hooke_altitude_view view;
-  if (!hooke_tetrahedron_moves(system, t) || !hooke_altitude_see(t, q, &view)) return;
+  struct hk_altitude_view view;
+  if (!hk_tetrahedron_moves(system, t) || !hk_altitude_see(t, q, &view)) return;
   if (view.kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, view.gamma / view.kappa);
   for (int j = 0; j < 4; j++) {
     const int64_t p = t->particle[j];
-    const double row = hooke_altitude_row(system, t->particle, view.tangent.weight, j);
+    const double row = hk_altitude_row(system, t->particle, view.tangent.weight, j);
     if (system->held[p]) continue;
     add_axial(blocks->stiffness + 6 * p, view.tangent.u, row * view.kappa, 0.0);
     add_axial(blocks->damping + 6 * p, view.tangent.u, row * view.gamma, 0.0);
   }
 }
 
-int32_t hooke_node_blocks_begin(const hooke_system *system, struct hooke_node_blocks *blocks) {
-  *blocks = (struct hooke_node_blocks){.system = system, .least_ratio = INFINITY};
-  blocks->stiffness = hooke_new(6 * system->particle_count, sizeof(double));
-  blocks->damping = hooke_new(6 * system->particle_count, sizeof(double));
+int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks) {
+  *blocks = (struct hk_node_blocks){.system = system, .least_ratio = INFINITY};
+  blocks->stiffness = hk_new(6 * system->particle_count, sizeof(double));
+  blocks->damping = hk_new(6 * system->particle_count, sizeof(double));
   if (blocks->stiffness == NULL || blocks->damping == NULL) {
-    hooke_node_blocks_release(blocks);
+    hk_node_blocks_release(blocks);
     return HOOKE_NO_MEMORY;
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
-                                 struct hooke_node_blocks *blocks) {
-  const int32_t status = hooke_node_blocks_begin(system, blocks);
-  if (status == HOOKE_OK) hooke_node_blocks_fill(blocks, q);
+int32_t hk_node_blocks_create(const hooke_system *system, const double *q, struct hk_node_blocks *blocks) {
+  const int32_t status = hk_node_blocks_begin(system, blocks);
+  if (status == HOOKE_OK) hk_node_blocks_fill(blocks, q);
   return status;
 }
 
-void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   const hooke_system *system = blocks->system;
   const size_t bytes = 6 * (size_t)system->particle_count * sizeof(double);
   memset(blocks->stiffness, 0, bytes);
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   blocks->across = 0;
-  struct hooke_spring_batch batch;
+  struct hk_spring_batch batch;
   int64_t turns = 0;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
-    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hooke_patience_ends(blocks->patience, "bounds")) return;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hk_patience_ends(blocks->patience, "bounds")) return;
     for (int64_t k = 0; k < batch.count; k++) {
-      const struct hooke_spring spring = hooke_batch_spring(&batch, k);
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
       if (!system->held[spring.head] || !system->held[spring.tail]) add_spring(blocks, &spring, q);
     }
   }
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);)
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
     add_triple(blocks, &triple);
   for (int64_t k = 0; k < system->altitudes.count; k++)
     add_tetrahedron(blocks, &system->altitudes.tetrahedron[k], q);
@@ -106,9 +104,9 @@ void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q) {
   }
 }
 
-void hooke_node_blocks_release(struct hooke_node_blocks *blocks) {
-  hooke_free(blocks->stiffness);
-  hooke_free(blocks->damping);
+void hk_node_blocks_release(struct hk_node_blocks *blocks) {
+  hk_free(blocks->stiffness);
+  hk_free(blocks->damping);
   memset(blocks, 0, sizeof *blocks);
 }
 
@@ -120,7 +118,7 @@ static int is_positive(const double m[6]) {
 }
 
 /* 1 if no eigenvalue of a B + b G at particle p reaches `most`. */
-static int stays_below(const struct hooke_node_blocks *blocks, int64_t p, double a, double b, double most) {
+static int stays_below(const struct hk_node_blocks *blocks, int64_t p, double a, double b, double most) {
   const double *stiffness = blocks->stiffness + 6 * p, *damping = blocks->damping + 6 * p;
   double gap[6];
   for (int k = 0; k < 6; k++)
@@ -132,27 +130,27 @@ static int stays_below(const struct hooke_node_blocks *blocks, int64_t p, double
 static const double ALIKE = 1.0 + 1e-15;
 
 /* The largest eigenvalue over particles of block/m, B or G. */
-static double largest_rate(const struct hooke_node_blocks *blocks, const double *block) {
+static double largest_rate(const struct hk_node_blocks *blocks, const double *block) {
   const int stiff = block == blocks->stiffness;
   double most = 0.0;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
     if (blocks->system->held[p]) continue;
     if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
-    most = fmax(most, hooke_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
+    most = fmax(most, hk_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
   }
   return most;
 }
 
-double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks) {
+double hk_node_blocks_frequency(const struct hk_node_blocks *blocks) {
   return sqrt(largest_rate(blocks, blocks->stiffness));
 }
 
-double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks) {
+double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks) {
   return largest_rate(blocks, blocks->damping);
 }
 
-int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, double a, double b, double limit,
-                                     int64_t *particle) {
+int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
+                                  int64_t *particle) {
   const hooke_system *system = blocks->system;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
@@ -164,16 +162,16 @@ int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, dou
 }
 
 /* The largest eigenvalue of (h^2 B + 2 h G)/m at particle p. */
-static double growth(const struct hooke_node_blocks *blocks, int64_t p, double h) {
+static double growth(const struct hk_node_blocks *blocks, int64_t p, double h) {
   double matrix[6];
   for (int k = 0; k < 6; k++) {
     matrix[k] = h * (h * blocks->stiffness[6 * p + k] + 2.0 * blocks->damping[6 * p + k]);
   }
-  return hooke_eigen_largest(matrix) * blocks->system->inverse_mass[p];
+  return hk_eigen_largest(matrix) * blocks->system->inverse_mass[p];
 }
 
 /* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */
-static double too_large(const struct hooke_node_blocks *blocks, int64_t p) {
+static double too_large(const struct hk_node_blocks *blocks, int64_t p) {
   const double *b = blocks->stiffness + 6 * p, *g = blocks->damping + 6 * p;
   const double trace_b = b[0] + b[1] + b[2], trace_g = g[0] + g[1] + g[2];
   const double mass = blocks->system->mass[p];
@@ -182,7 +180,7 @@ static double too_large(const struct hooke_node_blocks *blocks, int64_t p) {
   return 12.0 * mass / (trace_g + sqrt(trace_g * trace_g + 12.0 * mass * trace_b));
 }
 
-double hooke_node_blocks_step(const struct hooke_node_blocks *blocks) {
+double hk_node_blocks_step(const struct hk_node_blocks *blocks) {
   double best = INFINITY;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
     if (blocks->system->held[p]) continue;

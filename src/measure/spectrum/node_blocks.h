@@ -10,35 +10,34 @@
 #include "measure/trial/patience.h"
 #include "model/system.h"
 
-struct hooke_node_blocks {
+struct hk_node_blocks {
   const hooke_system *system;
-  double *stiffness, *damping;     /* 6 a particle: xx, yy, zz, xy, xz, yz */
-  double least_ratio;              /* smallest gamma/kappa of a stiff spring, infinity without one */
-  struct hooke_patience *patience; /* whose end ends a filling half-way (NULL: none) */
+  double *stiffness, *damping;  /* 6 a particle: xx, yy, zz, xy, xz, yz */
+  double least_ratio;           /* smallest gamma/kappa of a stiff spring, infinity without one */
+  struct hk_patience *patience; /* whose end ends a filling half-way (NULL: none) */
   int32_t
       across; /* some stretched spring is stiff across its direction, where it has no damping, or there is bending, which
                     has none */
 };
 
 /* At positions q (3n). HOOKE_NO_MEMORY. */
-int32_t hooke_node_blocks_create(const hooke_system *system, const double *q,
-                                 struct hooke_node_blocks *blocks);
+int32_t hk_node_blocks_create(const hooke_system *system, const double *q, struct hk_node_blocks *blocks);
 /* Without positions yet. */
-int32_t hooke_node_blocks_begin(const hooke_system *system, struct hooke_node_blocks *blocks);
+int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks);
 /* The same again at other positions, in the memory there is. */
-void hooke_node_blocks_fill(struct hooke_node_blocks *blocks, const double *q);
-void hooke_node_blocks_release(struct hooke_node_blocks *blocks);
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q);
+void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
 /* Bounds of the largest frequency [rad/s] and of the largest damping rate [1/s]. */
-double hooke_node_blocks_frequency(const struct hooke_node_blocks *blocks);
-double hooke_node_blocks_damping_rate(const struct hooke_node_blocks *blocks);
+double hk_node_blocks_frequency(const struct hk_node_blocks *blocks);
+double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks);
 
 /* 1 if no eigenvalue of (a K + b C)/m is above `limit` at any particle by these blocks, else 0, and `particle` is the first
  * one at which one is. Far quicker than eigenvalues. */
-int32_t hooke_node_blocks_stay_below(const struct hooke_node_blocks *blocks, double a, double b, double limit,
-                                     int64_t *particle);
+int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
+                                  int64_t *particle);
 
 /* The largest h at which h^2 K + 2 h C stays below 4 M by these blocks; infinity if none limits it. */
-double hooke_node_blocks_step(const struct hooke_node_blocks *blocks);
+double hk_node_blocks_step(const struct hk_node_blocks *blocks);
 
 #endif

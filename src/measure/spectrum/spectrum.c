@@ -18,25 +18,25 @@ static const double UNDAMPED = 1e-18;
 
 enum { MODES_OF_STIFFNESS = 8, MODES_OF_DAMPING = 4, MOST_OF_BASIS = 16 };
 
-void hooke_spectrum_release(struct hooke_spectrum *s) {
-  hooke_free(s->stiffest_mode);
-  hooke_free(s->real);
-  hooke_free(s->mode);
-  hooke_free(s->block);
+void hk_spectrum_release(struct hk_spectrum *s) {
+  hk_free(s->stiffest_mode);
+  hk_free(s->real);
+  hk_free(s->mode);
+  hk_free(s->block);
   memset(s, 0, sizeof *s);
 }
 
-static int32_t make_room(struct hooke_spectrum *s, int64_t count, int64_t modes) {
-  s->real = hooke_new(3 * count, sizeof(double));
-  s->mode = hooke_new(count, sizeof *s->mode);
-  s->block = hooke_new(modes * s->linearised->size, sizeof(double));
+static int32_t make_room(struct hk_spectrum *s, int64_t count, int64_t modes) {
+  s->real = hk_new(3 * count, sizeof(double));
+  s->mode = hk_new(count, sizeof *s->mode);
+  s->block = hk_new(modes * s->linearised->size, sizeof(double));
   if (!s->real || !s->mode || !s->block) return HOOKE_NO_MEMORY;
   s->imaginary = s->real + count;
   s->stiffness = s->imaginary + count;
   return HOOKE_OK;
 }
 
-static void add(struct hooke_spectrum *s, double real, double imaginary, double k, const double *mode) {
+static void add(struct hk_spectrum *s, double real, double imaginary, double k, const double *mode) {
   if (hypot(real, imaginary) <= STILL) return;
   s->real[s->count] = real;
   s->imaginary[s->count] = imaginary;
@@ -44,7 +44,7 @@ static void add(struct hooke_spectrum *s, double real, double imaginary, double 
   s->mode[s->count++] = mode;
 }
 
-void hooke_spectrum_roots(double c, double k, double real[2], double imaginary[2]) {
+void hk_spectrum_roots(double c, double k, double real[2], double imaginary[2]) {
   const double half = 0.5 * c, square = half * half - k;
   if (square < 0.0) {
     real[0] = real[1] = -half;
@@ -56,10 +56,10 @@ void hooke_spectrum_roots(double c, double k, double real[2], double imaginary[2
   imaginary[0] = imaginary[1] = 0.0;
 }
 
-static void add_both(struct hooke_spectrum *s, double c, double k, const double *mode) {
+static void add_both(struct hk_spectrum *s, double c, double k, const double *mode) {
   double real[2], imaginary[2];
   k = fmax(0.0, k);
-  hooke_spectrum_roots(c, k, real, imaginary);
+  hk_spectrum_roots(c, k, real, imaginary);
   add(s, real[0], imaginary[0], k, mode);
   if (imaginary[0] == 0.0) add(s, real[1], 0.0, k, mode);
 }
@@ -68,8 +68,8 @@ static void add_both(struct hooke_spectrum *s, double c, double k, const double 
 
 /* C = beta K + delta M: every spring, of altitudes too, is damped in proportion to its stiffness and has none across, nothing bends, and drag
  * meets one mass. */
-static int32_t find_proportion(struct hooke_spectrum *s) {
-  const struct hooke_linearised *lin = s->linearised;
+static int32_t find_proportion(struct hk_spectrum *s) {
+  const struct hk_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
   double mass = 0.0;
   for (int64_t k = 0; k < system->springs.count && s->beta == 0.0; k++) {
@@ -95,31 +95,31 @@ static int32_t find_proportion(struct hooke_spectrum *s) {
   return s->beta == 0.0 || (!lin->across_any && !lin->bends);
 }
 
-static void compare_damping(struct hooke_spectrum *s) {
+static void compare_damping(struct hk_spectrum *s) {
   s->proportional = find_proportion(s);
   if (!s->proportional) s->beta = s->delta = 0.0;
 }
 
 /* All eigenvalues of K; with their modes for few. */
-static int32_t solve_proportional(struct hooke_spectrum *s) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t solve_proportional(struct hk_spectrum *s) {
+  struct hk_linearised *lin = s->linearised;
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
-  double *matrix = hooke_new(n * n, sizeof(double)), *value = hooke_new(n, sizeof(double));
-  double *vector = modes ? hooke_new(n * n, sizeof(double)) : NULL;
+  double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
+  double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
   int32_t status = matrix && value && (vector || !modes) ? make_room(s, 2 * n, modes) : HOOKE_NO_MEMORY;
-  hooke_linearised_weigh(lin, 1.0, 0.0);
-  if (status == HOOKE_OK) status = hooke_linearised_assemble(lin, matrix);
-  if (status == HOOKE_OK) status = hooke_dense_symmetric(n, matrix, value, vector);
+  hk_linearised_weigh(lin, 1.0, 0.0);
+  if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
+  if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
   for (int64_t j = 0; j < n && status == HOOKE_OK; j++) {
     const double k = value[j] > (double)n * 1e-15 * value[0] ? value[j] : 0.0;
     double *mode = modes ? s->block + j * lin->size : NULL;
-    if (modes) hooke_linearised_unpack(lin, vector + j * n, mode);
+    if (modes) hk_linearised_unpack(lin, vector + j * n, mode);
     add_both(s, s->beta * k + s->delta, k, mode ? mode : j == 0 ? s->stiffest_mode : NULL);
   }
   s->decisive = 1;
-  hooke_free(matrix);
-  hooke_free(value);
-  hooke_free(vector);
+  hk_free(matrix);
+  hk_free(value);
+  hk_free(vector);
   return status;
 }
 
@@ -130,29 +130,29 @@ struct refined {
   double k, c;
 };
 
-static struct refined refine(struct hooke_linearised *lin, const double *re, const double *im) {
-  const double size = hooke_linearised_dot(lin, re, re) + hooke_linearised_dot(lin, im, im);
+static struct refined refine(struct hk_linearised *lin, const double *re, const double *im) {
+  const double size = hk_linearised_dot(lin, re, re) + hk_linearised_dot(lin, im, im);
   struct refined r = {0.0, 0.0};
-  hooke_linearised_weigh(lin, 1.0, 0.0);
-  r.k = (hooke_linearised_energy(lin, re) + hooke_linearised_energy(lin, im)) / size;
-  hooke_linearised_weigh(lin, 0.0, 1.0);
-  r.c = (hooke_linearised_energy(lin, re) + hooke_linearised_energy(lin, im)) / size;
+  hk_linearised_weigh(lin, 1.0, 0.0);
+  r.k = (hk_linearised_energy(lin, re) + hk_linearised_energy(lin, im)) / size;
+  hk_linearised_weigh(lin, 0.0, 1.0);
+  r.c = (hk_linearised_energy(lin, re) + hk_linearised_energy(lin, im)) / size;
   return r;
 }
 
 /* mode = the real part of u, turned so that it is as large as it can be. */
-static void turn(const struct hooke_linearised *lin, double *re, const double *im) {
-  const double a = hooke_linearised_dot(lin, re, re), b = hooke_linearised_dot(lin, im, im);
-  const double angle = 0.5 * atan2(-2.0 * hooke_linearised_dot(lin, re, im), a - b);
+static void turn(const struct hk_linearised *lin, double *re, const double *im) {
+  const double a = hk_linearised_dot(lin, re, re), b = hk_linearised_dot(lin, im, im);
+  const double angle = 0.5 * atan2(-2.0 * hk_linearised_dot(lin, re, im), a - b);
   for (int64_t k = 0; k < lin->size; k++)
     re[k] = cos(angle) * re[k] - sin(angle) * im[k];
 }
 
 /* x = the combination of modes of the basis, or of unknowns. */
-static void expand(const struct hooke_linearised *lin, int64_t r, const double *basis, const double *share,
+static void expand(const struct hk_linearised *lin, int64_t r, const double *basis, const double *share,
                    double *x) {
   if (basis == NULL) {
-    hooke_linearised_unpack(lin, share, x);
+    hk_linearised_unpack(lin, share, x);
     return;
   }
   memset(x, 0, (size_t)lin->size * sizeof(double));
@@ -163,10 +163,10 @@ static void expand(const struct hooke_linearised *lin, int64_t r, const double *
 }
 
 /* All modes are refined. Those of a part are no better than the part. */
-static int32_t take_modes(struct hooke_spectrum *s, int64_t r, const double *basis,
-                          const struct hooke_damped_modes *found) {
-  struct hooke_linearised *lin = s->linearised;
-  double *im = hooke_new(lin->size, sizeof(double));
+static int32_t take_modes(struct hk_spectrum *s, int64_t r, const double *basis,
+                          const struct hk_damped_modes *found) {
+  struct hk_linearised *lin = s->linearised;
+  double *im = hk_new(lin->size, sizeof(double));
   int32_t status = im ? make_room(s, found->count, found->count) : HOOKE_NO_MEMORY;
   for (int64_t j = 0; j < found->count && status == HOOKE_OK; j++) {
     double *re = s->block + j * lin->size, real[2], imaginary[2];
@@ -180,50 +180,50 @@ static int32_t take_modes(struct hooke_spectrum *s, int64_t r, const double *bas
       continue;
     }
     const struct refined mode = refine(lin, re, im);
-    hooke_spectrum_roots(mode.c <= UNDAMPED * s->fastest_decay ? 0.0 : mode.c, mode.k, real, imaginary);
+    hk_spectrum_roots(mode.c <= UNDAMPED * s->fastest_decay ? 0.0 : mode.c, mode.k, real, imaginary);
     const double first = hypot(real[0] - found->real[j], imaginary[0] - found->imaginary[j]);
     const double second = hypot(real[1] - found->real[j], imaginary[1] - found->imaginary[j]);
     turn(lin, re, im);
     add(s, real[first <= second ? 0 : 1], imaginary[first <= second ? 0 : 1], mode.k, re);
   }
-  hooke_free(im);
+  hk_free(im);
   return status;
 }
 
-static int32_t solve_damped(struct hooke_spectrum *s) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t solve_damped(struct hk_spectrum *s) {
+  struct hk_linearised *lin = s->linearised;
   const int64_t n = lin->unknowns;
-  double *matrix = hooke_new(2 * n * n, sizeof(double));
-  struct hooke_damped_modes found = {.count = 0};
+  double *matrix = hk_new(2 * n * n, sizeof(double));
+  struct hk_damped_modes found = {.count = 0};
   int32_t status = matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hooke_linearised_weigh(lin, k == 0, k == 1);
-    status = hooke_linearised_assemble(lin, matrix + k * n * n);
+    hk_linearised_weigh(lin, k == 0, k == 1);
+    status = hk_linearised_assemble(lin, matrix + k * n * n);
   }
-  if (status == HOOKE_OK) status = hooke_dense_damped(n, matrix, matrix + n * n, &found);
+  if (status == HOOKE_OK) status = hk_dense_damped(n, matrix, matrix + n * n, &found);
   if (status == HOOKE_OK) status = take_modes(s, n, NULL, &found);
   s->decisive = 1;
-  hooke_damped_modes_release(&found);
-  hooke_free(matrix);
+  hk_damped_modes_release(&found);
+  hk_free(matrix);
   return status;
 }
 
 /* ---- part of the spectrum ---- */
 
 /* Adds what is new in x to `count` orthonormal modes. */
-static void extend(const struct hooke_linearised *lin, const double *x, double *basis, int64_t *count) {
+static void extend(const struct hk_linearised *lin, const double *x, double *basis, int64_t *count) {
   double *new_one = basis + *count * lin->size;
   memcpy(new_one, x, (size_t)lin->size * sizeof(double));
-  double length = sqrt(hooke_linearised_dot(lin, x, x));
+  double length = sqrt(hk_linearised_dot(lin, x, x));
   for (int pass = 0; pass < 2; pass++) {
     for (int64_t j = 0; j < *count; j++) {
       const double *other = basis + j * lin->size;
-      const double along = hooke_linearised_dot(lin, other, new_one);
+      const double along = hk_linearised_dot(lin, other, new_one);
       for (int64_t k = 0; k < lin->size; k++)
         new_one[k] -= along * other[k];
     }
   }
-  const double left = sqrt(hooke_linearised_dot(lin, new_one, new_one));
+  const double left = sqrt(hk_linearised_dot(lin, new_one, new_one));
   if (!(left > 1e-6 * length)) return;
   for (int64_t k = 0; k < lin->size; k++)
     new_one[k] /= left;
@@ -231,37 +231,36 @@ static void extend(const struct hooke_linearised *lin, const double *x, double *
 }
 
 /* More modes by ARPACK than the one that is known, where it serves. */
-static int32_t extend_by_arpack(struct hooke_spectrum *s, int32_t damping, double *basis, int64_t *count) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *basis, int64_t *count) {
+  struct hk_linearised *lin = s->linearised;
   const int64_t wanted = damping ? MODES_OF_DAMPING : MODES_OF_STIFFNESS;
   if (!HOOKE_HAVE_ARPACK || lin->unknowns > HOOKE_ARPACK_UNKNOWNS) return HOOKE_OK;
-  double *mode = hooke_new(wanted * lin->size, sizeof(double)), value[MODES_OF_STIFFNESS];
+  double *mode = hk_new(wanted * lin->size, sizeof(double)), value[MODES_OF_STIFFNESS];
   if (mode == NULL) return HOOKE_NO_MEMORY;
-  hooke_linearised_start(lin, mode);
-  hooke_linearised_weigh(lin, !damping, damping);
-  int32_t status = hooke_top_modes_arpack(lin, wanted, fmin(s->accuracy, 1e-3), value, mode);
+  hk_linearised_start(lin, mode);
+  hk_linearised_weigh(lin, !damping, damping);
+  int32_t status = hk_top_modes_arpack(lin, wanted, fmin(s->accuracy, 1e-3), value, mode);
   for (int64_t j = 0; j < wanted && status == HOOKE_OK; j++)
     extend(lin, mode + j * lin->size, basis, count);
-  hooke_free(mode);
+  hk_free(mode);
   return status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
 /* K or C between modes. */
-static void project(struct hooke_linearised *lin, int64_t r, const double *basis, double *out,
-                    double *matrix) {
+static void project(struct hk_linearised *lin, int64_t r, const double *basis, double *out, double *matrix) {
   for (int64_t i = 0; i < r; i++) {
-    hooke_linearised_multiply(lin, basis + i * lin->size, out);
+    hk_linearised_multiply(lin, basis + i * lin->size, out);
     for (int64_t j = 0; j < r; j++)
-      matrix[i * r + j] = hooke_linearised_dot(lin, out, basis + j * lin->size);
+      matrix[i * r + j] = hk_linearised_dot(lin, out, basis + j * lin->size);
   }
 }
 
-static int32_t solve_part(struct hooke_spectrum *s, const double *decaying) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
+  struct hk_linearised *lin = s->linearised;
   int64_t r = 0;
-  double *basis = hooke_new((MOST_OF_BASIS + 1) * lin->size, sizeof(double));
-  double *matrix = hooke_new((int64_t)2 * MOST_OF_BASIS * MOST_OF_BASIS, sizeof(double));
-  struct hooke_damped_modes found = {.count = 0};
+  double *basis = hk_new((MOST_OF_BASIS + 1) * lin->size, sizeof(double));
+  double *matrix = hk_new((int64_t)2 * MOST_OF_BASIS * MOST_OF_BASIS, sizeof(double));
+  struct hk_damped_modes found = {.count = 0};
   int32_t status = basis && matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
     extend(lin, s->stiffest_mode, basis, &r);
@@ -270,20 +269,20 @@ static int32_t solve_part(struct hooke_spectrum *s, const double *decaying) {
   }
   if (status == HOOKE_OK && decaying) status = extend_by_arpack(s, 1, basis, &r);
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hooke_linearised_weigh(lin, k == 0, k == 1);
+    hk_linearised_weigh(lin, k == 0, k == 1);
     project(lin, r, basis, basis + MOST_OF_BASIS * lin->size, matrix + k * r * r);
   }
-  if (status == HOOKE_OK) status = hooke_dense_damped(r, matrix, matrix + r * r, &found);
+  if (status == HOOKE_OK) status = hk_dense_damped(r, matrix, matrix + r * r, &found);
   if (status == HOOKE_OK) status = take_modes(s, r, basis, &found);
-  hooke_damped_modes_release(&found);
-  hooke_free(matrix);
-  hooke_free(basis);
+  hk_damped_modes_release(&found);
+  hk_free(matrix);
+  hk_free(basis);
   return status;
 }
 
 /* The stiffest mode alone. With C = beta K it limits every method: it has the largest eigenvalues, and of Runge-Kutta the
  * reach along a ray changes less than they do. With drag a softer one may limit, which drag alone brakes. */
-static int32_t solve_stiffest(struct hooke_spectrum *s) {
+static int32_t solve_stiffest(struct hk_spectrum *s) {
   const int32_t status = make_room(s, 4, 0);
   if (status == HOOKE_OK) add_both(s, s->beta * s->stiffest + s->delta, s->stiffest, s->stiffest_mode);
   s->decisive = s->delta == 0.0;
@@ -303,10 +302,10 @@ static int compare(const void *a, const void *b) {
   return (x->number > y->number) - (x->number < y->number);
 }
 
-static int32_t sort(struct hooke_spectrum *s) {
-  struct place *place = hooke_new(s->count, sizeof *place);
-  double *number = hooke_new(3 * s->count, sizeof(double));
-  const double **mode = hooke_new(s->count, sizeof *mode);
+static int32_t sort(struct hk_spectrum *s) {
+  struct place *place = hk_new(s->count, sizeof *place);
+  double *number = hk_new(3 * s->count, sizeof(double));
+  const double **mode = hk_new(s->count, sizeof *mode);
   const int32_t status = place && number && mode ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && s->count > 0) {
     for (int64_t k = 0; k < s->count; k++)
@@ -323,9 +322,9 @@ static int32_t sort(struct hooke_spectrum *s) {
     memcpy(s->stiffness, number + 2 * s->count, (size_t)s->count * sizeof(double));
     memcpy(s->mode, mode, (size_t)s->count * sizeof *mode);
   }
-  hooke_free(place);
-  hooke_free(number);
-  hooke_free(mode);
+  hk_free(place);
+  hk_free(number);
+  hk_free(mode);
   return status;
 }
 
@@ -334,23 +333,23 @@ static int32_t sort(struct hooke_spectrum *s) {
 /* Dense solves have no end but their own: [s] for the cube of the unknowns, as much as they take at most. */
 static const double SECONDS_PROPORTIONAL = 2e-10, SECONDS_DAMPED = 2.5e-8;
 
-static int32_t has_time_for_all(const struct hooke_spectrum *s) {
+static int32_t has_time_for_all(const struct hk_spectrum *s) {
   const double n = (double)s->linearised->unknowns;
   if (n > (s->proportional ? HOOKE_SPECTRUM_PROPORTIONAL : HOOKE_SPECTRUM_DAMPED)) return 1;
-  return hooke_patience_has(s->linearised->patience,
-                            (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n);
+  return hk_patience_has(s->linearised->patience,
+                         (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n);
 }
 
-static int32_t find_fastest_decay(struct hooke_spectrum *s, double *decaying) {
-  struct hooke_linearised *lin = s->linearised;
+static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {
+  struct hk_linearised *lin = s->linearised;
   s->fastest_decay = s->beta * s->stiffest + s->delta;
   if (s->proportional) return HOOKE_OK;
   /* in large scenes only a figure, and a part of a part of the spectrum */
   const double accuracy = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
-  return hooke_top_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
+  return hk_top_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }
 
-static int32_t solve(struct hooke_spectrum *s, double *decaying) {
+static int32_t solve(struct hk_spectrum *s, double *decaying) {
   const int64_t unknowns = s->linearised->unknowns;
   if (!has_time_for_all(s)) return HOOKE_STOPPED;
   const int32_t status = find_fastest_decay(s, decaying);
@@ -360,26 +359,25 @@ static int32_t solve(struct hooke_spectrum *s, double *decaying) {
   return unknowns <= HOOKE_SPECTRUM_DAMPED ? solve_damped(s) : solve_part(s, decaying);
 }
 
-static int32_t solve_extremes(struct hooke_spectrum *s, double *decaying) {
+static int32_t solve_extremes(struct hk_spectrum *s, double *decaying) {
   const int32_t status = find_fastest_decay(s, decaying);
   return status == HOOKE_OK && s->proportional && s->delta == 0.0 ? solve_stiffest(s) : status;
 }
 
-int32_t hooke_spectrum_create(struct hooke_linearised *lin, double accuracy,
-                              enum hooke_spectrum_extent extent, const double *start,
-                              struct hooke_spectrum *s) {
-  *s = (struct hooke_spectrum){.linearised = lin, .accuracy = accuracy, .decisive = lin->unknowns == 0};
-  s->stiffest_mode = hooke_new(lin->size, sizeof(double));
-  double *decaying = hooke_new(lin->size, sizeof(double));
+int32_t hk_spectrum_create(struct hk_linearised *lin, double accuracy, enum hk_spectrum_extent extent,
+                           const double *start, struct hk_spectrum *s) {
+  *s = (struct hk_spectrum){.linearised = lin, .accuracy = accuracy, .decisive = lin->unknowns == 0};
+  s->stiffest_mode = hk_new(lin->size, sizeof(double));
+  double *decaying = hk_new(lin->size, sizeof(double));
   int32_t status = s->stiffest_mode && decaying ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
-    status = hooke_top_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
+    status = hk_top_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
   if (status == HOOKE_OK) compare_damping(s);
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_ALL) status = solve(s, decaying);
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_EXTREMES)
     status = solve_extremes(s, decaying);
   if (status == HOOKE_OK) status = sort(s);
-  hooke_free(decaying);
-  if (status != HOOKE_OK) hooke_spectrum_release(s);
+  hk_free(decaying);
+  if (status != HOOKE_OK) hk_spectrum_release(s);
   return status;
 }

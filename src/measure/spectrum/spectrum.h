@@ -9,8 +9,8 @@
  * delta M (no damping at all included), since then those of K suffice. */
 enum { HOOKE_SPECTRUM_DAMPED = 400, HOOKE_SPECTRUM_PROPORTIONAL = 1500 };
 
-struct hooke_spectrum {
-  struct hooke_linearised *linearised;
+struct hk_spectrum {
+  struct hk_linearised *linearised;
   double accuracy;
   int32_t decisive; /* no eigenvalue that is left out limits any method further */
   int32_t proportional;
@@ -26,15 +26,14 @@ struct hooke_spectrum {
 
 /* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay, and what else decides
  * where C = beta K; as many modes as can be had. */
-enum hooke_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
+enum hk_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
 
 /* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
-int32_t hooke_spectrum_create(struct hooke_linearised *linearised, double accuracy,
-                              enum hooke_spectrum_extent extent, const double *start,
-                              struct hooke_spectrum *spectrum);
-void hooke_spectrum_release(struct hooke_spectrum *spectrum);
+int32_t hk_spectrum_create(struct hk_linearised *linearised, double accuracy, enum hk_spectrum_extent extent,
+                           const double *start, struct hk_spectrum *spectrum);
+void hk_spectrum_release(struct hk_spectrum *spectrum);
 
 /* The roots of lambda^2 + c lambda + k, the larger one first, the imaginary part of conjugates positive. */
-void hooke_spectrum_roots(double c, double k, double real[2], double imaginary[2]);
+void hk_spectrum_roots(double c, double k, double real[2], double imaginary[2]);
 
 #endif

@@ -14,7 +14,7 @@ static double growth(double x, double y) {
 }
 
 /* In the left half plane all of |z| <= 2.6 is stable, and nothing at |z| = 3.2. */
-double hooke_rk4_reach(double real, double imaginary) {
+double hk_rk4_reach(double real, double imaginary) {
   const double size = hypot(real, imaginary), x = real / size, y = imaginary / size;
   double low = 2.6, high = 3.2;
   while (high - low > 1e-15) { /* two units in the last place */

@@ -14,53 +14,53 @@ static const double TIGHTER = 1e-3;
 
 static const double NOISE = 0.1;
 
-static int32_t dense(struct hooke_linearised *lin, double *value, double *mode) {
+static int32_t dense(struct hk_linearised *lin, double *value, double *mode) {
   const int64_t n = lin->unknowns;
-  double *matrix = hooke_new(n * n, sizeof(double)), *vector = hooke_new(n * n, sizeof(double));
-  double *values = hooke_new(n, sizeof(double));
-  int32_t status = matrix && vector && values ? hooke_linearised_assemble(lin, matrix) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hooke_dense_symmetric(n, matrix, values, vector);
+  double *matrix = hk_new(n * n, sizeof(double)), *vector = hk_new(n * n, sizeof(double));
+  double *values = hk_new(n, sizeof(double));
+  int32_t status = matrix && vector && values ? hk_linearised_assemble(lin, matrix) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, values, vector);
   if (status == HOOKE_OK) {
     *value = values[0];
-    hooke_linearised_unpack(lin, vector, mode);
+    hk_linearised_unpack(lin, vector, mode);
   }
-  hooke_free(matrix);
-  hooke_free(vector);
-  hooke_free(values);
+  hk_free(matrix);
+  hk_free(vector);
+  hk_free(values);
   return status;
 }
 
 /* A start that is not blind to what the neighbouring problem does not move. */
-static void begin(const struct hooke_linearised *lin, const double *start, double *mode) {
-  hooke_linearised_start(lin, mode);
+static void begin(const struct hk_linearised *lin, const double *start, double *mode) {
+  hk_linearised_start(lin, mode);
   if (start == NULL) return;
-  const double size = sqrt(hooke_linearised_dot(lin, mode, mode));
-  const double length = sqrt(hooke_linearised_dot(lin, start, start));
+  const double size = sqrt(hk_linearised_dot(lin, mode, mode));
+  const double length = sqrt(hk_linearised_dot(lin, start, start));
   for (int64_t k = 0; k < lin->size && length > 0.0 && size > 0.0; k++)
     mode[k] = start[k] / length + NOISE * mode[k] / size;
 }
 
-int32_t hooke_top_mode(struct hooke_linearised *lin, double a, double b, const double *start, double accuracy,
-                       double *value, double *mode) {
+int32_t hk_top_mode(struct hk_linearised *lin, double a, double b, const double *start, double accuracy,
+                    double *value, double *mode) {
   *value = 0.0;
   memset(mode, 0, (size_t)lin->size * sizeof(double));
   if (lin->unknowns == 0) return HOOKE_OK;
-  hooke_linearised_weigh(lin, a, b);
+  hk_linearised_weigh(lin, a, b);
   if (lin->unknowns <= DENSE_UNKNOWNS) return dense(lin, value, mode);
-  double *room = hooke_new(lin->size, sizeof(double));
+  double *room = hk_new(lin->size, sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
   begin(lin, start, room);
   int32_t status = HOOKE_SOLVER_FAILED;
   if (HOOKE_HAVE_ARPACK && lin->unknowns <= HOOKE_ARPACK_UNKNOWNS)
-    status = hooke_top_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
+    status = hk_top_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
   if (status == HOOKE_SOLVER_FAILED) {
     begin(lin, start, room);
     /* few unknowns, many digits: turns are cheap, and far beyond the accuracy they converge quickly */
     const int few = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS;
     status =
-        hooke_top_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value, room);
+        hk_top_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value, room);
   }
   memcpy(mode, room, (size_t)lin->size * sizeof(double));
-  hooke_free(room);
+  hk_free(room);
   return status;
 }

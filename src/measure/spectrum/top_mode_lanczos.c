@@ -16,7 +16,7 @@ static const double RISE = 4.0;
 static const double EXHAUSTED = 1e-14;
 
 struct lanczos {
-  struct hooke_linearised *lin;
+  struct hk_linearised *lin;
   int64_t most, count;
   double **vector; /* up to most + 1, not of length 1 */
   double *length;  /* of each vector, in the norm of masses */
@@ -24,11 +24,11 @@ struct lanczos {
       *share; /* of the tridiagonal matrix, whose off-diagonals are length[1..]; the vector of its largest value */
 };
 
-static int32_t make_room(struct hooke_linearised *lin, struct lanczos *z) {
+static int32_t make_room(struct hk_linearised *lin, struct lanczos *z) {
   const double fit = (lin->room > 0.0 ? fmin(lin->room, MEMORY) : MEMORY) / (8.0 * (double)lin->size);
   *z = (struct lanczos){.lin = lin, .most = fit < FEWEST ? FEWEST : fit > MOST ? MOST : (int64_t)fit};
-  z->vector = hooke_new(z->most + 1, sizeof *z->vector);
-  z->length = hooke_new(3 * (z->most + 1), sizeof(double));
+  z->vector = hk_new(z->most + 1, sizeof *z->vector);
+  z->length = hk_new(3 * (z->most + 1), sizeof(double));
   if (z->vector == NULL || z->length == NULL) return HOOKE_NO_MEMORY;
   z->diagonal = z->length + z->most + 1;
   z->share = z->diagonal + z->most + 1;
@@ -37,28 +37,27 @@ static int32_t make_room(struct hooke_linearised *lin, struct lanczos *z) {
 
 static void release(struct lanczos *z) {
   for (int64_t k = 0; z->vector && k <= z->most; k++)
-    hooke_free(z->vector[k]);
-  hooke_free(z->vector);
-  hooke_free(z->length);
+    hk_free(z->vector[k]);
+  hk_free(z->vector);
+  hk_free(z->length);
 }
 
 /* One product, one more row of the tridiagonal matrix. */
 static int32_t turn(struct lanczos *z) {
-  const struct hooke_linearised *lin = z->lin;
+  const struct hk_linearised *lin = z->lin;
   const int64_t n = lin->system->particle_count, k = z->count;
   double **next = &z->vector[k + 1];
   if (*next)
     memset(*next, 0, (size_t)lin->size * sizeof(double));
   else
-    *next = hooke_new(lin->size, sizeof(double));
+    *next = hk_new(lin->size, sizeof(double));
   if (*next == NULL) return HOOKE_NO_MEMORY;
   const double length = z->length[k], ratio = k > 0 ? length / z->length[k - 1] : 0.0;
   const double *before = z->vector[k > 0 ? k - 1 : 0];
-  hooke_linearised_add_product(z->lin, z->vector[k], *next);
+  hk_linearised_add_product(z->lin, z->vector[k], *next);
   z->diagonal[k] =
-      hooke_lanczos_begin(n, lin->mass, lin->inverse, 1.0 / length, ratio, before, z->vector[k], *next) /
-      length;
-  const double square = hooke_lanczos_end(n, lin->mass, z->diagonal[k] / length, z->vector[k], *next);
+      hk_lanczos_begin(n, lin->mass, lin->inverse, 1.0 / length, ratio, before, z->vector[k], *next) / length;
+  const double square = hk_lanczos_end(n, lin->mass, z->diagonal[k] / length, z->vector[k], *next);
   z->length[k + 1] = sqrt(square);
   z->count++;
   return HOOKE_OK;
@@ -66,15 +65,15 @@ static int32_t turn(struct lanczos *z) {
 
 /* The largest value of the first `count` rows. */
 static int32_t largest(const struct lanczos *z, int64_t count, double *value, double *share) {
-  return hooke_dense_tridiagonal(count, z->diagonal, z->length + 1, value, share);
+  return hk_dense_tridiagonal(count, z->diagonal, z->length + 1, value, share);
 }
 
 /* x = the vector of the largest value, of length 1. */
 static void combine(const struct lanczos *z, double *x) {
   memset(x, 0, (size_t)z->lin->size * sizeof(double));
   for (int64_t k = 0; k < z->count; k++)
-    hooke_add_multiple(z->lin->size, z->share[k] / z->length[k], z->vector[k], x);
-  const double length = sqrt(hooke_linearised_dot(z->lin, x, x));
+    hk_add_multiple(z->lin->size, z->share[k] / z->length[k], z->vector[k], x);
+  const double length = sqrt(hk_linearised_dot(z->lin, x, x));
   for (int64_t k = 0; k < z->lin->size && length > 0.0; k++)
     x[k] /= length;
 }
@@ -97,13 +96,13 @@ static int32_t judge(struct lanczos *z, double accuracy, double *value, int *don
 /* From `mode` on, as far as the memory reaches. */
 static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *mode, int *done) {
   z->count = 0;
-  if (z->vector[0] == NULL) z->vector[0] = hooke_new(z->lin->size, sizeof(double));
+  if (z->vector[0] == NULL) z->vector[0] = hk_new(z->lin->size, sizeof(double));
   if (z->vector[0] == NULL) return HOOKE_NO_MEMORY;
   memcpy(z->vector[0], mode, (size_t)z->lin->size * sizeof(double));
-  z->length[0] = sqrt(hooke_linearised_dot(z->lin, mode, mode));
+  z->length[0] = sqrt(hk_linearised_dot(z->lin, mode, mode));
   int32_t status = HOOKE_OK;
   for (int64_t check = 4; status == HOOKE_OK && !*done && z->count < z->most;) {
-    if (hooke_patience_ends(z->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
+    if (hk_patience_ends(z->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
     status = turn(z);
     const int exhausted = !(z->length[z->count] > EXHAUSTED * fabs(z->diagonal[0]));
     if (status != HOOKE_OK || (z->count < check && z->count < z->most && !exhausted)) continue;
@@ -115,7 +114,7 @@ static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *
   return status;
 }
 
-int32_t hooke_top_mode_lanczos(struct hooke_linearised *lin, double accuracy, double *value, double *mode) {
+int32_t hk_top_mode_lanczos(struct hk_linearised *lin, double accuracy, double *value, double *mode) {
   struct lanczos z;
   int done = 0;
   const int64_t begun = lin->products;

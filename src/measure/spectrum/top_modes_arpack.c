@@ -18,7 +18,7 @@ enum { MOST_RESTARTS = 300, SPARE_VECTORS = 20 };
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
 
 struct search {
-  struct hooke_linearised *lin;
+  struct hk_linearised *lin;
   a_int size, count, vectors, room_size;
   a_int parameter[11], pointer[14], info;
   double tolerance;
@@ -32,7 +32,7 @@ static double *part(double **block, int64_t count) {
   return start;
 }
 
-static int32_t make_room(struct hooke_linearised *lin, int64_t count, struct search *s) {
+static int32_t make_room(struct hk_linearised *lin, int64_t count, struct search *s) {
   const int64_t n = lin->unknowns, vectors = 2 * count + SPARE_VECTORS < n ? 2 * count + SPARE_VECTORS : n;
   const int64_t room_size = vectors * (vectors + 8);
   s->lin = lin;
@@ -40,10 +40,10 @@ static int32_t make_room(struct hooke_linearised *lin, int64_t count, struct sea
   s->count = (a_int)count;
   s->vectors = (a_int)vectors;
   s->room_size = (a_int)room_size;
-  double *block = hooke_new(n * (vectors + 4) + room_size + count + 2 * lin->size, sizeof(double));
-  s->select = hooke_new(vectors, sizeof *s->select);
+  double *block = hk_new(n * (vectors + 4) + room_size + count + 2 * lin->size, sizeof(double));
+  s->select = hk_new(vectors, sizeof *s->select);
   if (block == NULL || s->select == NULL) {
-    hooke_free(block);
+    hk_free(block);
     return HOOKE_NO_MEMORY;
   }
   s->residual = part(&block, n);
@@ -57,15 +57,15 @@ static int32_t make_room(struct hooke_linearised *lin, int64_t count, struct sea
 }
 
 static void release(struct search *s) {
-  hooke_free(s->residual);
-  hooke_free(s->select);
+  hk_free(s->residual);
+  hk_free(s->select);
 }
 
 /* The symmetric form: on displacements times the root of the masses. */
 static void multiply(struct search *s, const double *x, double *out) {
-  hooke_linearised_unpack(s->lin, x, s->place);
-  hooke_linearised_multiply(s->lin, s->place, s->product);
-  hooke_linearised_pack(s->lin, s->product, out);
+  hk_linearised_unpack(s->lin, x, s->place);
+  hk_linearised_multiply(s->lin, s->place, s->product);
+  hk_linearised_pack(s->lin, s->product, out);
 }
 
 static int32_t run(struct search *s) {
@@ -75,7 +75,7 @@ static int32_t run(struct search *s) {
   s->info = 1;         /* the start is in `residual` */
   a_int wants = 0;
   do {
-    if (hooke_patience_ends(s->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
+    if (hk_patience_ends(s->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
     dsaupd_c(&wants, "I", s->size, "LA", s->count, s->tolerance, s->residual, s->vectors, s->basis, s->size,
              s->parameter, s->pointer, s->work, s->room, s->room_size, &s->info);
     if (wants == 1 || wants == -1) multiply(s, s->work + s->pointer[0] - 1, s->work + s->pointer[1] - 1);
@@ -87,33 +87,33 @@ static int32_t run(struct search *s) {
   return s->info == 0 && s->parameter[4] >= s->count ? HOOKE_OK : HOOKE_SOLVER_FAILED;
 }
 
-int32_t hooke_top_modes_arpack(struct hooke_linearised *lin, int64_t count, double tolerance, double *value,
-                               double *mode) {
+int32_t hk_top_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
+                            double *mode) {
   struct search s = {.tolerance = tolerance};
   if (lin->unknowns <= count) return HOOKE_SOLVER_FAILED;
   int32_t status = make_room(lin, count, &s);
   if (status != HOOKE_OK) return status;
-  hooke_linearised_pack(lin, mode, s.residual);
+  hk_linearised_pack(lin, mode, s.residual);
   pthread_mutex_lock(&alone);
   status = run(&s);
   pthread_mutex_unlock(&alone);
   /* its values come in ascending order */
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     value[k] = s.value[count - 1 - k];
-    hooke_linearised_unpack(lin, s.basis + (count - 1 - k) * lin->unknowns, mode + k * lin->size);
+    hk_linearised_unpack(lin, s.basis + (count - 1 - k) * lin->unknowns, mode + k * lin->size);
   }
   release(&s);
   return status != HOOKE_SOLVER_FAILED
              ? status
-             : hooke_fail(status, NULL, "ARPACK found no eigenvalues (%d)", (int)s.info);
+             : hk_fail(status, NULL, "ARPACK found no eigenvalues (%d)", (int)s.info);
 }
 
 #else
 
-int32_t hooke_top_modes_arpack(struct hooke_linearised *lin, int64_t count, double tolerance, double *value,
-                               double *mode) {
+int32_t hk_top_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
+                            double *mode) {
   (void)lin, (void)count, (void)tolerance, (void)value, (void)mode;
-  return hooke_fail(HOOKE_NOT_BUILT, NULL, "this build is without ARPACK");
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "this build is without ARPACK");
 }
 
 #endif

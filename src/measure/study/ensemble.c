@@ -22,24 +22,24 @@ static const double TOLERANCE = 1e-10;
 static uint64_t seed_of(uint64_t seed, const char *method) {
   uint64_t random = seed;
   for (const char *at = method; *at; at++)
-    random = hooke_random_next(&random) ^ (uint64_t)(unsigned char)*at;
+    random = hk_random_next(&random) ^ (uint64_t)(unsigned char)*at;
   return random;
 }
 
-static int32_t add_source(const hooke_study *study, struct hooke_ensemble *ensemble, int32_t method,
+static int32_t add_source(const hooke_study *study, struct hk_ensemble *ensemble, int32_t method,
                           double value) {
-  struct hooke_ensemble_source *source = &ensemble->source[ensemble->source_count];
+  struct hk_ensemble_source *source = &ensemble->source[ensemble->source_count];
   const uint64_t seed = (uint64_t)hooke_options_number(study->options, "seed");
-  *source = (struct hooke_ensemble_source){.method = method, .value = value};
+  *source = (struct hk_ensemble_source){.method = method, .value = value};
   source->random = seed_of(seed, method < 0 ? "reference" : study->method[method]);
-  source->sample = hooke_new(ensemble->members * ensemble->quantities.count, sizeof(double));
+  source->sample = hk_new(ensemble->members * ensemble->quantities.count, sizeof(double));
   if (source->sample == NULL) return HOOKE_NO_MEMORY;
   ensemble->source_count++;
   return HOOKE_OK;
 }
 
 /* 1 if `row` is to be taken rather than `other` of the same method: of those that meet the want the cheaper, else the finer. */
-static int is_better(const struct hooke_study_row *row, const struct hooke_study_row *other, double want) {
+static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
   const int meets = row->trial.error <= want;
   if (other == NULL || meets != (other->trial.error <= want)) return other == NULL || meets;
   return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
@@ -47,31 +47,31 @@ static int is_better(const struct hooke_study_row *row, const struct hooke_study
 
 /* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN without one. */
 static double choose_value(const hooke_study *study, int32_t method) {
-  const struct hooke_study_recommendation *r = &study->recommendation;
+  const struct hk_study_recommendation *r = &study->recommendation;
   const double want = hooke_options_number(study->options, "want");
-  const struct hooke_study_row *best = NULL;
+  const struct hk_study_row *best = NULL;
   if (r->made && r->met && r->method == method) return r->value;
   for (int64_t k = 0; k < study->row_count; k++) {
-    const struct hooke_study_row *row = &study->row[k];
+    const struct hk_study_row *row = &study->row[k];
     if (row->method == method && row->trial.error >= 0.0 && is_better(row, best, want)) best = row;
   }
   return best ? best->value : NAN;
 }
 
-static int32_t find_quantities(const hooke_study *study, struct hooke_watched_list *list) {
+static int32_t find_quantities(const hooke_study *study, struct hk_watched_list *list) {
   list->system = study->system;
   const char *watched = hooke_options_text(study->options, "watch");
-  int32_t status = hooke_watched_read(list, "watch", "kinetic,potential,energy");
-  if (status == HOOKE_OK && watched[0]) status = hooke_watched_read(list, "watch", watched);
+  int32_t status = hk_watched_read(list, "watch", "kinetic,potential,energy");
+  if (status == HOOKE_OK && watched[0]) status = hk_watched_read(list, "watch", watched);
   return status;
 }
 
-static int32_t create(const hooke_study *study, struct hooke_ensemble *ensemble) {
+static int32_t create(const hooke_study *study, struct hk_ensemble *ensemble) {
   const double want = hooke_options_number(study->options, "want");
   ensemble->members = (int64_t)hooke_options_number(study->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * study->reference.extent : NOISE * want;
   ensemble->from = ensemble->until = NAN;
-  ensemble->source = hooke_new(study->method_count + 1, sizeof *ensemble->source);
+  ensemble->source = hk_new(study->method_count + 1, sizeof *ensemble->source);
   if (ensemble->source == NULL) return HOOKE_NO_MEMORY;
   int32_t status = find_quantities(study, &ensemble->quantities);
   if (status == HOOKE_OK) status = add_source(study, ensemble, -1, TOLERANCE);
@@ -82,13 +82,13 @@ static int32_t create(const hooke_study *study, struct hooke_ensemble *ensemble)
   return status;
 }
 
-void hooke_ensemble_release(struct hooke_ensemble *ensemble) {
+void hk_ensemble_release(struct hk_ensemble *ensemble) {
   if (ensemble == NULL) return;
   for (int64_t k = 0; k < ensemble->source_count; k++)
-    hooke_free(ensemble->source[k].sample);
-  hooke_free(ensemble->source);
-  hooke_watched_release(&ensemble->quantities);
-  hooke_free(ensemble);
+    hk_free(ensemble->source[k].sample);
+  hk_free(ensemble->source);
+  hk_watched_release(&ensemble->quantities);
+  hk_free(ensemble);
 }
 
 /* ---- a member ---- */
@@ -96,26 +96,26 @@ void hooke_ensemble_release(struct hooke_ensemble *ensemble) {
 /* A member under way. */
 struct member {
   hooke_study *study;
-  struct hooke_ensemble *ensemble;
-  struct hooke_ensemble_source *source;
-  int64_t first, count;                /* frames that are not trusted: the first, and those seen so far */
-  double *time;                        /* of those */
-  struct hooke_watched_series *series; /* at those */
+  struct hk_ensemble *ensemble;
+  struct hk_ensemble_source *source;
+  int64_t first, count;             /* frames that are not trusted: the first, and those seen so far */
+  double *time;                     /* of those */
+  struct hk_watched_series *series; /* at those */
 };
 
 static int32_t tell(double share, void *ctx) {
-  return hooke_study_tell_row(share, ((struct member *)ctx)->study);
+  return hk_study_tell_row(share, ((struct member *)ctx)->study);
 }
 
 /* Every coordinate of a free particle by noise of its own. */
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
-  const struct hooke_frames *frames = &member->study->reference.frames;
+  const struct hk_frames *frames = &member->study->reference.frames;
   const double size = member->ensemble->noise / sqrt(3.0);
   double *q = hooke_state_position(state);
   for (int64_t k = 0; k < frames->free_count; k++) {
     for (int a = 0; a < 3; a++)
-      q[3 * frames->free_particle[k] + a] += size * hooke_random_normal(&member->source->random);
+      q[3 * frames->free_particle[k] + a] += size * hk_random_normal(&member->source->random);
   }
 }
 
@@ -124,50 +124,49 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   (void)step;
   if (frame < member->first || member->count >= member->series->frames) return 0;
   member->time[member->count] = hooke_state_time(state);
-  hooke_watched_series_keep(member->series, member->count++, hooke_state_position(state),
-                            hooke_state_velocity(state));
+  hk_watched_series_keep(member->series, member->count++, hooke_state_position(state),
+                         hooke_state_velocity(state));
   return 0;
 }
 
 /* Means over the frames, and periods. */
 static void keep_member(const struct member *member) {
-  struct hooke_ensemble *ensemble = member->ensemble;
-  struct hooke_ensemble_source *source = member->source;
+  struct hk_ensemble *ensemble = member->ensemble;
+  struct hk_ensemble_source *source = member->source;
   double *sample = source->sample + source->finished++ * ensemble->quantities.count;
   for (int64_t k = 0; k < ensemble->quantities.count; k++) {
-    const double *value = hooke_watched_series_of(member->series, k);
+    const double *value = hk_watched_series_of(member->series, k);
     double sum = 0.0;
     for (int64_t f = 0; f < member->count; f++)
       sum += value[f];
-    sample[k] = ensemble->quantities.item[k].is_period
-                    ? hooke_watched_period(member->count, member->time, value)
-                    : sum / (double)member->count;
+    sample[k] = ensemble->quantities.item[k].is_period ? hk_watched_period(member->count, member->time, value)
+                                                       : sum / (double)member->count;
   }
   ensemble->from = member->time[0];
   ensemble->until = member->time[member->count - 1];
 }
 
-static int32_t source_options(const hooke_study *study, const struct hooke_ensemble_source *source,
+static int32_t source_options(const hooke_study *study, const struct hk_ensemble_source *source,
                               hooke_options **options) {
-  const struct hooke_reference *r = &study->reference;
-  if (source->method >= 0) return hooke_study_row_options(study, source->method, source->value, options);
-  return hooke_reference_options(study->run, r->method, source->value, r->extent, options);
+  const struct hk_reference *r = &study->reference;
+  if (source->method >= 0) return hk_study_row_options(study, source->method, source->value, options);
+  return hk_reference_options(study->run, r->method, source->value, r->extent, options);
 }
 
 /* A member that does not come to its end, and a source that has one, count as failed. */
 static int32_t run_member(struct member *member) {
-  const struct hooke_listener listener = {
+  const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
   const hooke_study *study = member->study;
-  struct hooke_frames none;
+  struct hk_frames none;
   hooke_options *options = NULL;
   member->count = 0;
-  hooke_watched_series_clear(member->series);
+  hk_watched_series_clear(member->series);
   int32_t status = source_options(study, member->source, &options);
   if (status == HOOKE_OK) {
-    status = hooke_frames_create(study->system, 0, &none);
-    if (status == HOOKE_OK) status = hooke_frames_run(&none, options, &listener, NULL, NULL);
-    hooke_frames_release(&none);
+    status = hk_frames_create(study->system, 0, &none);
+    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL, NULL);
+    hk_frames_release(&none);
   }
   hooke_options_destroy(options);
   if (status == HOOKE_OK && member->count > 0) keep_member(member);
@@ -181,8 +180,8 @@ static int32_t run_member(struct member *member) {
 /* All sources in turn, so that time that runs out leaves as many members of each. */
 static int32_t run_members(struct member *member) {
   hooke_study *study = member->study;
-  struct hooke_ensemble *ensemble = member->ensemble;
-  const double begun = hooke_clock_seconds(), all = (double)(ensemble->members * ensemble->source_count);
+  struct hk_ensemble *ensemble = member->ensemble;
+  const double begun = hk_clock_seconds(), all = (double)(ensemble->members * ensemble->source_count);
   double done = 0.0;
   study->under_way = "ensemble";
   study->work_ahead = 0.0;
@@ -198,26 +197,26 @@ static int32_t run_members(struct member *member) {
       }
       if (status != HOOKE_OK) return status;
       done += 1.0;
-      study->work_ahead = (hooke_clock_seconds() - begun) / done * (all - done);
+      study->work_ahead = (hk_clock_seconds() - begun) / done * (all - done);
     }
   }
   return HOOKE_OK;
 }
 
-int32_t hooke_ensemble_run(hooke_study *study) {
-  const struct hooke_reference *r = &study->reference;
+int32_t hk_ensemble_run(hooke_study *study) {
+  const struct hk_reference *r = &study->reference;
   const int64_t first = r->trusted, frames = r->frames.count - first;
   if (hooke_options_number(study->options, "ensemble") < 1.0 || frames < 1) return HOOKE_OK;
-  struct hooke_ensemble *ensemble = hooke_new(1, sizeof *ensemble);
+  struct hk_ensemble *ensemble = hk_new(1, sizeof *ensemble);
   if (ensemble == NULL) return HOOKE_NO_MEMORY;
   study->ensemble = ensemble;
-  struct hooke_watched_series series = {.list = NULL};
+  struct hk_watched_series series = {.list = NULL};
   struct member member = {.study = study, .ensemble = ensemble, .first = first, .series = &series};
-  member.time = hooke_new(frames, sizeof(double));
+  member.time = hk_new(frames, sizeof(double));
   int32_t status = member.time ? create(study, ensemble) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hooke_watched_series_create(&ensemble->quantities, frames, &series);
+  if (status == HOOKE_OK) status = hk_watched_series_create(&ensemble->quantities, frames, &series);
   if (status == HOOKE_OK) status = run_members(&member);
-  hooke_watched_series_release(&series);
-  hooke_free(member.time);
+  hk_watched_series_release(&series);
+  hk_free(member.time);
   return status;
 }

@@ -8,7 +8,7 @@
 struct hooke_study;
 
 /* One that moves all members: the method of the reference, or a method of the study with one step or tolerance. */
-struct hooke_ensemble_source {
+struct hk_ensemble_source {
   int32_t method; /* of the study; -1: the reference */
   double value;   /* step or rtol */
   int64_t finished, failed;
@@ -16,29 +16,29 @@ struct hooke_ensemble_source {
   double *sample; /* a row of quantities for each member that finished */
 };
 
-struct hooke_ensemble {
-  struct hooke_watched_list quantities; /* kinetic, potential, energy, and what the study watches */
-  int64_t members;                      /* of each source */
-  double noise;       /* root mean square displacement of a free particle at the start [m] */
-  double from, until; /* of the means over time [s] */
+struct hk_ensemble {
+  struct hk_watched_list quantities; /* kinetic, potential, energy, and what the study watches */
+  int64_t members;                   /* of each source */
+  double noise;                      /* root mean square displacement of a free particle at the start [m] */
+  double from, until;                /* of the means over time [s] */
   int64_t source_count;
-  struct hooke_ensemble_source *source; /* the reference first */
+  struct hk_ensemble_source *source; /* the reference first */
 };
 
 /* What a source has of a quantity: of how many members, their mean, the spread (standard deviation) of the members about it. */
-struct hooke_ensemble_sample {
+struct hk_ensemble_sample {
   int64_t members;
   double mean, spread;
 };
-struct hooke_ensemble_sample hooke_ensemble_sample(const struct hooke_ensemble *ensemble, int64_t source,
-                                                   int64_t quantity);
+struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble, int64_t source,
+                                             int64_t quantity);
 
 /* The difference of a source's mean from the reference's, in standard errors of that difference; NaN where it is not known. */
-double hooke_ensemble_bias(const struct hooke_ensemble *ensemble, int64_t source, int64_t quantity);
+double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int64_t quantity);
 
 /* Runs the members of a study whose rows are made, of all sources in turn, until they are complete or the deadline is there.
  * Does nothing if no ensemble is asked for, or if the reference is trusted to the end. */
-int32_t hooke_ensemble_run(struct hooke_study *study);
-void hooke_ensemble_release(struct hooke_ensemble *ensemble);
+int32_t hk_ensemble_run(struct hooke_study *study);
+void hk_ensemble_release(struct hk_ensemble *ensemble);
 
 #endif

@@ -8,10 +8,10 @@
 #include <stddef.h>
 #include <string.h>
 
-struct hooke_ensemble_sample hooke_ensemble_sample(const struct hooke_ensemble *ensemble, int64_t source,
-                                                   int64_t quantity) {
-  const struct hooke_ensemble_source *s = &ensemble->source[source];
-  struct hooke_ensemble_sample sample = {.members = 0, .mean = NAN, .spread = NAN};
+struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble, int64_t source,
+                                             int64_t quantity) {
+  const struct hk_ensemble_source *s = &ensemble->source[source];
+  struct hk_ensemble_sample sample = {.members = 0, .mean = NAN, .spread = NAN};
   double mean = 0.0, square = 0.0; /* running ones (Welford 1962) */
   for (int64_t k = 0; k < s->finished; k++) {
     const double value = s->sample[k * ensemble->quantities.count + quantity];
@@ -26,9 +26,9 @@ struct hooke_ensemble_sample hooke_ensemble_sample(const struct hooke_ensemble *
   return sample;
 }
 
-double hooke_ensemble_bias(const struct hooke_ensemble *ensemble, int64_t source, int64_t quantity) {
-  const struct hooke_ensemble_sample own = hooke_ensemble_sample(ensemble, source, quantity),
-                                     other = hooke_ensemble_sample(ensemble, 0, quantity);
+double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int64_t quantity) {
+  const struct hk_ensemble_sample own = hk_ensemble_sample(ensemble, source, quantity),
+                                  other = hk_ensemble_sample(ensemble, 0, quantity);
   const double variance =
       own.spread * own.spread / (double)own.members + other.spread * other.spread / (double)other.members;
   const double difference = own.mean - other.mean;
@@ -45,19 +45,19 @@ static int64_t find_source(const hooke_study *study, const char *method) {
 
 double hooke_study_statistic(const hooke_study *study, const char *method, const char *quantity,
                              const char *what) {
-  const struct hooke_ensemble *ensemble = study->ensemble;
+  const struct hk_ensemble *ensemble = study->ensemble;
   if (ensemble == NULL) return NAN;
-  const int64_t source = find_source(study, method), q = hooke_watched_find(&ensemble->quantities, quantity);
+  const int64_t source = find_source(study, method), q = hk_watched_find(&ensemble->quantities, quantity);
   if (source < 0 || q < 0) return NAN;
-  const struct hooke_ensemble_source *s = &ensemble->source[source];
-  const int adaptive = s->method < 0 || hooke_study_is_adaptive(study, s->method);
-  const struct hooke_ensemble_sample sample = hooke_ensemble_sample(ensemble, source, q);
-  const struct hooke_figure figures[] = {
+  const struct hk_ensemble_source *s = &ensemble->source[source];
+  const int adaptive = s->method < 0 || hk_study_is_adaptive(study, s->method);
+  const struct hk_ensemble_sample sample = hk_ensemble_sample(ensemble, source, q);
+  const struct hk_figure figures[] = {
       {"mean", sample.mean},
       {"spread", sample.spread},
       {"members", (double)sample.members},
       {"failed", (double)s->failed},
-      {"bias", source > 0 ? hooke_ensemble_bias(ensemble, source, q) : NAN},
+      {"bias", source > 0 ? hk_ensemble_bias(ensemble, source, q) : NAN},
       {"step", adaptive ? NAN : s->value},
       {"rtol", adaptive ? s->value : NAN},
   };

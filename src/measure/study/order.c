@@ -17,10 +17,10 @@ static const double BELOW = 0.15, ABOVE = 0.25; /* how far an order may be from 
 
 /* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from coarse to fine. */
 static int32_t collect(const hooke_study *study, int32_t method, double *x, double *y) {
-  const struct hooke_reference *r = &study->reference;
+  const struct hk_reference *r = &study->reference;
   int32_t count = 0;
   for (int64_t k = study->row_count - 1; k >= 0 && count < MOST_POINTS; k--) {
-    const struct hooke_study_row *row = &study->row[k];
+    const struct hk_study_row *row = &study->row[k];
     if (row->method != method || !(row->trial.error > 0.0)) continue;
     if (row->trial.error < CLEAR_OF_FLOOR * r->agreement || row->trial.error > SMALL * r->extent) continue;
     x[count] = log(row->value);
@@ -98,7 +98,7 @@ static void explain(const hooke_study *study, int32_t method, struct hooke_study
     snprintf(causes, sizeof causes, "steps do not resolve the motion yet");
   else
     list_causes(study, method, coarsest, causes, sizeof causes);
-  hooke_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
+  hk_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
 }
 
 /* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975), and t with
@@ -125,11 +125,11 @@ static void fit_line(int32_t count, const double *x, const double *y, double *sl
   *half = T_QUANTILE[count - 2] * sqrt(squares / (count - 2) / xx);
 }
 
-void hooke_study_fit_order(hooke_study *study, int32_t method) {
+void hk_study_fit_order(hooke_study *study, int32_t method) {
   struct hooke_study_order *order = &study->order[method];
   *order = (struct hooke_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
-  if (hooke_study_is_adaptive(study, method)) return;
-  order->theory = (double)hooke_method_find(study->method[method])->order;
+  if (hk_study_is_adaptive(study, method)) return;
+  order->theory = (double)hk_method_find(study->method[method])->order;
   double x[MOST_POINTS], y[MOST_POINTS];
   const int32_t count = collect(study, method, x, y);
   if (count >= FEWEST_POINTS) {

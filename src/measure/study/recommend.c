@@ -15,8 +15,8 @@
 enum { MOST_ROUNDS = 7 };
 static const double CONTENDS = 1.6, RACE_SECONDS = 0.5;
 
-static void keep(hooke_study *study, const struct hooke_study_candidate *c, int32_t met) {
-  struct hooke_study_recommendation *r = &study->recommendation;
+static void keep(hooke_study *study, const struct hk_study_candidate *c, int32_t met) {
+  struct hk_study_recommendation *r = &study->recommendation;
   r->met = met;
   r->method = c->method;
   r->value = c->best.value;
@@ -29,20 +29,20 @@ static void keep(hooke_study *study, const struct hooke_study_candidate *c, int3
 /* ---- when nothing meets the want ---- */
 
 static void explain_no_rows(hooke_study *study) {
-  struct hooke_study_recommendation *r = &study->recommendation;
-  const struct hooke_study_row *finest = NULL;
+  struct hk_study_recommendation *r = &study->recommendation;
+  const struct hk_study_row *finest = NULL;
   for (int64_t k = 0; k < study->row_count; k++) {
-    const struct hooke_study_row *row = &study->row[k];
+    const struct hk_study_row *row = &study->row[k];
     if (finest == NULL || row->value < finest->value) finest = row;
   }
   if (finest == NULL && study->budget_spent) {
-    hooke_print(r->note, sizeof r->note,
-                "the budget of %g s ended before the first run did; give a larger one", study->budget);
+    hk_print(r->note, sizeof r->note, "the budget of %g s ended before the first run did; give a larger one",
+             study->budget);
   } else if (finest == NULL) {
     snprintf(r->note, sizeof r->note, "there are no runs to choose from");
   } else {
-    const int adaptive = hooke_study_is_adaptive(study, finest->method);
-    hooke_print(
+    const int adaptive = hk_study_is_adaptive(study, finest->method);
+    hk_print(
         r->note, sizeof r->note,
         "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
         study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
@@ -50,9 +50,9 @@ static void explain_no_rows(hooke_study *study) {
   }
 }
 
-static void keep_closest(hooke_study *study, const struct hooke_study_candidate *candidates) {
-  struct hooke_study_recommendation *r = &study->recommendation;
-  const struct hooke_study_candidate *closest = NULL;
+static void keep_closest(hooke_study *study, const struct hk_study_candidate *candidates) {
+  struct hk_study_recommendation *r = &study->recommendation;
+  const struct hk_study_candidate *closest = NULL;
   for (int32_t m = 0; m < study->method_count; m++) {
     const double error = candidates[m].best.trial.error;
     if (error >= 0.0 && (closest == NULL || error < closest->best.trial.error)) closest = &candidates[m];
@@ -63,67 +63,66 @@ static void keep_closest(hooke_study *study, const struct hooke_study_candidate 
   }
   keep(study, closest, 0);
   if (r->want <= study->reference.agreement) {
-    hooke_print(r->note, sizeof r->note,
-                "%.3g m is below %.3g m, to which the reference itself is known; want more than that",
-                r->want, study->reference.agreement);
+    hk_print(r->note, sizeof r->note,
+             "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
+             study->reference.agreement);
   } else {
-    hooke_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
-                r->error,
-                study->budget_spent ? "a larger budget would try finer steps"
-                                    : "finer steps or tighter tolerances, or other methods, might");
+    hk_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
+             r->error,
+             study->budget_spent ? "a larger budget would try finer steps"
+                                 : "finer steps or tighter tolerances, or other methods, might");
   }
 }
 
 /* ---- choosing ---- */
 
-static void sort_by_prediction(struct hooke_study_candidate *c, int32_t count) {
+static void sort_by_prediction(struct hk_study_candidate *c, int32_t count) {
   for (int32_t k = 1; k < count; k++) {
     for (int32_t i = k; i > 0 && c[i].predicted < c[i - 1].predicted; i--) {
-      const struct hooke_study_candidate swap = c[i];
+      const struct hk_study_candidate swap = c[i];
       c[i] = c[i - 1];
       c[i - 1] = swap;
     }
   }
 }
 
-static struct hooke_study_candidate *cheapest_of(struct hooke_study_candidate *c, int32_t count) {
-  struct hooke_study_candidate *best = NULL;
+static struct hk_study_candidate *cheapest_of(struct hk_study_candidate *c, int32_t count) {
+  struct hk_study_candidate *best = NULL;
   for (int32_t k = 0; k < count; k++) {
     if (isnan(c[k].meets)) continue;
-    if (best == NULL || hooke_study_candidate_cost(&c[k]) < hooke_study_candidate_cost(best)) best = &c[k];
+    if (best == NULL || hk_study_candidate_cost(&c[k]) < hk_study_candidate_cost(best)) best = &c[k];
   }
   return best;
 }
 
 /* One more run, for its time. */
-static int32_t run_again(hooke_study *study, struct hooke_study_candidate *c, double *seconds) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell_row, .ctx = study};
-  struct hooke_study_row again;
+static int32_t run_again(hooke_study *study, struct hk_study_candidate *c, double *seconds) {
+  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
+  struct hk_study_row again;
   study->late = 0;
   study->row_deadline = study->deadline;
   study->under_way = study->method[c->method];
-  const int32_t status = hooke_study_run_row(study, c->method, c->best.value, &listener, &again);
+  const int32_t status = hk_study_run_row(study, c->method, c->best.value, &listener, &again);
   if (status == HOOKE_OK) *seconds = fmin(*seconds, again.trial.wall_seconds);
-  hooke_trial_release(&again.trial);
+  hk_trial_release(&again.trial);
   return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
 /* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once more. */
-static int32_t race(hooke_study *study, struct hooke_study_candidate *c,
-                    struct hooke_study_candidate **best) {
+static int32_t race(hooke_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
   double seconds[HOOKE_STUDY_METHODS], most;
   const int32_t methods = study->method_count;
   int32_t status = HOOKE_OK, contenders = 0;
   *best = cheapest_of(c, methods);
   if (*best == NULL) return HOOKE_OK;
-  most = CONTENDS * hooke_study_candidate_cost(*best);
+  most = CONTENDS * hk_study_candidate_cost(*best);
   for (int32_t k = 0; k < methods; k++) {
-    seconds[k] = !isnan(c[k].meets) && hooke_study_candidate_cost(&c[k]) <= most ? INFINITY : NAN;
+    seconds[k] = !isnan(c[k].meets) && hk_study_candidate_cost(&c[k]) <= most ? INFINITY : NAN;
     contenders += isinf(seconds[k]) != 0;
   }
-  const double begun = hooke_clock_seconds();
+  const double begun = hk_clock_seconds();
   for (int32_t round = 0; contenders > 1 && round < MOST_ROUNDS && status == HOOKE_OK; round++) {
-    if (hooke_clock_seconds() > fmin(begun + RACE_SECONDS, study->deadline)) break;
+    if (hk_clock_seconds() > fmin(begun + RACE_SECONDS, study->deadline)) break;
     for (int32_t k = 0; k < methods && status == HOOKE_OK; k++)
       if (!isnan(seconds[k])) status = run_again(study, &c[k], &seconds[k]);
   }
@@ -136,52 +135,52 @@ static int32_t race(hooke_study *study, struct hooke_study_candidate *c,
 }
 
 /* The most promising first; one that cannot become cheaper than what was found is left alone. */
-static int32_t search_all(hooke_study *study, struct hooke_study_candidate *c) {
+static int32_t search_all(hooke_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
-    const struct hooke_study_candidate *best = cheapest_of(c, k);
-    status = hooke_study_candidate_search(study, &c[k], best ? hooke_study_candidate_cost(best) : INFINITY);
+    const struct hk_study_candidate *best = cheapest_of(c, k);
+    status = hk_study_candidate_search(study, &c[k], best ? hk_study_candidate_cost(best) : INFINITY);
   }
   return status;
 }
 
 /* 1 if the method is one of the two that made the reference. */
-static int made_reference(const hooke_study *study, const struct hooke_study_candidate *c) {
+static int made_reference(const hooke_study *study, const struct hk_study_candidate *c) {
   const char *method = study->method[c->method];
   return strcmp(method, study->reference.method) == 0 || strcmp(method, study->reference.check) == 0;
 }
 
 /* What is as fine as the reference meets the want, since the reference does; then back from there. Its own methods
  * first. */
-static int32_t search_from_reference(hooke_study *study, struct hooke_study_candidate *c) {
+static int32_t search_from_reference(hooke_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int own = 1; own >= 0; own--) {
     for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
       if (made_reference(study, &c[k]) != own || cheapest_of(c, study->method_count)) continue;
-      status = hooke_study_candidate_try_finest(study, &c[k]);
+      status = hk_study_candidate_try_finest(study, &c[k]);
       if (status == HOOKE_OK && !isnan(c[k].meets))
-        status = hooke_study_candidate_search(study, &c[k], INFINITY);
+        status = hk_study_candidate_search(study, &c[k], INFINITY);
     }
   }
   return status;
 }
 
-int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
-  struct hooke_study_candidate c[HOOKE_STUDY_METHODS];
+int32_t hk_study_find_cheapest(hooke_study *study, double want) {
+  struct hk_study_candidate c[HOOKE_STUDY_METHODS];
   for (int32_t m = 0; m < study->method_count; m++)
-    hooke_study_candidate_create(study, m, want, &c[m]);
+    hk_study_candidate_create(study, m, want, &c[m]);
   sort_by_prediction(c, study->method_count);
-  study->recommendation = (struct hooke_study_recommendation){.made = 1,
-                                                              .method = -1,
-                                                              .want = want,
-                                                              .value = NAN,
-                                                              .atol = NAN,
-                                                              .error = NAN,
-                                                              .wall_seconds = NAN,
-                                                              .force_evaluations = NAN,
-                                                              .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
+  study->recommendation = (struct hk_study_recommendation){.made = 1,
+                                                           .method = -1,
+                                                           .want = want,
+                                                           .value = NAN,
+                                                           .atol = NAN,
+                                                           .error = NAN,
+                                                           .wall_seconds = NAN,
+                                                           .force_evaluations = NAN,
+                                                           .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
   study->work_ahead = 0.0;
-  struct hooke_study_candidate *best = NULL;
+  struct hk_study_candidate *best = NULL;
   /* what the reference took is known, what a search takes beyond the rows is not */
   const int far = !(c[0].predicted < study->reference.run_seconds);
   int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
@@ -196,19 +195,18 @@ int32_t hooke_study_find_cheapest(hooke_study *study, double want) {
   else
     keep_closest(study, c);
   for (int32_t k = 0; k < study->method_count; k++)
-    hooke_study_candidate_release(&c[k]);
-  return status == HOOKE_OK && best ? hooke_study_find_margin(study) : status;
+    hk_study_candidate_release(&c[k]);
+  return status == HOOKE_OK && best ? hk_study_find_margin(study) : status;
 }
 
 int32_t hooke_study_recommend(hooke_study *study, double want) {
   if (study->reference.frames.count == 0) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has not been run yet; call hooke_study_run() first");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the study has not been run yet; call hooke_study_run() first");
   }
-  if (!(want > 0.0))
-    return hooke_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
+  if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
   /* a budget counts anew */
-  study->begun = hooke_clock_seconds();
+  study->begun = hk_clock_seconds();
   study->deadline = study->begun + study->budget;
   study->told = 0.0;
-  return hooke_study_find_cheapest(study, want);
+  return hk_study_find_cheapest(study, want);
 }

@@ -21,7 +21,7 @@ static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed s
 /* And an ensemble, where one is needed, this one. */
 static const double ENSEMBLE_SHARE = 0.3;
 
-static const struct hooke_option_row study_rows[] = {
+static const struct hk_option_row study_rows[] = {
     {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
     {.name = "points",
      .type = HOOKE_OPTION_NUMBER,
@@ -82,10 +82,10 @@ static const struct hooke_option_row study_rows[] = {
      .doc = "of the noise of those starts"},
 };
 
-static const struct hooke_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
+static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
 
 int32_t hooke_study_options_create(hooke_options **options) {
-  return hooke_options_create(&study_table, options);
+  return hk_options_create(&study_table, options);
 }
 
 /* ---- making ---- */
@@ -93,10 +93,10 @@ int32_t hooke_study_options_create(hooke_options **options) {
 static int32_t add_method(const char *method, void *ctx) {
   hooke_study *study = ctx;
   if (!hooke_method_is_built(method)) {
-    return hooke_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
+    return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
   if (study->method_count == HOOKE_STUDY_METHODS) {
-    return hooke_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
+    return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
   }
   study->method[study->method_count++] = method;
   return HOOKE_OK;
@@ -105,33 +105,32 @@ static int32_t add_method(const char *method, void *ctx) {
 static int32_t read_times(hooke_study *study) {
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
-  return hooke_step_times(study->run, &study->duration, &study->every);
+  return hk_step_times(study->run, &study->duration, &study->every);
 }
 
 static int32_t read_watch(hooke_study *study) {
   const char *text = hooke_options_text(study->options, "watch");
   study->watched.system = study->system;
   if (hooke_options_number(study->options, "ensemble") == 1.0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "ensemble",
-                      "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
+    return hk_fail(HOOKE_BAD_VALUE, "ensemble",
+                   "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
   }
-  return text[0] ? hooke_watched_read(&study->watched, "watch", text) : HOOKE_OK;
+  return text[0] ? hk_watched_read(&study->watched, "watch", text) : HOOKE_OK;
 }
 
 int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
                            hooke_study **out) {
   if (!hooke_system_is_committed(system)) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL,
-                      "the system is not committed yet; call hooke_system_commit() first");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
   }
   if (!hooke_method_is_built("cvode-adams")) {
-    return hooke_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
   }
-  int32_t status = hooke_run_options_require(run, "run");
+  int32_t status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
-    status = hooke_options_require(options, &study_table, "options", "hooke_study_options_create()");
+    status = hk_options_require(options, &study_table, "options", "hooke_study_options_create()");
   if (status != HOOKE_OK) return status;
-  hooke_study *study = hooke_handle_new("hooke_study", sizeof *study);
+  hooke_study *study = hk_handle_new("hooke_study", sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
   study->system = system;
   status = hooke_options_copy(run, &study->run);
@@ -141,10 +140,10 @@ int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
   }
   if (status == HOOKE_OK) {
     const char *names = hooke_options_text(study->options, "methods");
-    status = hooke_method_list_read(names, hooke_method_is_built, add_method, study);
+    status = hk_method_list_read(names, hooke_method_is_built, add_method, study);
   }
   if (status == HOOKE_OK) status = read_times(study);
-  if (status == HOOKE_OK) status = hooke_study_check_ladder(study);
+  if (status == HOOKE_OK) status = hk_study_check_ladder(study);
   if (status == HOOKE_OK) status = read_watch(study);
   if (status == HOOKE_OK)
     *out = study;
@@ -156,14 +155,14 @@ int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
 void hooke_study_destroy(hooke_study *study) {
   if (study == NULL) return;
   for (int64_t k = 0; k < study->row_count; k++)
-    hooke_trial_release(&study->row[k].trial);
-  hooke_reference_release(&study->reference);
-  hooke_ensemble_release(study->ensemble);
-  hooke_watched_release(&study->watched);
+    hk_trial_release(&study->row[k].trial);
+  hk_reference_release(&study->reference);
+  hk_ensemble_release(study->ensemble);
+  hk_watched_release(&study->watched);
   hooke_options_destroy(study->run);
   hooke_options_destroy(study->options);
-  hooke_free(study->row);
-  hooke_handle_free(study);
+  hk_free(study->row);
+  hk_handle_free(study);
 }
 
 void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx) {
@@ -172,16 +171,16 @@ void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void 
 }
 
 static int compare_rows(const void *a, const void *b) {
-  const struct hooke_study_row *x = a, *y = b;
+  const struct hk_study_row *x = a, *y = b;
   if (x->method != y->method) return (x->method > y->method) - (x->method < y->method);
   return (x->value < y->value) - (x->value > y->value);
 }
 
 static int32_t make_reference(hooke_study *study) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell_reference, .ctx = study};
+  const struct hk_listener listener = {.on_progress = hk_study_tell_reference, .ctx = study};
   const double want = hooke_options_number(study->options, "want");
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
-  const struct hooke_reference_request request = {
+  const struct hk_reference_request request = {
       .run = study->run,
       .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
       .digits = isnan(want) ? NAN : want / 10.0,
@@ -189,7 +188,7 @@ static int32_t make_reference(hooke_study *study) {
       .listener = &listener,
       .watched = &study->watched};
   study->under_way = "reference";
-  const int32_t status = hooke_reference_create(study->system, &request, &study->reference);
+  const int32_t status = hk_reference_create(study->system, &request, &study->reference);
   if (status == HOOKE_OK && study->reference.hurried &&
       study->reference.trusted < study->reference.frames.count)
     study->budget_spent = 1;
@@ -199,10 +198,10 @@ static int32_t make_reference(hooke_study *study) {
 /* As it was before it was run. */
 static void forget(hooke_study *study) {
   for (int64_t k = 0; k < study->row_count; k++)
-    hooke_trial_release(&study->row[k].trial);
+    hk_trial_release(&study->row[k].trial);
   study->row_count = 0;
-  hooke_reference_release(&study->reference);
-  hooke_ensemble_release(study->ensemble);
+  hk_reference_release(&study->reference);
+  hk_ensemble_release(study->ensemble);
   study->ensemble = NULL;
   memset(&study->recommendation, 0, sizeof study->recommendation);
   study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
@@ -212,25 +211,25 @@ static void forget(hooke_study *study) {
 
 int32_t hooke_study_run(hooke_study *study) {
   if (study->reference.frames.count > 0) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
   }
   const double budget = study->budget;
-  study->begun = hooke_clock_seconds();
+  study->begun = hk_clock_seconds();
   if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
-  int32_t status = hooke_study_find_safe_steps(study);
-  if (status == HOOKE_OK) status = hooke_study_prepare_guesses(study);
+  int32_t status = hk_study_find_safe_steps(study);
+  if (status == HOOKE_OK) status = hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
-  if (status == HOOKE_OK) status = hooke_study_run_ladders(study);
+  if (status == HOOKE_OK) status = hk_study_run_ladders(study);
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
   for (int32_t m = 0; m < study->method_count; m++)
-    hooke_study_fit_order(study, m);
+    hk_study_fit_order(study, m);
   const double want = hooke_options_number(study->options, "want");
   study->deadline = study->begun + study->budget;
-  if (status == HOOKE_OK && !isnan(want)) status = hooke_study_find_cheapest(study, want);
+  if (status == HOOKE_OK && !isnan(want)) status = hk_study_find_cheapest(study, want);
   study->budget = budget;
   study->deadline = study->begun + budget;
-  if (status == HOOKE_OK) status = hooke_ensemble_run(study);
+  if (status == HOOKE_OK) status = hk_ensemble_run(study);
   if (status < 0) forget(study);
   return status;
 }

@@ -9,10 +9,10 @@
 enum { HOOKE_STUDY_METHODS = 32 };
 
 /* A method with one step or tolerance. */
-struct hooke_study_row {
+struct hk_study_row {
   int32_t method; /* index into the study's methods */
   double value;   /* step [s] or rtol */
-  struct hooke_trial trial;
+  struct hk_trial trial;
   double wall_median;
   int32_t repeats;
   int32_t timed_alone; /* 0: other rows ran beside it */
@@ -24,8 +24,8 @@ struct hooke_study_order {
 };
 
 /* What a recommendation has to spare (study_margin.c). */
-enum hooke_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
-struct hooke_study_margin {
+enum hk_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
+struct hk_study_margin {
   double
       limit_share; /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
   double
@@ -33,11 +33,11 @@ struct hooke_study_margin {
   double holds[HOOKE_STUDY_CHANGES]; /* 1: the want is met with the change; 0: not; NaN: unknown */
 };
 
-struct hooke_study_recommendation {
+struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
   double want, value, atol, error, wall_seconds, force_evaluations;
-  struct hooke_study_margin margin;
+  struct hk_study_margin margin;
   char note[512];
 };
 
@@ -50,12 +50,12 @@ struct hooke_study {
 
   double duration, every;
   double unit; /* the largest step of which duration and every are whole multiples [s] */
-  struct hooke_reference reference;
+  struct hk_reference reference;
   int64_t row_count, row_capacity;
-  struct hooke_study_row *row;
-  struct hooke_study_recommendation recommendation;
-  struct hooke_watched_list watched;
-  struct hooke_ensemble *ensemble; /* NULL: none was made */
+  struct hk_study_row *row;
+  struct hk_study_recommendation recommendation;
+  struct hk_watched_list watched;
+  struct hk_ensemble *ensemble; /* NULL: none was made */
 
   double safe_step
       [HOOKE_STUDY_METHODS]; /* where a method's ladder begins; error-controlled methods have none [s] */
@@ -78,58 +78,58 @@ struct hooke_study {
 };
 
 /* 1 if the method takes its steps from a tolerance. */
-int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method);
+int32_t hk_study_is_adaptive(const hooke_study *study, int32_t method);
 
 /* The k-th value of a method's ladder, the coarsest first: a step, or a tolerance; NaN past the last. */
-double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k);
+double hk_study_ladder(const hooke_study *study, int32_t method, int32_t k);
 /* The step nearest to `step` that frames and duration are whole multiples of. */
-double hooke_study_fitting_step(const hooke_study *study, double step);
+double hk_study_fitting_step(const hooke_study *study, double step);
 /* Finds the safe step of each method. */
-int32_t hooke_study_find_safe_steps(hooke_study *study);
+int32_t hk_study_find_safe_steps(hooke_study *study);
 /* Finds `unit` and checks the ladders that the caller gave. */
-int32_t hooke_study_check_ladder(hooke_study *study);
+int32_t hk_study_check_ladder(hooke_study *study);
 
 /* ---- progress (study_progress.c) ---- */
 
 /* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the study. The
  * last one stops a row at its deadline, too, and marks the study as late. */
-int32_t hooke_study_tell_reference(double share, void *ctx);
-int32_t hooke_study_tell(double share, void *ctx);
-int32_t hooke_study_tell_row(double share, void *ctx);
+int32_t hk_study_tell_reference(double share, void *ctx);
+int32_t hk_study_tell(double share, void *ctx);
+int32_t hk_study_tell_row(double share, void *ctx);
 /* Times a force evaluation at the start, and looks at the ladders. */
-int32_t hooke_study_prepare_guesses(hooke_study *study);
+int32_t hk_study_prepare_guesses(hooke_study *study);
 /* Seconds that a row is going to take, very roughly: for a method that no row has been run of. */
-double hooke_study_guess(const hooke_study *study, int32_t method, double value);
+double hk_study_guess(const hooke_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
 
 /* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The row's trial
  * must be released. Only the first may be called from several threads at a time. */
-int32_t hooke_study_run_row(const hooke_study *study, int32_t method, double value,
-                            const struct hooke_listener *listener, struct hooke_study_row *row);
-int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out);
-int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row);
+int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
+                         const struct hk_listener *listener, struct hk_study_row *row);
+int32_t hk_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out);
+int32_t hk_study_time_row(hooke_study *study, struct hk_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
-int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row);
+int32_t hk_study_measure(hooke_study *study, int32_t method, double value, struct hk_study_row *row);
 
 /* Words and figures of what is watched and of ensembles (study_watched.c); NULL and NaN for another word. */
-const char *hooke_study_watched_text(const hooke_study *study, const char *what);
-double hooke_study_watched_figure(const hooke_study *study, const char *what);
+const char *hk_study_watched_text(const hooke_study *study, const char *what);
+double hk_study_watched_figure(const hooke_study *study, const char *what);
 
 /* All rows, level by level, until the deadline. */
-int32_t hooke_study_run_ladders(hooke_study *study);
+int32_t hk_study_run_ladders(hooke_study *study);
 
 /* The recommendation, until the deadline. */
-int32_t hooke_study_find_cheapest(hooke_study *study, double want);
+int32_t hk_study_find_cheapest(hooke_study *study, double want);
 
 /* What the recommendation has to spare, until the deadline. */
-int32_t hooke_study_find_margin(hooke_study *study);
+int32_t hk_study_find_margin(hooke_study *study);
 
 /* Least squares of log error on log step for a method (order.c). */
-void hooke_study_fit_order(hooke_study *study, int32_t method);
+void hk_study_fit_order(hooke_study *study, int32_t method);
 
 /* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */
 enum { HOOKE_STUDY_ROW_NUMBERS = 16 };
-extern const char *const hooke_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
+extern const char *const hk_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
 
 #endif

@@ -12,7 +12,7 @@
 enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
 static const double FARTHEST_BELOW = 128.0; /* that a ladder begins below the safe step of symplectic Euler */
 
-int32_t hooke_study_is_adaptive(const hooke_study *study, int32_t method) {
+int32_t hk_study_is_adaptive(const hooke_study *study, int32_t method) {
   return hooke_method_is_adaptive(study->method[method]);
 }
 
@@ -20,7 +20,7 @@ static int32_t points_of(const hooke_study *study) {
   return (int32_t)hooke_options_number(study->options, "points");
 }
 
-double hooke_study_fitting_step(const hooke_study *study, double step) {
+double hk_study_fitting_step(const hooke_study *study, double step) {
   return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
 }
 
@@ -41,14 +41,14 @@ static double safe_step(const hooke_study *study, const char *method, const doub
   return bound > 0.0 ? bound : study->unit;
 }
 
-int32_t hooke_study_find_safe_steps(hooke_study *study) {
+int32_t hk_study_find_safe_steps(hooke_study *study) {
   hooke_state *state = NULL;
   const int32_t status = hooke_state_create(study->system, &state);
   if (status != HOOKE_OK) return status;
   for (int32_t m = 0; m < study->method_count; m++) {
-    if (hooke_study_is_adaptive(study, m)) continue;
+    if (hk_study_is_adaptive(study, m)) continue;
     const double step = safe_step(study, study->method[m], hooke_state_position(state));
-    study->safe_step[m] = hooke_study_fitting_step(study, fmin(study->unit, step));
+    study->safe_step[m] = hk_study_fitting_step(study, fmin(study->unit, step));
   }
   hooke_state_destroy(state);
   return HOOKE_OK;
@@ -58,7 +58,7 @@ int32_t hooke_study_find_safe_steps(hooke_study *study) {
 static double fixed_ladder(const hooke_study *study, int32_t method, int32_t k) {
   const double safe = study->safe_step[method];
   const double start =
-      safe < study->unit ? hooke_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
+      safe < study->unit ? hk_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
   const int32_t above = start > safe;
   if (k >= points_of(study) + above) return NAN;
   return k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
@@ -69,8 +69,8 @@ static double given(const hooke_options *options, const char *name, int32_t k) {
   return k < count ? hooke_options_numbers(options, name)[k] : NAN;
 }
 
-double hooke_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
-  const int32_t adaptive = hooke_study_is_adaptive(study, method);
+double hk_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
+  const int32_t adaptive = hk_study_is_adaptive(study, method);
   const char *own = adaptive ? "tolerances" : "steps";
   if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
   if (!adaptive) return fixed_ladder(study, method, k);
@@ -87,8 +87,8 @@ static int32_t check_list(const hooke_options *options, const char *name) {
     if (value[k] < value[k - 1]) continue;
     char place[64];
     snprintf(place, sizeof place, "%s[%lld]", name, (long long)k);
-    return hooke_fail(HOOKE_BAD_VALUE, place, "%g is not below %g; a ladder goes from coarse to fine",
-                      value[k], value[k - 1]);
+    return hk_fail(HOOKE_BAD_VALUE, place, "%g is not below %g; a ladder goes from coarse to fine", value[k],
+                   value[k - 1]);
   }
   return HOOKE_OK;
 }
@@ -97,11 +97,11 @@ static int32_t check_steps(const hooke_study *study) {
   const int64_t count = hooke_options_number_count(study->options, "steps");
   for (int64_t k = 0; k < count; k++) {
     const double step = hooke_options_numbers(study->options, "steps")[k];
-    if (hooke_step_is_whole(study->every / step) && hooke_step_is_whole(study->duration / step)) continue;
+    if (hk_step_is_whole(study->every / step) && hk_step_is_whole(study->duration / step)) continue;
     char place[64], fitting[HOOKE_NUMBER_SIZE];
     snprintf(place, sizeof place, "steps[%lld]", (long long)k);
-    hooke_number_print(hooke_study_fitting_step(study, step), fitting);
-    return hooke_fail(
+    hk_number_print(hk_study_fitting_step(study, step), fitting);
+    return hk_fail(
         HOOKE_BAD_VALUE, place,
         "every %.6g s and duration %.6g s are not whole multiples of %.6g s; a step near it that fits is %s",
         study->every, study->duration, step, fitting);
@@ -109,8 +109,8 @@ static int32_t check_steps(const hooke_study *study) {
   return HOOKE_OK;
 }
 
-int32_t hooke_study_check_ladder(hooke_study *study) {
-  int32_t status = hooke_step_unit(study->duration, study->every, &study->unit);
+int32_t hk_study_check_ladder(hooke_study *study) {
+  int32_t status = hk_step_unit(study->duration, study->every, &study->unit);
   if (status == HOOKE_OK) status = check_list(study->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);
   return status == HOOKE_OK ? check_list(study->options, "tolerances") : status;

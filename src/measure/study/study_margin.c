@@ -19,18 +19,18 @@ static const double ACCURACY = 1e-3; /* of the limit, relative */
 
 static int32_t tell_limit(double done, const char *what, void *study) {
   (void)what;
-  return hooke_study_tell(done, study);
+  return hk_study_tell(done, study);
 }
 
-static int32_t find_limit_share(hooke_study *study, struct hooke_study_recommendation *r) {
+static int32_t find_limit_share(hooke_study *study, struct hk_study_recommendation *r) {
   const char *method = study->method[r->method];
   hooke_state *state = NULL;
   double limit = NAN;
-  if (hooke_study_is_adaptive(study, r->method)) return HOOKE_OK;
+  if (hk_study_is_adaptive(study, r->method)) return HOOKE_OK;
   int32_t status = hooke_state_create(study->system, &state);
   if (status != HOOKE_OK) return status;
-  status = hooke_limit_predict(study->system, hooke_state_position(state), method, ACCURACY, tell_limit,
-                               study, &limit);
+  status = hk_limit_predict(study->system, hooke_state_position(state), method, ACCURACY, tell_limit, study,
+                            &limit);
   hooke_state_destroy(state);
   if (status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED) return status;
   if (status == HOOKE_OK) r->margin.limit_share = r->value / limit;
@@ -38,19 +38,18 @@ static int32_t find_limit_share(hooke_study *study, struct hooke_study_recommend
 }
 
 /* The largest root mean square speed between two frames of the reference [m/s]. */
-static double largest_speed(const struct hooke_frames *frames) {
+static double largest_speed(const struct hk_frames *frames) {
   double largest = 0.0, unused;
   for (int64_t f = 1; f < frames->recorded; f++) {
     const double *before = frames->position + (f - 1) * frames->size;
-    const double way = hooke_frames_distance(frames, f, before, &unused);
+    const double way = hk_frames_distance(frames, f, before, &unused);
     largest = fmax(largest, way / (frames->time[f] - frames->time[f - 1]));
   }
   return largest;
 }
 
 /* 1, 0 or NaN, from a trial against a reference that is known to its agreement. */
-static double judge(const hooke_study *study, const struct hooke_reference *r,
-                    const struct hooke_trial *trial) {
+static double judge(const hooke_study *study, const struct hk_reference *r, const struct hk_trial *trial) {
   const double want = study->recommendation.want, error = trial->error;
   if (strcmp(trial->status, "finished") != 0) return 0.0;
   if (r->trusted < 2 || error - r->agreement > want) return r->trusted < 2 ? NAN : 0.0;
@@ -61,41 +60,41 @@ static double judge(const hooke_study *study, const struct hooke_reference *r,
  * its reference. */
 static int32_t try_change(hooke_study *study, const hooke_system *changed, double seconds, double *holds,
                           double *error) {
-  const struct hooke_study_recommendation *best = &study->recommendation;
-  const struct hooke_listener told = {.on_progress = hooke_study_tell, .ctx = study};
-  const struct hooke_listener stopped = {.on_progress = hooke_study_tell_row, .ctx = study};
-  const struct hooke_reference_request request = {.run = study->run,
-                                                  .frame_count = study->reference.frames.count,
-                                                  .digits = best->want / 10.0,
-                                                  .enough = 1,
-                                                  .budget = seconds,
-                                                  .listener = &told};
-  struct hooke_reference reference;
-  struct hooke_trial trial = {.status = NULL};
+  const struct hk_study_recommendation *best = &study->recommendation;
+  const struct hk_listener told = {.on_progress = hk_study_tell, .ctx = study};
+  const struct hk_listener stopped = {.on_progress = hk_study_tell_row, .ctx = study};
+  const struct hk_reference_request request = {.run = study->run,
+                                               .frame_count = study->reference.frames.count,
+                                               .digits = best->want / 10.0,
+                                               .enough = 1,
+                                               .budget = seconds,
+                                               .listener = &told};
+  struct hk_reference reference;
+  struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
-  int32_t status = hooke_reference_create(changed, &request, &reference);
+  int32_t status = hk_reference_create(changed, &request, &reference);
   if (status != HOOKE_OK) return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
   study->late = 0;
-  study->row_deadline = hooke_clock_seconds() + seconds;
+  study->row_deadline = hk_clock_seconds() + seconds;
   const int64_t judged = (int64_t)fmin((double)reference.trusted, (double)study->reference.trusted);
-  status = hooke_study_row_options(study, best->method, best->value, &options);
-  if (status == HOOKE_OK) status = hooke_trial_create(&reference.frames, &trial);
-  if (status == HOOKE_OK) status = hooke_trial_run(&trial, &reference.frames, judged, options, &stopped);
+  status = hk_study_row_options(study, best->method, best->value, &options);
+  if (status == HOOKE_OK) status = hk_trial_create(&reference.frames, &trial);
+  if (status == HOOKE_OK) status = hk_trial_run(&trial, &reference.frames, judged, options, &stopped);
   if (status == HOOKE_OK) {
     *holds = judge(study, &reference, &trial);
     *error = trial.error;
   }
-  hooke_trial_release(&trial);
+  hk_trial_release(&trial);
   hooke_options_destroy(options);
-  hooke_reference_release(&reference);
+  hk_reference_release(&reference);
   return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
-static int32_t make_changed(const hooke_study *study, enum hooke_study_change change, double sign,
+static int32_t make_changed(const hooke_study *study, enum hk_study_change change, double sign,
                             hooke_system **made) {
-  struct hooke_variant variant;
-  struct hooke_variant_map map;
-  int32_t status = hooke_variant_create(study->system, &variant);
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  int32_t status = hk_variant_create(study->system, &variant);
   if (status != HOOKE_OK) return status;
   if (change == HOOKE_STUDY_STIFFNESS) {
     variant.stiffness = 1.0 + sign * CHANGE;
@@ -104,15 +103,15 @@ static int32_t make_changed(const hooke_study *study, enum hooke_study_change ch
     for (int a = 0; a < 3; a++)
       variant.velocity[a] = sign * speed / sqrt(3.0);
   }
-  status = hooke_variant_make(study->system, &variant, made, &map);
-  if (status == HOOKE_OK) hooke_variant_map_release(&map);
-  hooke_variant_release(&variant);
+  status = hk_variant_make(study->system, &variant, made, &map);
+  if (status == HOOKE_OK) hk_variant_map_release(&map);
+  hk_variant_release(&variant);
   return status;
 }
 
 /* The want is met with a change if it is so both ways. */
-static int32_t find_change(hooke_study *study, enum hooke_study_change change, double seconds) {
-  struct hooke_study_margin *margin = &study->recommendation.margin;
+static int32_t find_change(hooke_study *study, enum hk_study_change change, double seconds) {
+  struct hk_study_margin *margin = &study->recommendation.margin;
   double holds[2] = {NAN, NAN}, error[2] = {NAN, NAN};
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
@@ -129,12 +128,12 @@ static int32_t find_change(hooke_study *study, enum hooke_study_change change, d
   return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
 }
 
-int32_t hooke_study_find_margin(hooke_study *study) {
-  const double now = hooke_clock_seconds(), left = study->begun + study->budget - now;
+int32_t hk_study_find_margin(hooke_study *study) {
+  const double now = hk_clock_seconds(), left = study->begun + study->budget - now;
   const double seconds = fmin(left, fmax(SECONDS, SHARE * (now - study->begun)));
   study->under_way = "margin";
   int32_t status = find_limit_share(study, &study->recommendation);
   for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK && seconds > 0.0; k++)
-    status = find_change(study, (enum hooke_study_change)k, seconds / HOOKE_STUDY_CHANGES);
+    status = find_change(study, (enum hk_study_change)k, seconds / HOOKE_STUDY_CHANGES);
   return status;
 }

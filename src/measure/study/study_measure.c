@@ -12,10 +12,10 @@ static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
-int32_t hooke_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
+int32_t hk_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(study->run, &options);
-  if (status == HOOKE_OK) status = hooke_trial_set_value(options, study->method[method], value);
+  if (status == HOOKE_OK) status = hk_trial_set_value(options, study->method[method], value);
   /* rows side by side, each on a thread of its own */
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
   if (status == HOOKE_OK)
@@ -32,13 +32,13 @@ static int compare_seconds(const void *a, const void *b) {
 
 /* The first run warms up; it counts only where it is the only one. */
 static int32_t repeat_for_time(hooke_study *study, const hooke_options *options,
-                               const struct hooke_listener *listener, struct hooke_study_row *row) {
+                               const struct hk_listener *listener, struct hk_study_row *row) {
   double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
   int32_t count = 0, status = HOOKE_OK;
-  const struct hooke_reference *r = &study->reference;
+  const struct hk_reference *r = &study->reference;
   const double most = fmin(REPEAT_SECONDS, REPEAT_SHARE * study->budget);
   while (status == HOOKE_OK && count < MOST_REPEATS && spent < most) {
-    status = hooke_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+    status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
     seconds[count++] = row->trial.wall_seconds;
     spent += row->trial.wall_seconds;
     qsort(seconds, (size_t)count, sizeof seconds[0], compare_seconds);
@@ -52,39 +52,39 @@ static int32_t repeat_for_time(hooke_study *study, const hooke_options *options,
   return status;
 }
 
-int32_t hooke_study_run_row(const hooke_study *study, int32_t method, double value,
-                            const struct hooke_listener *listener, struct hooke_study_row *row) {
-  const struct hooke_reference *r = &study->reference;
+int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
+                         const struct hk_listener *listener, struct hk_study_row *row) {
+  const struct hk_reference *r = &study->reference;
   hooke_options *options = NULL;
-  *row = (struct hooke_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
-  int32_t status = hooke_study_row_options(study, method, value, &options);
-  if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &row->trial);
-  if (status == HOOKE_OK) status = hooke_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+  *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
+  int32_t status = hk_study_row_options(study, method, value, &options);
+  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &row->trial);
+  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
   row->wall_median = row->trial.wall_seconds;
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hooke_study_time_row(hooke_study *study, struct hooke_study_row *row) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell, .ctx = study};
+int32_t hk_study_time_row(hooke_study *study, struct hk_study_row *row) {
+  const struct hk_listener listener = {.on_progress = hk_study_tell, .ctx = study};
   hooke_options *options = NULL;
   if (strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
   study->under_way = study->method[row->method];
-  int32_t status = hooke_study_row_options(study, row->method, row->value, &options);
+  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
   if (status == HOOKE_OK) status = repeat_for_time(study, options, &listener, row);
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hooke_study_measure(hooke_study *study, int32_t method, double value, struct hooke_study_row *row) {
-  const struct hooke_listener listener = {.on_progress = hooke_study_tell_row, .ctx = study};
+int32_t hk_study_measure(hooke_study *study, int32_t method, double value, struct hk_study_row *row) {
+  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
   study->under_way = study->method[method];
   study->late = 0;
-  const int32_t status = hooke_study_run_row(study, method, value, &listener, row);
+  const int32_t status = hk_study_run_row(study, method, value, &listener, row);
   if (status == HOOKE_STOPPED && study->late) {
-    hooke_trial_release(&row->trial);
+    hk_trial_release(&row->trial);
     study->budget_spent = 1;
     return HOOKE_OK;
   }
-  return status == HOOKE_OK ? hooke_study_time_row(study, row) : status;
+  return status == HOOKE_OK ? hk_study_time_row(study, row) : status;
 }

@@ -14,17 +14,17 @@ static const double SHARE_OF_SEARCH = 0.1;     /* what the search for a recommen
 
 static int32_t time_evaluation(hooke_study *study) {
   hooke_state *state = NULL;
-  double *force = hooke_new(3 * hooke_system_particle_count(study->system), sizeof(double));
+  double *force = hk_new(3 * hooke_system_particle_count(study->system), sizeof(double));
   int32_t status = force ? hooke_state_create(study->system, &state) : HOOKE_NO_MEMORY;
   study->evaluation = INFINITY;
   for (int k = 0; k < 3 && status == HOOKE_OK; k++) {
-    const double begun = hooke_clock_seconds();
+    const double begun = hk_clock_seconds();
     status = hooke_system_force(study->system, hooke_state_time(state), hooke_state_position(state),
                                 hooke_state_velocity(state), force);
-    study->evaluation = fmin(study->evaluation, hooke_clock_seconds() - begun);
+    study->evaluation = fmin(study->evaluation, hk_clock_seconds() - begun);
   }
   hooke_state_destroy(state);
-  hooke_free(force);
+  hk_free(force);
   return status;
 }
 
@@ -32,20 +32,20 @@ static double guess_fixed(const hooke_study *study, double step) {
   return EVALUATIONS_OF_STEP * study->evaluation * study->duration / step;
 }
 
-double hooke_study_guess(const hooke_study *study, int32_t method, double value) {
-  return hooke_study_is_adaptive(study, method) ? SHARE_OF_REFERENCE * study->reference.wall_seconds
-                                                : guess_fixed(study, value);
+double hk_study_guess(const hooke_study *study, int32_t method, double value) {
+  return hk_study_is_adaptive(study, method) ? SHARE_OF_REFERENCE * study->reference.wall_seconds
+                                             : guess_fixed(study, value);
 }
 
-int32_t hooke_study_prepare_guesses(hooke_study *study) {
+int32_t hk_study_prepare_guesses(hooke_study *study) {
   const int32_t status = time_evaluation(study);
   study->told = study->fixed_rows = study->adaptive_rows = 0.0;
   for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
-    for (int32_t k = 0; !isnan(hooke_study_ladder(study, m, k)); k++) {
-      if (hooke_study_is_adaptive(study, m))
+    for (int32_t k = 0; !isnan(hk_study_ladder(study, m, k)); k++) {
+      if (hk_study_is_adaptive(study, m))
         study->adaptive_rows += 1.0;
       else
-        study->fixed_rows += guess_fixed(study, hooke_study_ladder(study, m, k));
+        study->fixed_rows += guess_fixed(study, hk_study_ladder(study, m, k));
     }
   }
   return status;
@@ -60,24 +60,24 @@ static int32_t tell(hooke_study *study, double spent, double ahead) {
   return study->progress(study->told, study->under_way, study->progress_ctx);
 }
 
-int32_t hooke_study_tell_reference(double share, void *ctx) {
+int32_t hk_study_tell_reference(double share, void *ctx) {
   hooke_study *study = ctx;
-  const double spent = hooke_clock_seconds() - study->begun;
+  const double spent = hk_clock_seconds() - study->begun;
   const double reference = spent / share; /* infinite at first, and nothing is done then */
   const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
   return tell(study, spent, reference - spent + rows);
 }
 
-int32_t hooke_study_tell(double share, void *ctx) {
+int32_t hk_study_tell(double share, void *ctx) {
   hooke_study *study = ctx;
   (void)share;
-  return tell(study, hooke_clock_seconds() - study->begun, study->work_ahead);
+  return tell(study, hk_clock_seconds() - study->begun, study->work_ahead);
 }
 
-int32_t hooke_study_tell_row(double share, void *ctx) {
+int32_t hk_study_tell_row(double share, void *ctx) {
   hooke_study *study = ctx;
-  const int32_t value = hooke_study_tell(share, ctx);
-  if (value != 0 || hooke_clock_seconds() < study->row_deadline) return value;
+  const int32_t value = hk_study_tell(share, ctx);
+  if (value != 0 || hk_clock_seconds() < study->row_deadline) return value;
   study->late = 1;
   return 1;
 }

@@ -25,9 +25,9 @@ static const double UNKNOWN_SHARE = 0.1;
  * the steps; NaN before the first. */
 static double predict_seconds(const hooke_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
-    const struct hooke_study_row *row = &study->row[k];
+    const struct hk_study_row *row = &study->row[k];
     if (row->method != method || isnan(row->trial.error)) continue;
-    const double growth = hooke_study_is_adaptive(study, method) ? 1.6 : row->value / value;
+    const double growth = hk_study_is_adaptive(study, method) ? 1.6 : row->value / value;
     return row->trial.wall_seconds * growth;
   }
   return NAN;
@@ -35,14 +35,14 @@ static double predict_seconds(const hooke_study *study, int32_t method, double v
 
 static double expect_seconds(const hooke_study *study, int32_t method, double value) {
   const double predicted = predict_seconds(study, method, value);
-  return isnan(predicted) ? hooke_study_guess(study, method, value) : predicted;
+  return isnan(predicted) ? hk_study_guess(study, method, value) : predicted;
 }
 
 static double seconds_ahead(const hooke_study *study, int32_t level) {
   double sum = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
-    for (int32_t k = level; !isnan(hooke_study_ladder(study, m, k)); k++) {
-      const double once = expect_seconds(study, m, hooke_study_ladder(study, m, k));
+    for (int32_t k = level; !isnan(hk_study_ladder(study, m, k)); k++) {
+      const double once = expect_seconds(study, m, hk_study_ladder(study, m, k));
       sum += once + fmin(REPEATS * once, REPEAT_SECONDS);
     }
   }
@@ -57,7 +57,7 @@ struct job {
   double share;           /* of the time that is left when it begins, that it may take */
   double deadline;
   struct level *level;
-  struct hooke_study_row row;
+  struct hk_study_row row;
   int32_t status;
   char message[512]; /* messages belong to the thread that failed */
 };
@@ -72,11 +72,11 @@ struct level {
 static int32_t asked_to_stop(double share, void *ctx) {
   const struct job *job = ctx;
   (void)share;
-  return atomic_load(&job->level->stop) || hooke_clock_seconds() >= job->deadline;
+  return atomic_load(&job->level->stop) || hk_clock_seconds() >= job->deadline;
 }
 
 static double deadline_of(const struct job *job, const hooke_study *study) {
-  const double now = hooke_clock_seconds();
+  const double now = hk_clock_seconds();
   return now + job->share * (study->deadline - now);
 }
 
@@ -84,9 +84,9 @@ static void *work(void *ctx) {
   struct level *level = ctx;
   for (int32_t k; (k = atomic_fetch_add(&level->next, 1)) < level->count && !atomic_load(&level->stop);) {
     struct job *job = &level->job[k];
-    const struct hooke_listener listener = {.on_progress = asked_to_stop, .ctx = job};
+    const struct hk_listener listener = {.on_progress = asked_to_stop, .ctx = job};
     job->deadline = deadline_of(job, level->study);
-    job->status = hooke_study_run_row(level->study, job->method, job->value, &listener, &job->row);
+    job->status = hk_study_run_row(level->study, job->method, job->value, &listener, &job->row);
     job->row.timed_alone = 0;
     if (job->status != HOOKE_OK) snprintf(job->message, sizeof job->message, "%s", hooke_last_error());
   }
@@ -118,20 +118,20 @@ static int32_t run_side_by_side(struct level *level, int32_t threads) {
   while (atomic_load(&level->running) > 0) {
     const struct timespec moment = {0, 20000000};
     nanosleep(&moment, NULL);
-    if (hooke_study_tell_row(0.0, level->study) != 0) atomic_store(&level->stop, 1);
+    if (hk_study_tell_row(0.0, level->study) != 0) atomic_store(&level->stop, 1);
   }
   for (int32_t k = 0; k < started; k++)
     pthread_join(thread[k], NULL);
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
     struct job *job = &level->job[k];
-    if (job->status == HOOKE_STOPPED && hooke_clock_seconds() >= job->deadline) {
-      hooke_trial_release(&job->row.trial);
+    if (job->status == HOOKE_STOPPED && hk_clock_seconds() >= job->deadline) {
+      hk_trial_release(&job->row.trial);
       level->study->budget_spent = level->study->given_up[job->method] = 1;
     } else if (job->status != HOOKE_OK)
-      status = hooke_fail(job->status, NULL, "%s", job->message);
+      status = hk_fail(job->status, NULL, "%s", job->message);
     else if (job->row.trial.status)
-      status = hooke_study_time_row(level->study, &job->row);
+      status = hk_study_time_row(level->study, &job->row);
   }
   return status;
 }
@@ -140,11 +140,11 @@ static int32_t run_one_by_one(struct level *level) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
     struct job *job = &level->job[k];
-    const double begun = hooke_clock_seconds();
+    const double begun = hk_clock_seconds();
     level->study->row_deadline = deadline_of(job, level->study);
-    status = hooke_study_measure(level->study, job->method, job->value, &job->row);
+    status = hk_study_measure(level->study, job->method, job->value, &job->row);
     level->study->given_up[job->method] = level->study->late;
-    level->study->work_ahead = fmax(0.0, level->study->work_ahead - (hooke_clock_seconds() - begun));
+    level->study->work_ahead = fmax(0.0, level->study->work_ahead - (hk_clock_seconds() - begun));
   }
   return status;
 }
@@ -155,7 +155,7 @@ static int32_t keep_rows(struct level *level) {
   int32_t status = HOOKE_OK;
   if (study->row_count + level->count > study->row_capacity) {
     const int64_t capacity = 2 * study->row_capacity + 64;
-    status = hooke_grow((void **)&study->row, study->row_count, capacity, sizeof *study->row);
+    status = hk_grow((void **)&study->row, study->row_count, capacity, sizeof *study->row);
     if (status == HOOKE_OK) study->row_capacity = capacity;
   }
   for (int32_t k = 0; k < level->count; k++) {
@@ -163,7 +163,7 @@ static int32_t keep_rows(struct level *level) {
     if (status == HOOKE_OK && job->row.trial.status)
       study->row[study->row_count++] = job->row;
     else
-      hooke_trial_release(&job->row.trial);
+      hk_trial_release(&job->row.trial);
   }
   return status;
 }
@@ -178,11 +178,11 @@ static int compare_jobs(const void *a, const void *b) {
 static void plan_level(hooke_study *study, int32_t number, struct level *level) {
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
-    const double value = hooke_study_ladder(study, m, number);
+    const double value = hk_study_ladder(study, m, number);
     if (isnan(value) || study->given_up[m]) continue;
     /* of a first row nothing is known: it is begun, and ends when its share is over */
     const double predicted = predict_seconds(study, m, value), next = fmax(0.0, predicted);
-    if (hooke_clock_seconds() + ahead + next > study->deadline) {
+    if (hk_clock_seconds() + ahead + next > study->deadline) {
       study->budget_spent = 1;
       continue;
     }
@@ -198,16 +198,16 @@ static void plan_level(hooke_study *study, int32_t number, struct level *level) 
 
 /* A search is to have time for a run as fine as the reference. */
 static double end_of_rows(const hooke_study *study) {
-  const double end = study->begun + study->budget, left = end - hooke_clock_seconds();
+  const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
   const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_seconds);
   return end - fmin(search, MOST_SEARCH * left);
 }
 
-int32_t hooke_study_run_ladders(hooke_study *study) {
+int32_t hk_study_run_ladders(hooke_study *study) {
   const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
   int32_t status = HOOKE_OK;
-  struct level *level = hooke_new(1, sizeof *level);
+  struct level *level = hk_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;
   study->deadline = end_of_rows(study);
   for (int32_t number = 0; status == HOOKE_OK; number++) {
@@ -219,6 +219,6 @@ int32_t hooke_study_run_ladders(hooke_study *study) {
     const int32_t kept = keep_rows(level);
     if (status == HOOKE_OK) status = kept;
   }
-  hooke_free(level);
+  hk_free(level);
   return status;
 }

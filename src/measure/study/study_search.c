@@ -22,23 +22,23 @@ static const double TIGHTEST = 1e-14;                              /* the smalle
 /* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
 static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
 
-static int is_adaptive(const hooke_study *study, const struct hooke_study_candidate *c) {
-  return hooke_study_is_adaptive(study, c->method);
+static int is_adaptive(const hooke_study *study, const struct hk_study_candidate *c) {
+  return hk_study_is_adaptive(study, c->method);
 }
 
 /* Evaluations of forces and products with their derivatives: what the time goes with, but the same in every run. */
-static double work_of(const struct hooke_trial *trial) {
+static double work_of(const struct hk_trial *trial) {
   return trial->force_evaluations + fmax(0.0, trial->linear_iterations);
 }
 
-double hooke_study_candidate_cost(const struct hooke_study_candidate *c) {
+double hk_study_candidate_cost(const struct hk_study_candidate *c) {
   return work_of(&c->best.trial) * c->rate;
 }
 
 /* ---- what the ladder says ---- */
 
 /* Where the straight line between two points in logarithms has the error that is allowed, with a little to spare. */
-static double interpolate(const struct hooke_study_candidate *c) {
+static double interpolate(const struct hk_study_candidate *c) {
   const double goal = log(GOAL * c->most), high = log(c->error_at_fails), low = log(c->error_at_meets);
   if (!(c->error_at_fails > c->error_at_meets) || !(c->error_at_meets > 0.0))
     return sqrt(c->meets * c->fails);
@@ -47,25 +47,25 @@ static double interpolate(const struct hooke_study_candidate *c) {
 }
 
 /* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference takes as long. */
-static double predict_beyond(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double predict_beyond(const hooke_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
   if (is_adaptive(study, c)) return study->reference.run_seconds;
   return isnan(order) || order < 0.5
              ? INFINITY
-             : hooke_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);
+             : hk_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);
 }
 
-static void predict(const hooke_study *study, struct hooke_study_candidate *c) {
+static void predict(const hooke_study *study, struct hk_study_candidate *c) {
   const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
   const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
   c->predicted = isnan(c->meets) ? predict_beyond(study, c)
-                                 : hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
+                                 : hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
 /* A row joins what is known. 1 if it is the best so far. */
-static int learn(struct hooke_study_candidate *c, const struct hooke_study_row *row) {
-  const struct hooke_trial *trial = &row->trial, *best = &c->best.trial;
+static int learn(struct hk_study_candidate *c, const struct hk_study_row *row) {
+  const struct hk_trial *trial = &row->trial, *best = &c->best.trial;
   const int had = !isnan(c->meets);
   c->rate = fmin(c->rate, trial->wall_seconds / work_of(trial));
   if (isnan(c->finest) || (!c->finished && !isnan(trial->error))) c->finest = row->value;
@@ -86,44 +86,44 @@ static int learn(struct hooke_study_candidate *c, const struct hooke_study_row *
   return !had && (best->status == NULL || isnan(best->error) || trial->error < best->error);
 }
 
-void hooke_study_candidate_create(const hooke_study *study, int32_t method, double want,
-                                  struct hooke_study_candidate *c) {
-  *c = (struct hooke_study_candidate){.method = method,
-                                      .most = want - study->reference.agreement,
-                                      .meets = NAN,
-                                      .fails = NAN,
-                                      .error_at_meets = NAN,
-                                      .error_at_fails = NAN,
-                                      .finest = NAN,
-                                      .rate = INFINITY};
+void hk_study_candidate_create(const hooke_study *study, int32_t method, double want,
+                               struct hk_study_candidate *c) {
+  *c = (struct hk_study_candidate){.method = method,
+                                   .most = want - study->reference.agreement,
+                                   .meets = NAN,
+                                   .fails = NAN,
+                                   .error_at_meets = NAN,
+                                   .error_at_fails = NAN,
+                                   .finest = NAN,
+                                   .rate = INFINITY};
   c->best.value = NAN;
   c->best.trial.error = NAN;
   /* rows go from coarse to fine */
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
-    const struct hooke_study_row *row = &study->row[k];
+    const struct hk_study_row *row = &study->row[k];
     if (row->method != method) continue;
     if (learn(c, row)) c->best = *row;
   }
   predict(study, c);
 }
 
-void hooke_study_candidate_release(struct hooke_study_candidate *c) {
-  if (c->owned) hooke_trial_release(&c->best.trial);
+void hk_study_candidate_release(struct hk_study_candidate *c) {
+  if (c->owned) hk_trial_release(&c->best.trial);
   c->owned = 0;
 }
 
 /* ---- searching by runs ---- */
 
-static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, double value) {
-  struct hooke_study_row row;
+static int32_t try_value(hooke_study *study, struct hk_study_candidate *c, double value) {
+  struct hk_study_row row;
   study->row_deadline = study->deadline;
-  const int32_t status = hooke_study_measure(study, c->method, value, &row);
+  const int32_t status = hk_study_measure(study, c->method, value, &row);
   if (status == HOOKE_OK && row.trial.status && learn(c, &row)) {
-    hooke_study_candidate_release(c);
+    hk_study_candidate_release(c);
     c->best = row;
     c->owned = 1;
   } else {
-    hooke_trial_release(&row.trial);
+    hk_trial_release(&row.trial);
   }
   return status;
 }
@@ -131,40 +131,40 @@ static int32_t try_value(hooke_study *study, struct hooke_study_candidate *c, do
 /* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that takes as many
  * evaluations of forces. */
 static double as_fine_as_reference(const hooke_study *study, int32_t method) {
-  const struct hooke_reference *r = &study->reference;
-  if (!hooke_study_is_adaptive(study, method))
-    return hooke_study_fitting_step(study, study->duration / fmax(1.0, r->evaluations));
+  const struct hk_reference *r = &study->reference;
+  if (!hk_study_is_adaptive(study, method))
+    return hk_study_fitting_step(study, study->duration / fmax(1.0, r->evaluations));
   const double share = hooke_options_number(study->run, "atol") / hooke_options_number(study->run, "rtol");
   return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
 }
 
 /* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is spent. */
-static double least_value(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double least_value(const hooke_study *study, const struct hk_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
   if (is_adaptive(study, c)) return least;
   return isinf(study->budget) ? fmin(least, farthest) : 0.0;
 }
 
 /* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest row on. */
-static double by_slope(const struct hooke_study_candidate *c, double slope) {
+static double by_slope(const struct hk_study_candidate *c, double slope) {
   return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
 }
 
 /* By the order that the method has been seen to have. */
-static double by_order(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double by_order(const hooke_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   return by_slope(c, isnan(order) || order < 0.5 ? 1.0 : order);
 }
 
 /* By the best that it can have. */
-static double by_theory(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double by_theory(const hooke_study *study, const struct hk_study_candidate *c) {
   const double theory = study->order[c->method].theory;
   return by_slope(c, isnan(theory) ? 1.0 : theory);
 }
 
 /* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not diverge. NaN
  * when that has led far enough. */
-static double finer(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double finer(const hooke_study *study, const struct hk_study_candidate *c) {
   if (c->most <= 0.0) return NAN;
   const double least = least_value(study, c);
   if (c->fails <= least * (1.0 + 1e-9)) return NAN;
@@ -173,7 +173,7 @@ static double finer(const hooke_study *study, const struct hooke_study_candidate
   return fmax(least, fmax(c->fails / farthest, value));
 }
 
-static double coarser(const hooke_study *study, const struct hooke_study_candidate *c) {
+static double coarser(const hooke_study *study, const struct hk_study_candidate *c) {
   const int adaptive = is_adaptive(study, c);
   const double largest = adaptive ? LOOSEST : study->unit;
   const double value = c->meets * (adaptive ? COARSER_TOLERANCE : COARSER_STEP);
@@ -181,20 +181,20 @@ static double coarser(const hooke_study *study, const struct hooke_study_candida
 }
 
 /* The step that fits next to `step`, strictly between those that are known; NaN if there is none. */
-static double fit_between(const hooke_study *study, const struct hooke_study_candidate *c, double step) {
+static double fit_between(const hooke_study *study, const struct hk_study_candidate *c, double step) {
   const double most = isnan(c->meets) ? INFINITY : round(study->unit / c->meets) - 1.0;
   const double least = isnan(c->fails) ? 1.0 : round(study->unit / c->fails) + 1.0;
   const double parts = fmax(least, fmin(most, round(study->unit / step)));
   return parts <= most ? study->unit / parts : NAN;
 }
 
-static int is_close(const hooke_study *study, const struct hooke_study_candidate *c) {
+static int is_close(const hooke_study *study, const struct hk_study_candidate *c) {
   const double close = is_adaptive(study, c) ? CLOSE_TOLERANCE : CLOSE_STEP;
   return c->fails / c->meets <= close || c->error_at_meets >= CLOSE_ERROR * c->most;
 }
 
 /* Between the two by turns where the error should be right, and the middle, so that both ends move. */
-static double next_value(const hooke_study *study, const struct hooke_study_candidate *c, int32_t run) {
+static double next_value(const hooke_study *study, const struct hk_study_candidate *c, int32_t run) {
   double value;
   if (isnan(c->meets))
     value = isnan(c->fails) ? NAN : finer(study, c);
@@ -208,32 +208,32 @@ static double next_value(const hooke_study *study, const struct hooke_study_cand
 }
 
 /* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse to fine. */
-static double least_cost(const hooke_study *study, const struct hooke_study_candidate *c) {
-  const double seconds = hooke_study_candidate_cost(c);
+static double least_cost(const hooke_study *study, const struct hk_study_candidate *c) {
+  const double seconds = hk_study_candidate_cost(c);
   if (isnan(c->meets)) return isnan(c->error_at_fails) ? 0.0 : seconds;
   const double power = is_adaptive(study, c) ? LARGEST_POWER : 1.0;
   return isnan(c->fails) ? 0.0 : seconds * pow(c->best.value / c->fails, power);
 }
 
 /* Seconds that a run of the next value is going to take, for the deadline. */
-static double next_cost(const hooke_study *study, const struct hooke_study_candidate *c, double value) {
+static double next_cost(const hooke_study *study, const struct hk_study_candidate *c, double value) {
   const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
-  return hooke_study_candidate_cost(c) * pow(c->best.value / value, power);
+  return hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
 /* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical order; nor, where no
  * run has come to its end, if any other method has done better. */
-static int is_hopeless(const hooke_study *study, const struct hooke_study_candidate *c, double cost) {
+static int is_hopeless(const hooke_study *study, const struct hk_study_candidate *c, double cost) {
   if (!isnan(c->meets) || isinf(cost)) return 0;
   return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;
 }
 
-int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *c, double cost) {
+int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate *c, double cost) {
   int32_t status = HOOKE_OK;
   for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
     const double value = next_value(study, c, run);
     if (isnan(value) || is_hopeless(study, c, cost) || least_cost(study, c) >= cost) break;
-    const int late = hooke_clock_seconds() + next_cost(study, c, value) > study->deadline;
+    const int late = hk_clock_seconds() + next_cost(study, c, value) > study->deadline;
     study->budget_spent |= late;
     /* where nothing meets the want yet, what time is left is better spent on it */
     if (late && !isinf(cost)) break;
@@ -243,10 +243,10 @@ int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_cand
   return status;
 }
 
-int32_t hooke_study_candidate_try_finest(hooke_study *study, struct hooke_study_candidate *c) {
+int32_t hk_study_candidate_try_finest(hooke_study *study, struct hk_study_candidate *c) {
   const double value = as_fine_as_reference(study, c->method);
   if (c->most <= 0.0 || !isnan(c->meets) || c->fails <= value) return HOOKE_OK;
-  if (hooke_clock_seconds() < study->deadline) return try_value(study, c, value);
+  if (hk_clock_seconds() < study->deadline) return try_value(study, c, value);
   study->budget_spent = 1;
   return HOOKE_OK;
 }

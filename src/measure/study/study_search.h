@@ -5,7 +5,7 @@
 #include "measure/study/study.h"
 
 /* What is known of a method: values that meet the want, and coarser ones that do not. */
-struct hooke_study_candidate {
+struct hk_study_candidate {
   int32_t method;
   double most;         /* error that is allowed: the reference is only known to its agreement [m] */
   double meets, fails; /* the coarsest that does, the finest coarser one that does not; NaN: none */
@@ -13,24 +13,23 @@ struct hooke_study_candidate {
   double finest;                         /* row that came to its end, at first; where none has, the finest */
   int32_t finished;                      /* 1: one has */
   double rate; /* least seconds for a unit of work in any row: a row's own time may have met a busy machine */
-  double predicted;            /* wall time of what a search is going to find [s]; infinite: it will not */
-  struct hooke_study_row best; /* the cheapest row that meets the want, or else the closest to it */
-  int32_t owned;               /* 1: the trial of `best` is the candidate's own */
+  double predicted;         /* wall time of what a search is going to find [s]; infinite: it will not */
+  struct hk_study_row best; /* the cheapest row that meets the want, or else the closest to it */
+  int32_t owned;            /* 1: the trial of `best` is the candidate's own */
 };
 
 /* Seconds that the best row takes. */
-double hooke_study_candidate_cost(const struct hooke_study_candidate *candidate);
+double hk_study_candidate_cost(const struct hk_study_candidate *candidate);
 
 /* From the rows of the ladder. */
-void hooke_study_candidate_create(const hooke_study *study, int32_t method, double want,
-                                  struct hooke_study_candidate *candidate);
-void hooke_study_candidate_release(struct hooke_study_candidate *candidate);
+void hk_study_candidate_create(const hooke_study *study, int32_t method, double want,
+                               struct hk_study_candidate *candidate);
+void hk_study_candidate_release(struct hk_study_candidate *candidate);
 
 /* Narrows it down by runs, until the deadline or until it cannot come below `cost` any more [wall seconds]. */
-int32_t hooke_study_candidate_search(hooke_study *study, struct hooke_study_candidate *candidate,
-                                     double cost);
+int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate *candidate, double cost);
 
 /* Runs what is as fine as the reference, if no run of it as fine has been. */
-int32_t hooke_study_candidate_try_finest(hooke_study *study, struct hooke_study_candidate *candidate);
+int32_t hk_study_candidate_try_finest(hooke_study *study, struct hk_study_candidate *candidate);
 
 #endif

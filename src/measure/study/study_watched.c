@@ -13,33 +13,33 @@ static const char *behind(const char *what, const char *word) {
   return strncmp(what, word, length) == 0 ? what + length : NULL;
 }
 
-static const struct hooke_watched *item_at(const struct hooke_watched_list *list, const char *number) {
+static const struct hk_watched *item_at(const struct hk_watched_list *list, const char *number) {
   char *end;
   const long long k = strtoll(number, &end, 10);
   return number[0] >= '0' && number[0] <= '9' && *end == '\0' && k < list->count ? &list->item[k] : NULL;
 }
 
-static const struct hooke_watched_list *all_quantities(const hooke_study *study) {
+static const struct hk_watched_list *all_quantities(const hooke_study *study) {
   return study->ensemble ? &study->ensemble->quantities : &study->watched;
 }
 
-const char *hooke_study_watched_text(const hooke_study *study, const char *what) {
+const char *hk_study_watched_text(const hooke_study *study, const char *what) {
   const char *number = behind(what, "watched:"), *text = behind(what, "unit:");
-  const struct hooke_watched *item = NULL;
+  const struct hk_watched *item = NULL;
   if (number) item = item_at(&study->watched, number);
   if ((number = behind(what, "quantity:")) && study->ensemble)
     item = item_at(&study->ensemble->quantities, number);
   if (item) return item->text;
-  const struct hooke_watched_list *all = all_quantities(study);
-  const int64_t k = text ? hooke_watched_find(all, text) : -1;
-  return k < 0 ? NULL : hooke_watched_unit(&all->item[k]);
+  const struct hk_watched_list *all = all_quantities(study);
+  const int64_t k = text ? hk_watched_find(all, text) : -1;
+  return k < 0 ? NULL : hk_watched_unit(&all->item[k]);
 }
 
-double hooke_study_watched_figure(const hooke_study *study, const char *what) {
-  const struct hooke_ensemble *e = study->ensemble;
+double hk_study_watched_figure(const hooke_study *study, const char *what) {
+  const struct hk_ensemble *e = study->ensemble;
   const char *quantity = behind(what, "agreement:");
-  if (quantity) return hooke_watched_series_figure(&study->reference.frames.watched, quantity);
-  const struct hooke_figure figures[] = {
+  if (quantity) return hk_watched_series_figure(&study->reference.frames.watched, quantity);
+  const struct hk_figure figures[] = {
       {"watched", (double)study->watched.count},
       {"quantities", e ? (double)e->quantities.count : 0.0},
       {"members", e ? (double)e->members : 0.0},

@@ -16,7 +16,7 @@ static double largest_energy(const hooke_system *system, const double *q, const 
 }
 
 /* Power that driven particles put in and that becomes heat, at a state. */
-static int32_t find_powers(const struct hooke_balance *balance, const hooke_state *state, double *in,
+static int32_t find_powers(const struct hk_balance *balance, const hooke_state *state, double *in,
                            double *out) {
   const hooke_system *system = balance->system;
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -32,11 +32,10 @@ static int32_t find_powers(const struct hooke_balance *balance, const hooke_stat
   return status;
 }
 
-int32_t hooke_balance_begin(struct hooke_balance *balance, const hooke_system *system,
-                            const hooke_state *state) {
-  *balance = (struct hooke_balance){.system = system, .dissipated_power = hooke_system_dissipated_power};
+int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system, const hooke_state *state) {
+  *balance = (struct hk_balance){.system = system, .dissipated_power = hooke_system_dissipated_power};
   if (system->drive_count > 0) {
-    balance->force = hooke_new(3 * system->particle_count, sizeof(double));
+    balance->force = hk_new(3 * system->particle_count, sizeof(double));
     if (balance->force == NULL) return HOOKE_NO_MEMORY;
   }
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -46,7 +45,7 @@ int32_t hooke_balance_begin(struct hooke_balance *balance, const hooke_system *s
   return find_powers(balance, state, &balance->power_in, &balance->power_out);
 }
 
-int32_t hooke_balance_step(struct hooke_balance *balance, const hooke_state *state) {
+int32_t hk_balance_step(struct hk_balance *balance, const hooke_state *state) {
   double in, out;
   const int32_t status = find_powers(balance, state, &in, &out);
   const double step = hooke_state_time(state) - balance->time;
@@ -60,7 +59,7 @@ int32_t hooke_balance_step(struct hooke_balance *balance, const hooke_state *sta
   return HOOKE_OK;
 }
 
-void hooke_balance_close(struct hooke_balance *balance, const hooke_state *state) {
+void hk_balance_close(struct hk_balance *balance, const hooke_state *state) {
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double energy = hooke_system_energy(balance->system, q, v);
   balance->residual = ((energy - balance->energy) - balance->work) + balance->heat;
@@ -68,17 +67,17 @@ void hooke_balance_close(struct hooke_balance *balance, const hooke_state *state
   balance->scale = fmax(balance->scale, fabs(balance->work) + balance->heat);
 }
 
-void hooke_balance_release(struct hooke_balance *balance) {
-  hooke_free(balance->force);
+void hk_balance_release(struct hk_balance *balance) {
+  hk_free(balance->force);
   balance->force = NULL;
 }
 
-double hooke_balance_floor(const struct hooke_balance *balance) {
+double hk_balance_floor(const struct hk_balance *balance) {
   return 8.0 * DBL_EPSILON * (double)(balance->points + 8) * balance->scale;
 }
 
-int32_t hooke_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
-                            double *largest, double *bound) {
+int32_t hk_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
+                         double *largest, double *bound) {
   double difference = 0.0;
   *largest = 0.0;
   for (int64_t k = 0; k < count; k++) {

@@ -11,7 +11,7 @@
 
 #include "hooke/state.h"
 
-struct hooke_balance {
+struct hk_balance {
   const hooke_system *system;
   double (*dissipated_power)(const hooke_system *system, const double *q, const double *v);
   double energy, work, heat; /* [J]: at the start; since then */
@@ -22,21 +22,20 @@ struct hooke_balance {
 };
 
 /* Starts at `state`; to be released in each case. HOOKE_NO_MEMORY, HOOKE_STOPPED. */
-int32_t hooke_balance_begin(struct hooke_balance *balance, const hooke_system *system,
-                            const hooke_state *state);
+int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system, const hooke_state *state);
 /* Takes the state after another step. */
-int32_t hooke_balance_step(struct hooke_balance *balance, const hooke_state *state);
+int32_t hk_balance_step(struct hk_balance *balance, const hooke_state *state);
 /* Finds what is left over there. */
-void hooke_balance_close(struct hooke_balance *balance, const hooke_state *state);
-void hooke_balance_release(struct hooke_balance *balance);
+void hk_balance_close(struct hk_balance *balance, const hooke_state *state);
+void hk_balance_release(struct hk_balance *balance);
 
 /* What rounding leaves at most [J]. */
-double hooke_balance_floor(const struct hooke_balance *balance);
+double hk_balance_floor(const struct hk_balance *balance);
 
 /* A residual that is the error of a method gets smaller as the step is halved; what is wrong does not. Of `count` residuals
  * at some step and at half of it: the largest of the first, and the bound that it has to keep,
  * four times their largest difference and the floor. Of first order the difference is half of the residual. 1 if it is kept. */
-int32_t hooke_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
-                            double *largest, double *bound);
+int32_t hk_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
+                         double *largest, double *bound);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-static int32_t see(struct hooke_bracket *b, double step) {
-  enum hooke_trial_end end = HOOKE_TRIAL_UNKNOWN;
+static int32_t see(struct hk_bracket *b, double step) {
+  enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
   const int32_t status = b->try_step(b->ctx, step, &end);
   if (status != HOOKE_OK) return status;
   if (end == HOOKE_TRIAL_HOLDS)
@@ -32,7 +32,7 @@ static double outwards(struct reach *reach, double guess, int up) {
   return up ? guess * reach->factor : guess / reach->factor;
 }
 
-int32_t hooke_bracket_search(struct hooke_bracket *b, double guess) {
+int32_t hk_bracket_search(struct hk_bracket *b, double guess) {
   struct reach below = {0.2 * b->accuracy, sqrt(2.0)}, above = {0.25 * b->accuracy, sqrt(2.0)};
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && !b->unknown && isinf(b->fails) && b->holds < b->most)

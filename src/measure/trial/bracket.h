@@ -5,15 +5,15 @@
 
 #include <stdint.h>
 
-enum hooke_trial_end {
+enum hk_trial_end {
   HOOKE_TRIAL_FAILS,
   HOOKE_TRIAL_HOLDS,
   HOOKE_TRIAL_UNKNOWN /* the search ends without an answer */
 };
 
-struct hooke_bracket {
+struct hk_bracket {
   /* What happens at `step`: a status. */
-  int32_t (*try_step)(void *ctx, double step, enum hooke_trial_end *end);
+  int32_t (*try_step)(void *ctx, double step, enum hk_trial_end *end);
   void *ctx;
   double accuracy;    /* of the limit, relative */
   double least, most; /* steps beyond which nobody looks */
@@ -24,6 +24,6 @@ struct hooke_bracket {
 
 /* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond `least` or `most`,
  * or a trial has no answer. */
-int32_t hooke_bracket_search(struct hooke_bracket *bracket, double guess);
+int32_t hk_bracket_search(struct hk_bracket *bracket, double guess);
 
 #endif

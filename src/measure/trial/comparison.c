@@ -20,14 +20,14 @@ static int32_t tell_frame(int64_t frame, int64_t step, const hooke_state *state,
   return frame < c->frame_count ? c->on_frame(name_of_run(c), frame, step, state, c->on_frame_ctx) : 0;
 }
 
-static struct hooke_listener listener_of(hooke_comparison *c) {
-  return (struct hooke_listener){.on_progress = c->progress ? tell_progress : NULL,
-                                 .on_frame = c->on_frame ? tell_frame : NULL,
-                                 .ctx = c};
+static struct hk_listener listener_of(hooke_comparison *c) {
+  return (struct hk_listener){.on_progress = c->progress ? tell_progress : NULL,
+                              .on_frame = c->on_frame ? tell_frame : NULL,
+                              .ctx = c};
 }
 
 static int32_t run_reference(hooke_comparison *c) {
-  const struct hooke_listener listener = listener_of(c);
+  const struct hk_listener listener = listener_of(c);
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(c->options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", c->reference);
@@ -37,33 +37,31 @@ static int32_t run_reference(hooke_comparison *c) {
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
   c->runs_begun++;
-  if (status == HOOKE_OK) status = hooke_frames_run(&c->frames, options, &listener, NULL, NULL);
+  if (status == HOOKE_OK) status = hk_frames_run(&c->frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
   return status;
 }
 
-static int32_t run_row(hooke_comparison *c, struct hooke_comparison_row *row) {
-  const struct hooke_listener listener = listener_of(c);
+static int32_t run_row(hooke_comparison *c, struct hk_comparison_row *row) {
+  const struct hk_listener listener = listener_of(c);
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(c->options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", row->method);
   c->runs_begun++;
-  if (status == HOOKE_OK)
-    status = hooke_trial_run(&row->trial, &c->frames, c->frames.count, options, &listener);
+  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &c->frames, c->frames.count, options, &listener);
   hooke_options_destroy(options);
   return status;
 }
 
 int32_t hooke_comparison_run(hooke_comparison *c) {
-  if (c->runs_begun > 0)
-    return hooke_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
-  int32_t status = hooke_comparison_prepare(c);
+  if (c->runs_begun > 0) return hk_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
+  int32_t status = hk_comparison_prepare(c);
   if (status == HOOKE_OK) status = run_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)
     status = run_row(c, &c->row[k]);
   /* as before, unless frames have been handed out */
   if (status < 0 && c->on_frame == NULL) {
-    hooke_comparison_release_room(c);
+    hk_comparison_release_room(c);
     c->runs_begun = 0;
   }
   return status;

@@ -4,19 +4,19 @@
 
 #include "measure/trial/trial.h"
 
-struct hooke_comparison_row {
+struct hk_comparison_row {
   char *method;
-  struct hooke_trial trial;
+  struct hk_trial trial;
 };
 
 struct hooke_comparison {
   const hooke_system *system;
   hooke_options *options;
-  const char *reference;      /* method; NULL until prepared */
-  struct hooke_frames frames; /* of the reference */
+  const char *reference;   /* method; NULL until prepared */
+  struct hk_frames frames; /* of the reference */
   int64_t frame_count;
   int64_t row_count, row_capacity;
-  struct hooke_comparison_row *row;
+  struct hk_comparison_row *row;
 
   hooke_progress *progress;
   void *progress_ctx;
@@ -27,8 +27,8 @@ struct hooke_comparison {
 };
 
 /* Room for frames and rows, and the method that gives the reference; once, before the first run. */
-int32_t hooke_comparison_prepare(hooke_comparison *comparison);
+int32_t hk_comparison_prepare(hooke_comparison *comparison);
 /* Undoes that. */
-void hooke_comparison_release_room(hooke_comparison *comparison);
+void hk_comparison_release_room(hooke_comparison *comparison);
 
 #endif

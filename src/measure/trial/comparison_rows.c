@@ -12,14 +12,14 @@
 
 int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,
                                 hooke_comparison **out) {
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = hooke_run_options_require(options, "options");
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_run_options_require(options, "options");
   if (status != HOOKE_OK) return status;
   if (!hooke_method_is_built("cvode-adams")) {
-    return hooke_fail(HOOKE_NOT_BUILT, NULL,
-                      "a comparison needs SUNDIALS for its reference, which this build is without");
+    return hk_fail(HOOKE_NOT_BUILT, NULL,
+                   "a comparison needs SUNDIALS for its reference, which this build is without");
   }
-  hooke_comparison *c = hooke_handle_new("hooke_comparison", sizeof *c);
+  hooke_comparison *c = hk_handle_new("hooke_comparison", sizeof *c);
   if (c == NULL) return HOOKE_NO_MEMORY;
   c->system = system;
   status = hooke_options_copy(options, &c->options);
@@ -30,43 +30,43 @@ int32_t hooke_comparison_create(const hooke_system *system, const hooke_options 
   return status;
 }
 
-void hooke_comparison_release_room(hooke_comparison *c) {
+void hk_comparison_release_room(hooke_comparison *c) {
   for (int64_t k = 0; k < c->row_count; k++)
-    hooke_trial_release(&c->row[k].trial);
-  hooke_frames_release(&c->frames);
+    hk_trial_release(&c->row[k].trial);
+  hk_frames_release(&c->frames);
   c->reference = NULL;
 }
 
 void hooke_comparison_destroy(hooke_comparison *c) {
   if (c == NULL) return;
-  hooke_comparison_release_room(c);
+  hk_comparison_release_room(c);
   for (int64_t k = 0; k < c->row_count; k++)
-    hooke_free(c->row[k].method);
+    hk_free(c->row[k].method);
   hooke_options_destroy(c->options);
-  hooke_free(c->row);
-  hooke_handle_free(c);
+  hk_free(c->row);
+  hk_handle_free(c);
 }
 
 int32_t hooke_comparison_add(hooke_comparison *c, const char *method) {
   if (c->reference) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL,
-                      "the comparison is under way; add methods before it is run or written");
+    return hk_fail(HOOKE_BAD_CALL, NULL,
+                   "the comparison is under way; add methods before it is run or written");
   }
   if (hooke_method_is_adaptive(method) < 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+    return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   }
   if (!hooke_method_is_built(method)) {
-    return hooke_fail(HOOKE_NOT_BUILT, "method", "this build is without %s", method);
+    return hk_fail(HOOKE_NOT_BUILT, "method", "this build is without %s", method);
   }
   if (c->row_count == c->row_capacity) {
     const int64_t capacity = 2 * c->row_capacity + 4;
-    const int32_t status = hooke_grow((void **)&c->row, c->row_count, capacity, sizeof *c->row);
+    const int32_t status = hk_grow((void **)&c->row, c->row_count, capacity, sizeof *c->row);
     if (status != HOOKE_OK) return status;
     c->row_capacity = capacity;
   }
-  char *name = hooke_copy_text(method);
+  char *name = hk_copy_text(method);
   if (name == NULL) return HOOKE_NO_MEMORY;
-  c->row[c->row_count++] = (struct hooke_comparison_row){.method = name};
+  c->row[c->row_count++] = (struct hk_comparison_row){.method = name};
   return HOOKE_OK;
 }
 
@@ -84,24 +84,24 @@ void hooke_comparison_on_frame(hooke_comparison *comparison, hooke_comparison_fr
 
 /* The schedule that all rows share: the one of a fixed-step method if the options have a step. */
 static int32_t read_schedule(hooke_comparison *c) {
-  struct hooke_schedule schedule;
+  struct hk_schedule schedule;
   int has_fixed = 0;
   for (int64_t k = 0; k < c->row_count; k++)
     has_fixed |= !hooke_method_is_adaptive(c->row[k].method);
-  const struct hooke_method *method = hooke_method_find(has_fixed ? "forward-euler" : "cvode-adams");
-  const int32_t status = hooke_schedule_read(method, c->options, &schedule);
+  const struct hk_method *method = hk_method_find(has_fixed ? "forward-euler" : "cvode-adams");
+  const int32_t status = hk_schedule_read(method, c->options, &schedule);
   if (status != HOOKE_OK) return status;
   if (schedule.frames == 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
   }
   c->frame_count = schedule.frames;
   return HOOKE_OK;
 }
 
 static int32_t make_room(hooke_comparison *c) {
-  int32_t status = hooke_frames_create(c->system, c->frame_count, &c->frames);
+  int32_t status = hk_frames_create(c->system, c->frame_count, &c->frames);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++) {
-    status = hooke_trial_create(&c->frames, &c->row[k].trial);
+    status = hk_trial_create(&c->frames, &c->row[k].trial);
   }
   return status;
 }
@@ -114,17 +114,16 @@ static int32_t add_all_methods(hooke_comparison *c) {
   return status;
 }
 
-int32_t hooke_comparison_prepare(hooke_comparison *c) {
+int32_t hk_comparison_prepare(hooke_comparison *c) {
   if (c->reference) return HOOKE_OK;
   int32_t status = c->row_count == 0 ? add_all_methods(c) : HOOKE_OK;
   hooke_state *state = NULL;
   if (status == HOOKE_OK) status = read_schedule(c);
   if (status == HOOKE_OK) status = hooke_state_create(c->system, &state);
   if (status == HOOKE_OK) status = make_room(c);
-  if (status == HOOKE_OK)
-    status = hooke_reference_method(c->system, hooke_state_position(state), &c->reference);
+  if (status == HOOKE_OK) status = hk_reference_method(c->system, hooke_state_position(state), &c->reference);
   hooke_state_destroy(state);
-  if (status != HOOKE_OK) hooke_comparison_release_room(c);
+  if (status != HOOKE_OK) hk_comparison_release_room(c);
   return status;
 }
 
@@ -134,20 +133,20 @@ int64_t hooke_comparison_row_count(const hooke_comparison *comparison) {
   return comparison->row_count;
 }
 
-static const struct hooke_comparison_row *row_at(const hooke_comparison *c, int64_t row) {
+static const struct hk_comparison_row *row_at(const hooke_comparison *c, int64_t row) {
   return row >= 0 && row < c->row_count ? &c->row[row] : NULL;
 }
 
 const char *hooke_comparison_text(const hooke_comparison *c, int64_t row, const char *what) {
-  const struct hooke_comparison_row *r = row_at(c, row);
+  const struct hk_comparison_row *r = row_at(c, row);
   if (r == NULL) return NULL;
   if (strcmp(what, "method") == 0) return r->method;
   return strcmp(what, "status") == 0 ? (r->trial.status ? r->trial.status : "not run") : NULL;
 }
 
 double hooke_comparison_number(const hooke_comparison *c, int64_t row, const char *what) {
-  const struct hooke_comparison_row *r = row_at(c, row);
-  return r ? hooke_trial_number(&r->trial, what) : NAN;
+  const struct hk_comparison_row *r = row_at(c, row);
+  return r ? hk_trial_number(&r->trial, what) : NAN;
 }
 
 const char *hooke_comparison_reference(const hooke_comparison *comparison) {
@@ -159,7 +158,7 @@ int64_t hooke_comparison_frame_count(const hooke_comparison *comparison) {
 }
 
 const double *hooke_comparison_series(const hooke_comparison *c, int64_t row, const char *what) {
-  const struct hooke_comparison_row *r = row_at(c, row);
+  const struct hk_comparison_row *r = row_at(c, row);
   if (strcmp(what, "time") == 0) return c->frames.time;
   if (r == NULL) return NULL;
   if (strcmp(what, "error") == 0) return r->trial.error_at;

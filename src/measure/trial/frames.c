@@ -7,48 +7,48 @@
 #include <stddef.h>
 #include <string.h>
 
-static void find_free_particles(struct hooke_frames *frames) {
+static void find_free_particles(struct hk_frames *frames) {
   const double *inverse_mass = hooke_system_inverse_mass(frames->system);
   for (int64_t p = 0; p < hooke_system_particle_count(frames->system); p++) {
     if (inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
   }
 }
 
-int32_t hooke_frames_create(const hooke_system *system, int64_t count, struct hooke_frames *frames) {
+int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  *frames = (struct hooke_frames){.system = system, .count = count, .size = size};
-  frames->time = hooke_new(count, sizeof(double));
-  frames->energy = hooke_new(count, sizeof(double));
-  frames->position = hooke_new(count, (size_t)(size + 1) * sizeof(double));
-  frames->free_particle = hooke_new(hooke_system_free_count(system), sizeof(int64_t));
+  *frames = (struct hk_frames){.system = system, .count = count, .size = size};
+  frames->time = hk_new(count, sizeof(double));
+  frames->energy = hk_new(count, sizeof(double));
+  frames->position = hk_new(count, (size_t)(size + 1) * sizeof(double));
+  frames->free_particle = hk_new(hooke_system_free_count(system), sizeof(int64_t));
   if (!frames->time || !frames->energy || !frames->position || !frames->free_particle) {
-    hooke_frames_release(frames);
+    hk_frames_release(frames);
     return HOOKE_NO_MEMORY;
   }
   find_free_particles(frames);
   return HOOKE_OK;
 }
 
-void hooke_frames_release(struct hooke_frames *frames) {
-  hooke_free(frames->time);
-  hooke_free(frames->energy);
-  hooke_free(frames->position);
-  hooke_free(frames->free_particle);
-  hooke_watched_series_release(&frames->watched);
+void hk_frames_release(struct hk_frames *frames) {
+  hk_free(frames->time);
+  hk_free(frames->energy);
+  hk_free(frames->position);
+  hk_free(frames->free_particle);
+  hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
 }
 
-void hooke_frames_record(struct hooke_frames *frames, const hooke_state *state) {
+void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   if (frames->recorded >= frames->count) return;
   const int64_t f = frames->recorded++;
   const double *q = hooke_state_position(state);
   frames->time[f] = hooke_state_time(state);
   frames->energy[f] = hooke_system_energy(frames->system, q, hooke_state_velocity(state));
-  hooke_watched_series_keep(&frames->watched, f, q, hooke_state_velocity(state));
+  hk_watched_series_keep(&frames->watched, f, q, hooke_state_velocity(state));
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 
-double hooke_frames_distance(const struct hooke_frames *frames, int64_t f, const double *q, double *largest) {
+double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest) {
   const double *reference = frames->position + f * frames->size;
   double sum = 0.0, most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++) {

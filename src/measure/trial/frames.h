@@ -5,25 +5,25 @@
 #include "hooke/integrator.h"
 #include "measure/watch/watched_series.h"
 
-struct hooke_frames {
+struct hk_frames {
   const hooke_system *system;
-  int64_t count, size;                 /* frames, and numbers in a position (3n) */
-  int64_t recorded;                    /* frames recorded so far */
-  double *time;                        /* count [s] */
-  double *energy;                      /* count [J] */
-  double *position;                    /* count x size [m] */
-  int64_t *free_particle, free_count;  /* errors are measured over these */
-  struct hooke_watched_series watched; /* of nothing unless it is made */
+  int64_t count, size;                /* frames, and numbers in a position (3n) */
+  int64_t recorded;                   /* frames recorded so far */
+  double *time;                       /* count [s] */
+  double *energy;                     /* count [J] */
+  double *position;                   /* count x size [m] */
+  int64_t *free_particle, free_count; /* errors are measured over these */
+  struct hk_watched_series watched;   /* of nothing unless it is made */
 };
 
 /* Room for `count` frames of a committed system. HOOKE_NO_MEMORY. */
-int32_t hooke_frames_create(const hooke_system *system, int64_t count, struct hooke_frames *frames);
-void hooke_frames_release(struct hooke_frames *frames);
+int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames);
+void hk_frames_release(struct hk_frames *frames);
 
 /* Keeps the next frame; those beyond `count` are left out. */
-void hooke_frames_record(struct hooke_frames *frames, const hooke_state *state);
+void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance too. */
-double hooke_frames_distance(const struct hooke_frames *frames, int64_t f, const double *q, double *largest);
+double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
 
 #endif

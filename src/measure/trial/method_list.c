@@ -4,16 +4,16 @@
 
 #include <string.h>
 
-static int32_t take_named(const char *name, size_t length, hooke_method_taker *take, void *ctx) {
+static int32_t take_named(const char *name, size_t length, hk_method_taker *take, void *ctx) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *known = hooke_method_name(k);
     if (strlen(known) == length && strncmp(known, name, length) == 0) return take(known, ctx);
   }
-  return hooke_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, name);
+  return hk_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, name);
 }
 
-int32_t hooke_method_list_read(const char *names, int32_t (*suits)(const char *method),
-                               hooke_method_taker *take, void *ctx) {
+int32_t hk_method_list_read(const char *names, int32_t (*suits)(const char *method), hk_method_taker *take,
+                            void *ctx) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_method_count() && names[0] == '\0' && status == HOOKE_OK; k++) {
     const char *name = hooke_method_name(k);

@@ -5,36 +5,36 @@
 #include <math.h>
 #include <stddef.h>
 
-struct hooke_patience hooke_patience_of(double seconds, hooke_progress *progress, void *ctx) {
-  const double now = hooke_clock_seconds();
-  return (struct hooke_patience){
+struct hk_patience hk_patience_of(double seconds, hooke_progress *progress, void *ctx) {
+  const double now = hk_clock_seconds();
+  return (struct hk_patience){
       .begun = now, .until = now + seconds, .end = now + seconds, .progress = progress, .ctx = ctx};
 }
 
-int32_t hooke_patience_ends(struct hooke_patience *p, const char *what) {
+int32_t hk_patience_ends(struct hk_patience *p, const char *what) {
   if (p == NULL) return 0;
   if (p->spent || p->stopped) return 1;
-  const double now = hooke_clock_seconds();
+  const double now = hk_clock_seconds();
   const double done = isinf(p->end) ? 0.0 : fmin(1.0, (now - p->begun) / (p->end - p->begun));
   p->stopped = p->progress && p->progress(done, what, p->ctx) != 0;
   p->spent = !(now < p->until);
   return p->spent || p->stopped;
 }
 
-int32_t hooke_patience_has(struct hooke_patience *p, double seconds) {
+int32_t hk_patience_has(struct hk_patience *p, double seconds) {
   if (p == NULL) return 1;
-  p->spent |= !(hooke_clock_seconds() + seconds <= p->until);
+  p->spent |= !(hk_clock_seconds() + seconds <= p->until);
   return !p->spent && !p->stopped;
 }
 
-void hooke_patience_lend(struct hooke_patience *p, double share) {
-  const double now = hooke_clock_seconds();
+void hk_patience_lend(struct hk_patience *p, double share) {
+  const double now = hk_clock_seconds();
   p->until = now + share * (p->end - now);
 }
 
-int32_t hooke_patience_take_back(struct hooke_patience *p) {
+int32_t hk_patience_take_back(struct hk_patience *p) {
   const int32_t spent = p->spent;
   p->until = p->end;
-  p->spent = !(hooke_clock_seconds() < p->end);
+  p->spent = !(hk_clock_seconds() < p->end);
   return spent;
 }

@@ -27,25 +27,24 @@ static const double CHECK_COST = 2.0; /* of the check against the first method, 
  * is no further level once all frames are trusted. */
 static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
-int32_t hooke_reference_method(const hooke_system *system, const double *q, const char **method) {
-  struct hooke_node_blocks blocks;
-  const int32_t status = hooke_node_blocks_create(system, q, &blocks);
+int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
+  struct hk_node_blocks blocks;
+  const int32_t status = hk_node_blocks_create(system, q, &blocks);
   *method = "cvode-adams";
   if (status != HOOKE_OK) return status;
-  if (hooke_node_blocks_damping_rate(&blocks) > 2.0 * hooke_node_blocks_frequency(&blocks))
-    *method = "cvode-bdf";
-  hooke_node_blocks_release(&blocks);
+  if (hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks)) *method = "cvode-bdf";
+  hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
 
-void hooke_reference_release(struct hooke_reference *reference) {
-  hooke_frames_release(&reference->frames);
+void hk_reference_release(struct hk_reference *reference) {
+  hk_frames_release(&reference->frames);
   memset(reference, 0, sizeof *reference);
 }
 
 /* Before any run: the start alone, and 1 m for a scene without size. */
 static int32_t find_extent(const hooke_state *state, double *extent) {
-  *extent = hooke_reference_diagonal(hooke_state_size(state) / 3, hooke_state_position(state));
+  *extent = hk_reference_diagonal(hooke_state_size(state) / 3, hooke_state_position(state));
   if (!(*extent > 0.0)) *extent = 1.0;
   return HOOKE_OK;
 }
@@ -53,7 +52,7 @@ static int32_t find_extent(const hooke_state *state, double *extent) {
 /* ---- agreement ---- */
 
 /* Frames from the first on whose distance, with safety, is at most `digits`. */
-static void trust(struct hooke_reference *r, const struct hooke_trial *check, double digits) {
+static void trust(struct hk_reference *r, const struct hk_trial *check, double digits) {
   r->digits = digits;
   r->agreement = r->energy_agreement = 0.0;
   for (r->trusted = 0; r->trusted < r->checked; r->trusted++) {
@@ -65,8 +64,8 @@ static void trust(struct hooke_reference *r, const struct hooke_trial *check, do
 }
 
 /* Where the wanted digits are beyond reach from the first frame on, as many as there may be. */
-static void find_trust(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                       const struct hooke_trial *check) {
+static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
+                       const struct hk_trial *check) {
   const double fallback = DIGITS * r->extent, wanted = watch->request->digits;
   r->checked = 0;
   watch->apart = 0.0;
@@ -75,58 +74,58 @@ static void find_trust(struct hooke_reference_watch *watch, struct hooke_referen
   trust(r, check, isnan(wanted) ? fallback : wanted);
   r->coarse = r->trusted < 2 && r->digits < fallback;
   if (r->coarse) trust(r, check, fallback);
-  hooke_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
+  hk_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
 }
 
 /* ---- levels ---- */
 
 /* What is still to come beside this level, for progress: the levels that are usual, and the runs for the growth. */
-static double ahead_of_level(const struct hooke_reference_watch *watch) {
+static double ahead_of_level(const struct hk_reference_watch *watch) {
   const double growth = watch->request->enough ? 0.0 : 1.0;
   return growth + fmax(0.0, EXPECTED_LEVELS - watch->levels) * (1.0 + CHECK_COST);
 }
 
 /* One level: a run, and another to check it. */
-static int32_t agree(struct hooke_reference_watch *watch, struct hooke_reference *r, double tolerance,
-                     struct hooke_trial *check) {
+static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
+                     struct hk_trial *check) {
   const double budget = watch->request->budget;
   const int first = r->check == NULL;
   const double deadline = watch->begun + LEVELS_SHARE * budget;
-  struct hooke_reference_cost cost;
+  struct hk_reference_cost cost;
   r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
-  int32_t status = hooke_reference_make_frames(
-      watch, r, first ? watch->begun + FIRST_RUN_SHARE * budget : deadline, &cost);
+  int32_t status =
+      hk_reference_make_frames(watch, r, first ? watch->begun + FIRST_RUN_SHARE * budget : deadline, &cost);
   if (status != HOOKE_OK || r->frames.recorded < 2) return status;
-  if (first) status = hooke_reference_choose_check(watch, r, tolerance, cost);
+  if (first) status = hk_reference_choose_check(watch, r, tolerance, cost);
   watch->ahead = ahead_of_level(watch);
-  const struct hooke_listener listener = hooke_reference_listen(watch, deadline);
-  if (status == HOOKE_OK) status = hooke_reference_judge(watch, r, r->check, tolerance, &listener, check);
+  const struct hk_listener listener = hk_reference_listen(watch, deadline);
+  if (status == HOOKE_OK) status = hk_reference_judge(watch, r, r->check, tolerance, &listener, check);
   if (status == HOOKE_OK) find_trust(watch, r, check);
   return status;
 }
 
 /* The further agreement is kept, of equals the later; the wanted digits come before any others. */
-static void keep_further(struct hooke_reference *r, struct hooke_reference *next) {
+static void keep_further(struct hk_reference *r, struct hk_reference *next) {
   const int better = next->coarse != r->coarse ? r->coarse : next->trusted >= r->trusted;
-  struct hooke_reference *worse = better ? r : next;
-  hooke_frames_release(&worse->frames);
+  struct hk_reference *worse = better ? r : next;
+  hk_frames_release(&worse->frames);
   if (worse == r) *r = *next;
 }
 
-static double first_tolerance(const struct hooke_reference_request *request, double extent) {
+static double first_tolerance(const struct hk_reference_request *request, double extent) {
   if (!request->enough && isinf(request->budget)) return TIGHT;
   if (isnan(request->digits)) return request->enough ? FIRST_SHARE * DIGITS : QUICK;
   return fmax(TIGHT, fmin(LOOSEST, FIRST_SHARE * request->digits / extent));
 }
 
-static int is_all(const struct hooke_reference *r) {
+static int is_all(const struct hk_reference *r) {
   return r->trusted == r->frames.count && !r->coarse;
 }
 
 /* To where the two should agree: errors go with the tolerance, as long as motion is not chaotic. */
-static double next_tolerance(const struct hooke_reference_watch *watch, const struct hooke_reference *r,
+static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
   const double aim = AIM * (is_all(r) ? CLOSE * r->extent : r->digits) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
@@ -134,7 +133,7 @@ static double next_tolerance(const struct hooke_reference_watch *watch, const st
 }
 
 /* 1 if the reference is as good as is asked for. */
-static int is_enough(const struct hooke_reference_request *request, const struct hooke_reference *r) {
+static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
   return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
 }
 
@@ -144,16 +143,16 @@ static int gave_up(int32_t status) {
 }
 
 /* A level beside what is kept so far, whose place it may take. */
-static int32_t run_level(struct hooke_reference_watch *watch, struct hooke_reference *r, double tolerance,
-                         struct hooke_trial *check) {
-  struct hooke_reference next = *r;
+static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
+                         struct hk_trial *check) {
+  struct hk_reference next = *r;
   next.trusted = next.checked = 0;
-  int32_t status = hooke_frames_create(r->frames.system, r->frames.count, &next.frames);
+  int32_t status = hk_frames_create(r->frames.system, r->frames.count, &next.frames);
   if (status == HOOKE_OK)
-    status = hooke_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
+    status = hk_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
   if (status == HOOKE_OK) status = agree(watch, &next, tolerance, check);
   if (status != HOOKE_OK) {
-    hooke_frames_release(&next.frames);
+    hk_frames_release(&next.frames);
     return status;
   }
   watch->cut = next.checked < next.frames.count;
@@ -163,27 +162,26 @@ static int32_t run_level(struct hooke_reference_watch *watch, struct hooke_refer
 
 /* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the share of
  * the budget for levels ends. */
-static int has_time(const struct hooke_reference_watch *watch, const struct hooke_reference *r, double times,
+static int has_time(const struct hk_reference_watch *watch, const struct hk_reference *r, double times,
                     double seconds) {
   const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
   const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
-  return hooke_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
+  return hk_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
 }
 
 /* Tightens until the two agree, tolerances end, or time does. */
-static int32_t tighten(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                       struct hooke_trial *check) {
+static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r, struct hk_trial *check) {
   double tolerance = first_tolerance(watch->request, r->extent);
-  int32_t status = hooke_reference_choose_first(watch, r, 0.1 * tolerance);
+  int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
   if (status != HOOKE_OK) return status;
   for (;;) {
-    const double begun = hooke_clock_seconds();
+    const double begun = hk_clock_seconds();
     status = run_level(watch, r, tolerance, check);
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
     if (r->checked > 0 && (failed || is_enough(watch->request, r) || tolerance <= TIGHTEST)) break;
-    const double seconds = hooke_clock_seconds() - begun;
+    const double seconds = hk_clock_seconds() - begun;
     double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
     if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
     r->hurried = watch->cut || !has_time(watch, r, tolerance / finer, seconds);
@@ -191,41 +189,40 @@ static int32_t tighten(struct hooke_reference_watch *watch, struct hooke_referen
     tolerance = finer;
   }
   if (status == HOOKE_OK && r->checked < 2) {
-    status =
-        hooke_fail(HOOKE_BAD_VALUE, "budget",
-                   "is too small: of its share of %.3g s the reference came to no frame after the start; "
-                   "give a larger budget, a shorter duration or a smaller every",
-                   watch->request->budget);
+    status = hk_fail(HOOKE_BAD_VALUE, "budget",
+                     "is too small: of its share of %.3g s the reference came to no frame after the start; "
+                     "give a larger budget, a shorter duration or a smaller every",
+                     watch->request->budget);
   }
   return status;
 }
 
-int32_t hooke_reference_create(const hooke_system *system, const struct hooke_reference_request *request,
-                               struct hooke_reference *r) {
-  struct hooke_reference_watch watch = {.request = request, .begun = hooke_clock_seconds()};
-  struct hooke_trial trial = {.status = NULL};
+int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
+                            struct hk_reference *r) {
+  struct hk_reference_watch watch = {.request = request, .begun = hk_clock_seconds()};
+  struct hk_trial trial = {.status = NULL};
   hooke_state *state = NULL;
-  *r = (struct hooke_reference){.growth = NAN,
-                                .growth_probability = NAN,
-                                .growth_seen = NAN,
-                                .agreement = NAN,
-                                .energy_agreement = NAN,
-                                .coarse = 1};
+  *r = (struct hk_reference){.growth = NAN,
+                             .growth_probability = NAN,
+                             .growth_seen = NAN,
+                             .agreement = NAN,
+                             .energy_agreement = NAN,
+                             .coarse = 1};
   if (!hooke_method_is_built("cvode-adams")) {
-    return hooke_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
   }
   int32_t status = hooke_state_create(system, &state);
-  if (status == HOOKE_OK) status = hooke_reference_method(system, hooke_state_position(state), &r->method);
+  if (status == HOOKE_OK) status = hk_reference_method(system, hooke_state_position(state), &r->method);
   if (status == HOOKE_OK) status = find_extent(state, &r->extent);
   hooke_state_destroy(state);
-  if (status == HOOKE_OK) status = hooke_frames_create(system, request->frame_count, &r->frames);
+  if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK)
-    status = hooke_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
-  if (status == HOOKE_OK) status = hooke_trial_create(&r->frames, &trial);
+    status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
+  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
-  if (status == HOOKE_OK && !request->enough) status = hooke_reference_measure_growth(&watch, r, &trial);
-  hooke_trial_release(&trial);
-  r->wall_seconds = hooke_clock_seconds() - watch.begun;
-  if (status != HOOKE_OK) hooke_reference_release(r);
+  if (status == HOOKE_OK && !request->enough) status = hk_reference_measure_growth(&watch, r, &trial);
+  hk_trial_release(&trial);
+  r->wall_seconds = hk_clock_seconds() - watch.begun;
+  if (status != HOOKE_OK) hk_reference_release(r);
   return status;
 }

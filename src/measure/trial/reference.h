@@ -5,8 +5,8 @@
 
 #include "measure/trial/trial.h"
 
-struct hooke_reference {
-  struct hooke_frames frames; /* of `method` at `rtol` */
+struct hk_reference {
+  struct hk_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
   double rtol, atol;               /* its tolerances, */
   double evaluations, run_seconds; /* force evaluations and wall time */
@@ -28,7 +28,7 @@ struct hooke_reference {
 };
 
 /* What a reference is asked for. */
-struct hooke_reference_request {
+struct hk_reference_request {
   const hooke_options *run; /* duration, every */
   int64_t frame_count;
   double digits; /* that a trusted frame is known to [m]; if NaN, 1e-6 of the extent */
@@ -36,24 +36,24 @@ struct hooke_reference_request {
    * there is time */
   int32_t enough;
   double budget; /* [s], infinity for none */
-  const struct hooke_watched_list
+  const struct hk_watched_list
       *watched; /* kept at every frame, with how far the two are apart in it; NULL: nothing */
-  const struct hooke_listener *listener; /* told of progress with the share of the whole reference */
+  const struct hk_listener *listener; /* told of progress with the share of the whole reference */
 };
 
 /* Within the budget: a run that it ends is compared as far as it got, and counts if that is further than before.
  * HOOKE_NOT_BUILT without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame after the start; HOOKE_STOPPED;
  * HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
-int32_t hooke_reference_create(const hooke_system *system, const struct hooke_reference_request *request,
-                               struct hooke_reference *reference);
-void hooke_reference_release(struct hooke_reference *reference);
+int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
+                            struct hk_reference *reference);
+void hk_reference_release(struct hk_reference *reference);
 
 /* Options of a run by `method` at a tolerance; the absolute one follows the size of the scene. */
-int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
-                                hooke_options **out);
+int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                             hooke_options **out);
 
 /* The method that makes references cheapest on this system at positions q: Adams, or BDF where damping is faster than the
  * fastest oscillation, so that fast motion dies out and an implicit method strides over it. */
-int32_t hooke_reference_method(const hooke_system *system, const double *q, const char **method);
+int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method);
 
 #endif

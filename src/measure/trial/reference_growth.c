@@ -29,7 +29,7 @@ enum { MOST_TURNS = 200 };             /* of the iteration for a singular value 
 
 /* A displacement of the start, and what became of it. */
 struct displacement {
-  const struct hooke_reference *base;
+  const struct hk_reference *base;
   int64_t coordinate; /* that is displaced, positions before velocities; -1: all, at random */
   uint64_t random;
   double length;   /* standard deviation of a component [m] */
@@ -39,16 +39,16 @@ struct displacement {
 };
 
 static void displace(hooke_state *state, void *ctx) {
-  struct displacement *d = ((struct hooke_reference_watch *)ctx)->displacement;
-  const struct hooke_frames *frames = &d->base->frames;
+  struct displacement *d = ((struct hk_reference_watch *)ctx)->displacement;
+  const struct hk_frames *frames = &d->base->frames;
   const int64_t size = 3 * frames->free_count;
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   d->square = 0.0;
   for (int64_t k = 0; k < size; k++) {
     const int64_t i = 3 * frames->free_particle[k / 3] + k % 3;
     const int all = d->coordinate < 0;
-    const double x = all ? hooke_random_normal(&d->random) : (double)(k == d->coordinate);
-    const double y = all ? hooke_random_normal(&d->random) : (double)(k + size == d->coordinate);
+    const double x = all ? hk_random_normal(&d->random) : (double)(k == d->coordinate);
+    const double y = all ? hk_random_normal(&d->random) : (double)(k + size == d->coordinate);
     q[i] += d->length * x;
     v[i] += d->length / d->duration * y;
     d->square += x * x + y * y;
@@ -56,8 +56,8 @@ static void displace(hooke_state *state, void *ctx) {
 }
 
 static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
-  const struct displacement *d = ((struct hooke_reference_watch *)ctx)->displacement;
-  const struct hooke_frames *frames = &d->base->frames;
+  const struct displacement *d = ((struct hk_reference_watch *)ctx)->displacement;
+  const struct hk_frames *frames = &d->base->frames;
   const int64_t size = 3 * frames->free_count;
   (void)step;
   if (d->kept == NULL || frame >= frames->recorded) return 0;
@@ -70,16 +70,15 @@ static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state,
 }
 
 /* One run; `seen` is the largest displacement over the frames, in units of `length`, or NaN if time was too short. */
-static int32_t run_displaced(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                             struct displacement *d, double deadline, struct hooke_trial *trial,
-                             double *seen) {
-  const struct hooke_reference *base = d->base;
-  struct hooke_listener listener = hooke_reference_listen(watch, deadline);
+static int32_t run_displaced(struct hk_reference_watch *watch, struct hk_reference *r, struct displacement *d,
+                             double deadline, struct hk_trial *trial, double *seen) {
+  const struct hk_reference *base = d->base;
+  struct hk_listener listener = hk_reference_listen(watch, deadline);
   listener.on_start = displace;
   listener.on_frame = keep_frame;
   watch->displacement = d;
   const int32_t status =
-      hooke_reference_judge(watch, base, base->method, fmax(base->rtol, TOLERANCE), &listener, trial);
+      hk_reference_judge(watch, base, base->method, fmax(base->rtol, TOLERANCE), &listener, trial);
   watch->displacement = NULL;
   *seen = NAN;
   if (status != HOOKE_OK || watch->expired) return status;
@@ -92,8 +91,8 @@ static int32_t run_displaced(struct hooke_reference_watch *watch, struct hooke_r
 
 /* ---- at random ---- */
 
-static int32_t displace_at_random(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                  struct displacement *d, double deadline, struct hooke_trial *trial) {
+static int32_t displace_at_random(struct hk_reference_watch *watch, struct hk_reference *r,
+                                  struct displacement *d, double deadline, struct hk_trial *trial) {
   double most = 0.0;
   d->coordinate = -1;
   for (int k = 0; k < RANDOM; k++) {
@@ -149,24 +148,24 @@ static double singular_value(int64_t rows, int64_t columns, int64_t stride, cons
   return value;
 }
 
-static double largest_singular_value(const struct hooke_frames *frames, const double *kept) {
+static double largest_singular_value(const struct hk_frames *frames, const double *kept) {
   const int64_t rows = 3 * frames->free_count, columns = 2 * rows, stride = frames->recorded * rows;
   uint64_t random = SEED;
   double largest = 0.0;
   for (int64_t f = 0; f < frames->recorded; f++) {
     double x[MOST_COORDINATES];
     for (int64_t j = 0; j < columns; j++)
-      x[j] = hooke_random_normal(&random);
+      x[j] = hk_random_normal(&random);
     largest = fmax(largest, singular_value(rows, columns, stride, kept + f * rows, x));
   }
   return largest;
 }
 
-static int32_t displace_all(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                            struct displacement *d, double deadline, struct hooke_trial *trial) {
-  const struct hooke_frames *frames = &d->base->frames;
+static int32_t displace_all(struct hk_reference_watch *watch, struct hk_reference *r, struct displacement *d,
+                            double deadline, struct hk_trial *trial) {
+  const struct hk_frames *frames = &d->base->frames;
   const int64_t columns = 6 * frames->free_count, stride = frames->recorded * columns / 2;
-  double *kept = hooke_new(columns * stride, sizeof *kept);
+  double *kept = hk_new(columns * stride, sizeof *kept);
   int32_t status = kept ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (d->coordinate = 0; d->coordinate < columns && status == HOOKE_OK; d->coordinate++) {
     double seen;
@@ -179,24 +178,23 @@ static int32_t displace_all(struct hooke_reference_watch *watch, struct hooke_re
     r->growth = largest_singular_value(frames, kept);
     r->growth_probability = 1.0;
   }
-  hooke_free(kept);
+  hk_free(kept);
   return status;
 }
 
 /* ---- which of the two ---- */
 
-static int takes_all(const struct hooke_reference_watch *watch, const struct hooke_reference *base,
+static int takes_all(const struct hk_reference_watch *watch, const struct hk_reference *base,
                      double deadline) {
   const int64_t columns = 6 * base->frames.free_count;
   if (columns > MOST_COORDINATES || columns * columns / 2 * base->frames.recorded > ROOM) return 0;
-  const double now = hooke_clock_seconds(), seconds = (double)columns * base->run_seconds;
+  const double now = hk_clock_seconds(), seconds = (double)columns * base->run_seconds;
   return seconds <=
          fmin(0.5 * (deadline - now), fmax(COORDINATES_SECONDS, COORDINATES_SHARE * (now - watch->begun)));
 }
 
-static int32_t displace_and_run(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                const struct hooke_reference *base, double deadline,
-                                struct hooke_trial *trial) {
+static int32_t displace_and_run(struct hk_reference_watch *watch, struct hk_reference *r,
+                                const struct hk_reference *base, double deadline, struct hk_trial *trial) {
   struct displacement d = {.base = base,
                            .random = SEED,
                            .length = DISPLACEMENT * r->extent,
@@ -205,21 +203,21 @@ static int32_t displace_and_run(struct hooke_reference_watch *watch, struct hook
                                           : displace_at_random(watch, r, &d, deadline, trial);
 }
 
-int32_t hooke_reference_measure_growth(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                       struct hooke_trial *trial) {
+int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *r,
+                                    struct hk_trial *trial) {
   const double deadline = watch->begun + watch->request->budget;
   if (r->frames.free_count == 0) return HOOKE_OK;
   if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
     return displace_and_run(watch, r, r, deadline, trial);
-  if (hooke_clock_seconds() + 2.0 * TIGHTER * r->run_seconds > deadline) return HOOKE_OK;
-  struct hooke_reference base = *r;
-  struct hooke_reference_cost cost;
+  if (hk_clock_seconds() + 2.0 * TIGHTER * r->run_seconds > deadline) return HOOKE_OK;
+  struct hk_reference base = *r;
+  struct hk_reference_cost cost;
   base.rtol = fmin(r->rtol, TOLERANCE);
   watch->ahead = RANDOM;
-  int32_t status = hooke_frames_create(r->frames.system, r->frames.count, &base.frames);
-  if (status == HOOKE_OK) status = hooke_reference_make_frames(watch, &base, deadline, &cost);
+  int32_t status = hk_frames_create(r->frames.system, r->frames.count, &base.frames);
+  if (status == HOOKE_OK) status = hk_reference_make_frames(watch, &base, deadline, &cost);
   if (status == HOOKE_OK && base.frames.recorded > 1)
     status = displace_and_run(watch, r, &base, deadline, trial);
-  hooke_frames_release(&base.frames);
+  hk_frames_release(&base.frames);
   return status;
 }

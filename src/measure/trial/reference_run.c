@@ -14,8 +14,8 @@ static const double TIMEABLE = 2e-3;          /* [s] */
 static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
-int32_t hooke_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
-                                hooke_options **out) {
+int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
+                             hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
@@ -31,7 +31,7 @@ int32_t hooke_reference_options(const hooke_options *run, const char *method, do
   return status;
 }
 
-double hooke_reference_diagonal(int64_t rows, const double *position) {
+double hk_reference_diagonal(int64_t rows, const double *position) {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (int64_t k = 0; k < 3 * rows; k++) {
     low[k % 3] = fmin(low[k % 3], position[k]);
@@ -43,7 +43,7 @@ double hooke_reference_diagonal(int64_t rows, const double *position) {
   return sqrt(square);
 }
 
-static double share_of_all(const struct hooke_reference_watch *watch, double share, double now) {
+static double share_of_all(const struct hk_reference_watch *watch, double share, double now) {
   const double spent = now - watch->begun, of_run = now - watch->run_begun;
   if (!(share > 0.0) || !(spent > 0.0)) return 0.0;
   const double run = of_run / share, unit = watch->unit > 0.0 ? watch->unit : run;
@@ -51,9 +51,9 @@ static double share_of_all(const struct hooke_reference_watch *watch, double sha
 }
 
 static int32_t watch_progress(double share, void *ctx) {
-  struct hooke_reference_watch *watch = ctx;
-  const struct hooke_listener *listener = watch->request->listener;
-  const double now = hooke_clock_seconds();
+  struct hk_reference_watch *watch = ctx;
+  const struct hk_listener *listener = watch->request->listener;
+  const double now = hk_clock_seconds();
   if (listener && listener->on_progress) {
     const int32_t value = listener->on_progress(share_of_all(watch, share, now), listener->ctx);
     if (value != 0) return value;
@@ -63,81 +63,79 @@ static int32_t watch_progress(double share, void *ctx) {
   return 1;
 }
 
-struct hooke_listener hooke_reference_listen(struct hooke_reference_watch *watch, double deadline) {
-  watch->run_begun = hooke_clock_seconds();
+struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double deadline) {
+  watch->run_begun = hk_clock_seconds();
   watch->deadline = deadline;
   watch->expired = 0;
-  return (struct hooke_listener){.on_progress = watch_progress, .ctx = watch};
+  return (struct hk_listener){.on_progress = watch_progress, .ctx = watch};
 }
 
-int32_t hooke_reference_make_frames(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                    double deadline, struct hooke_reference_cost *cost) {
-  const struct hooke_listener listener = hooke_reference_listen(watch, deadline);
+int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_reference *r, double deadline,
+                                 struct hk_reference_cost *cost) {
+  const struct hk_listener listener = hk_reference_listen(watch, deadline);
   hooke_options *options = NULL;
-  int32_t status = hooke_reference_options(watch->request->run, r->method, r->rtol, r->extent, &options);
+  int32_t status = hk_reference_options(watch->request->run, r->method, r->rtol, r->extent, &options);
   if (status == HOOKE_OK)
-    status = hooke_frames_run(&r->frames, options, &listener, &cost->seconds, &cost->evaluations);
+    status = hk_frames_run(&r->frames, options, &listener, &cost->seconds, &cost->evaluations);
   hooke_options_destroy(options);
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
   r->atol = ABSOLUTE * r->rtol * r->extent;
   r->evaluations = cost->evaluations;
   r->run_seconds = cost->seconds;
-  if (watch->unit == 0.0) watch->unit = hooke_clock_seconds() - watch->run_begun;
-  const double size = hooke_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
+  if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
+  const double size = hk_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
   if (size > 0.0) r->extent = size;
   return HOOKE_OK;
 }
 
-int32_t hooke_reference_judge(struct hooke_reference_watch *watch, const struct hooke_reference *r,
-                              const char *method, double rtol, const struct hooke_listener *listener,
-                              struct hooke_trial *trial) {
-  const struct hooke_frames *frames = &r->frames;
+int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *r, const char *method,
+                           double rtol, const struct hk_listener *listener, struct hk_trial *trial) {
+  const struct hk_frames *frames = &r->frames;
   hooke_options *options = NULL;
-  int32_t status = hooke_reference_options(watch->request->run, method, rtol, r->extent, &options);
+  int32_t status = hk_reference_options(watch->request->run, method, rtol, r->extent, &options);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
   }
-  if (status == HOOKE_OK) status = hooke_trial_run(trial, frames, frames->recorded, options, listener);
+  if (status == HOOKE_OK) status = hk_trial_run(trial, frames, frames->recorded, options, listener);
   hooke_options_destroy(options);
   if (status == HOOKE_STOPPED && watch->expired) return HOOKE_OK;
   if (status != HOOKE_OK || strcmp(trial->status, "finished") == 0) return status;
-  return hooke_fail(HOOKE_SOLVER_FAILED, NULL, "no reference: %s %s at rtol %g", method, trial->status, rtol);
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "no reference: %s %s at rtol %g", method, trial->status, rtol);
 }
 
 /* ---- which integrators ---- */
 
 /* A trial over a share of the duration, at most so many seconds and steps; infinite where it does not come to its end. */
-static int32_t try_beginning(struct hooke_reference_watch *watch, const struct hooke_reference *r,
+static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_reference *r,
                              const char *method, double rtol, double longest, double most_steps,
-                             double duration, struct hooke_reference_cost *cost) {
-  struct hooke_frames frames;
+                             double duration, struct hk_reference_cost *cost) {
+  struct hk_frames frames;
   hooke_options *options = NULL;
-  int32_t status = hooke_frames_create(r->frames.system, 2, &frames);
+  int32_t status = hk_frames_create(r->frames.system, 2, &frames);
   if (status != HOOKE_OK) return status;
-  status = hooke_reference_options(watch->request->run, method, rtol, r->extent, &options);
+  status = hk_reference_options(watch->request->run, method, rtol, r->extent, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
   if (status == HOOKE_OK && !isinf(most_steps))
     status = hooke_options_set_number(options, "max_steps", most_steps);
-  const struct hooke_listener listener = hooke_reference_listen(watch, hooke_clock_seconds() + longest);
+  const struct hk_listener listener = hk_reference_listen(watch, hk_clock_seconds() + longest);
   if (status == HOOKE_OK)
-    status = hooke_frames_run(&frames, options, &listener, &cost->seconds, &cost->evaluations);
+    status = hk_frames_run(&frames, options, &listener, &cost->seconds, &cost->evaluations);
   hooke_options_destroy(options);
-  hooke_frames_release(&frames);
+  hk_frames_release(&frames);
   const int gave_up = status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED;
   if (!gave_up && !(status == HOOKE_STOPPED && watch->expired)) return status;
-  *cost = (struct hooke_reference_cost){INFINITY, INFINITY};
+  *cost = (struct hk_reference_cost){INFINITY, INFINITY};
   return HOOKE_OK;
 }
 
-int32_t hooke_reference_choose_first(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                     double rtol) {
+int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *r, double rtol) {
   if (strcmp(r->method, "cvode-bdf") != 0) return HOOKE_OK;
   const double duration = TRIAL_SHARE * hooke_options_number(watch->request->run, "duration");
   const double longest = FIRST_TRIAL_SHARE * watch->request->budget;
-  struct hooke_reference_cost bdf, adams;
+  struct hk_reference_cost bdf, adams;
   int32_t status = try_beginning(watch, r, "cvode-bdf", rtol, longest, INFINITY, duration, &bdf);
   if (status == HOOKE_OK) {
     const double most = isinf(bdf.seconds) ? longest : fmax(TIMEABLE, bdf.seconds);
@@ -149,9 +147,9 @@ int32_t hooke_reference_choose_first(struct hooke_reference_watch *watch, struct
 
 /* What rk8pd needs for a short trial, over what the first method needs for the same share of its run: in time, since one
  * spends it on forces and the other on vectors and solves; trials too short to time count by evaluations. */
-static int32_t explicit_cost(struct hooke_reference_watch *watch, const struct hooke_reference *r,
-                             double rtol, struct hooke_reference_cost first, double *ratio) {
-  struct hooke_reference_cost trial;
+static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
+                             struct hk_reference_cost first, double *ratio) {
+  struct hk_reference_cost trial;
   *ratio = INFINITY;
   if (!hooke_method_is_built("rk8pd")) return HOOKE_OK;
   const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
@@ -166,8 +164,8 @@ static int32_t explicit_cost(struct hooke_reference_watch *watch, const struct h
   return status;
 }
 
-int32_t hooke_reference_choose_check(struct hooke_reference_watch *watch, struct hooke_reference *r,
-                                     double rtol, struct hooke_reference_cost first) {
+int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *r, double rtol,
+                                  struct hk_reference_cost first) {
   double ratio;
   const int32_t status = explicit_cost(watch, r, rtol, first, &ratio);
   r->check = ratio < MOST_COST ? "rk8pd" : "arkode-esdirk";

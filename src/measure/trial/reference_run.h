@@ -5,8 +5,8 @@
 #include "measure/trial/reference.h"
 
 /* The runs of a reference under way: told of as a share of them all, stopped when their time is over. */
-struct hooke_reference_watch {
-  const struct hooke_reference_request *request;
+struct hk_reference_watch {
+  const struct hk_reference_request *request;
   double begun, run_begun, deadline; /* on the clock [s] */
   double unit;                       /* of the first run [s]; 0 until it is over */
   double ahead;                      /* the runs to come, in units */
@@ -18,36 +18,36 @@ struct hooke_reference_watch {
 };
 
 /* What a run took. */
-struct hooke_reference_cost {
+struct hk_reference_cost {
   double evaluations, seconds;
 };
 
 /* The next run ends at the deadline; begins to listen to it. */
-struct hooke_listener hooke_reference_listen(struct hooke_reference_watch *watch, double deadline);
+struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double deadline);
 
 /* The frames of `method` at `rtol`, as far as the deadline allows; then the extent is theirs. */
-int32_t hooke_reference_make_frames(struct hooke_reference_watch *watch, struct hooke_reference *reference,
-                                    double deadline, struct hooke_reference_cost *cost);
+int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_reference *reference,
+                                 double deadline, struct hk_reference_cost *cost);
 
 /* Of the box that holds `rows` points [m]; 0 for none. */
-double hooke_reference_diagonal(int64_t rows, const double *position);
+double hk_reference_diagonal(int64_t rows, const double *position);
 
 /* A run as far as there are frames, or until the listener's deadline; error_at is NaN past its end. */
-int32_t hooke_reference_judge(struct hooke_reference_watch *watch, const struct hooke_reference *reference,
-                              const char *method, double rtol, const struct hooke_listener *listener,
-                              struct hooke_trial *trial);
+int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *reference,
+                           const char *method, double rtol, const struct hk_listener *listener,
+                           struct hk_trial *trial);
 
 /* Of the first integrators, Adams instead of BDF where a trial of the beginning says that it is quicker: damping that is
  * fast need not be stiff for it. */
-int32_t hooke_reference_choose_first(struct hooke_reference_watch *watch, struct hooke_reference *reference,
-                                     double rtol);
+int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *reference,
+                                  double rtol);
 
 /* Chooses the second integrator, after the first has run at about `rtol` and taken so much. */
-int32_t hooke_reference_choose_check(struct hooke_reference_watch *watch, struct hooke_reference *reference,
-                                     double rtol, struct hooke_reference_cost first);
+int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *reference,
+                                  double rtol, struct hk_reference_cost first);
 
 /* Largest growth of a small displacement at the start, over the frames (reference_growth.c). */
-int32_t hooke_reference_measure_growth(struct hooke_reference_watch *watch, struct hooke_reference *reference,
-                                       struct hooke_trial *trial);
+int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *reference,
+                                    struct hk_trial *trial);
 
 #endif

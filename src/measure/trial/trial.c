@@ -8,27 +8,26 @@
 #include <stddef.h>
 #include <string.h>
 
-int32_t hooke_trial_create(const struct hooke_frames *reference, struct hooke_trial *trial) {
-  *trial = (struct hooke_trial){.status = NULL};
-  trial->error_at = hooke_new(reference->count, sizeof(double));
-  trial->drift_at = hooke_new(reference->count, sizeof(double));
-  const int32_t status =
-      hooke_watched_series_create(reference->watched.list, reference->count, &trial->watched);
+int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
+  *trial = (struct hk_trial){.status = NULL};
+  trial->error_at = hk_new(reference->count, sizeof(double));
+  trial->drift_at = hk_new(reference->count, sizeof(double));
+  const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
   if (trial->error_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
-  hooke_trial_release(trial);
+  hk_trial_release(trial);
   return HOOKE_NO_MEMORY;
 }
 
-void hooke_trial_release(struct hooke_trial *trial) {
-  hooke_free(trial->error_at);
-  hooke_free(trial->drift_at);
-  hooke_watched_series_release(&trial->watched);
+void hk_trial_release(struct hk_trial *trial) {
+  hk_free(trial->error_at);
+  hk_free(trial->drift_at);
+  hk_watched_series_release(&trial->watched);
   memset(trial, 0, sizeof *trial);
 }
 
-double hooke_trial_number(const struct hooke_trial *trial, const char *what) {
+double hk_trial_number(const struct hk_trial *trial, const char *what) {
   if (trial->status == NULL) return NAN;
-  const struct hooke_figure numbers[] = {
+  const struct hk_figure numbers[] = {
       {"step", trial->step},
       {"rtol", trial->rtol},
       {"atol", trial->atol},
@@ -47,12 +46,12 @@ double hooke_trial_number(const struct hooke_trial *trial, const char *what) {
 /* ---- a run under way ---- */
 
 struct run {
-  struct hooke_frames *record;          /* or */
-  const struct hooke_frames *reference; /* with */
-  struct hooke_trial *trial;
+  struct hk_frames *record;          /* or */
+  const struct hk_frames *reference; /* with */
+  struct hk_trial *trial;
   int64_t frames, next;
   double begin, duration;
-  const struct hooke_listener *listener;
+  const struct hk_listener *listener;
 };
 
 static int32_t tell(double share, const char *method, void *ctx) {
@@ -63,13 +62,13 @@ static int32_t tell(double share, const char *method, void *ctx) {
 }
 
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
-  struct hooke_trial *trial = run->trial;
+  struct hk_trial *trial = run->trial;
   const double *q = hooke_state_position(state);
   double largest;
-  trial->error_at[f] = hooke_frames_distance(run->reference, f, q, &largest);
+  trial->error_at[f] = hk_frames_distance(run->reference, f, q, &largest);
   trial->drift_at[f] =
       hooke_system_energy(run->reference->system, q, hooke_state_velocity(state)) - run->reference->energy[f];
-  hooke_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
+  hk_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
   trial->error_max = fmax(trial->error_max, largest);
   trial->error_final = trial->error_at[f];
@@ -80,7 +79,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   const int64_t f = run->next++;
   if (run->record)
-    hooke_frames_record(run->record, state);
+    hk_frames_record(run->record, state);
   else if (f < run->frames)
     judge(run, f, state);
   int32_t value = 0;
@@ -108,7 +107,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   return status;
 }
 
-static void keep_counts(struct hooke_trial *trial, const hooke_integrator *integrator) {
+static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrator) {
   const hooke_options *options = hooke_integrator_options(integrator);
   const int adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
   trial->step = adaptive ? NAN : hooke_options_number(options, "step");
@@ -120,14 +119,14 @@ static void keep_counts(struct hooke_trial *trial, const hooke_integrator *integ
   trial->wall_seconds = hooke_integrator_wall_seconds(integrator);
 }
 
-int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *reference, int64_t frames,
-                        const hooke_options *options, const struct hooke_listener *listener) {
+int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
+                     const hooke_options *options, const struct hk_listener *listener) {
   struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->drift_at[f] = NAN;
-  hooke_watched_series_clear(&trial->watched);
+  hk_watched_series_clear(&trial->watched);
   const int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
   keep_counts(trial, integrator);
@@ -137,7 +136,7 @@ int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *re
                   : status == HOOKE_STOPPED  ? "stopped"
                                              : "failed";
   if (status == HOOKE_OK) {
-    hooke_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
+    hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
     return HOOKE_OK;
   }
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
@@ -146,9 +145,8 @@ int32_t hooke_trial_run(struct hooke_trial *trial, const struct hooke_frames *re
   return is_result ? HOOKE_OK : status;
 }
 
-int32_t hooke_frames_run(struct hooke_frames *frames, const hooke_options *options,
-                         const struct hooke_listener *listener, double *wall_seconds,
-                         double *force_evaluations) {
+int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
+                      const struct hk_listener *listener, double *wall_seconds, double *force_evaluations) {
   struct run run = {.record = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
   frames->recorded = 0;
@@ -161,7 +159,7 @@ int32_t hooke_frames_run(struct hooke_frames *frames, const hooke_options *optio
   return status;
 }
 
-int32_t hooke_trial_set_value(hooke_options *run, const char *method, double value) {
+int32_t hk_trial_set_value(hooke_options *run, const char *method, double value) {
   const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
   int32_t status = hooke_options_set_text(run, "method", method);
   if (status == HOOKE_OK && !hooke_method_is_adaptive(method))

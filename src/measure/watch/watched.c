@@ -76,8 +76,8 @@ static int64_t cut_index(char *text) {
 
 static int32_t refuse(const struct reading *reading) {
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
-  return hooke_fail(
+  hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  return hk_fail(
       HOOKE_BAD_VALUE, reading->place,
       "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle), part:0.y, group:0.length, .strain "
       "or "
@@ -87,26 +87,26 @@ static int32_t refuse(const struct reading *reading) {
 
 static int32_t refuse_name(const struct reading *reading, const char *what, name_of *name) {
   char shown[HOOKE_OPTION_SHOWN], known[NAMES_SIZE] = "";
-  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
   list_names(reading->system, name, known);
-  return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": there is no %s of that name; allowed: %s",
-                    shown, what, known[0] ? known : "none, since the scene names none");
+  return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": there is no %s of that name; allowed: %s", shown,
+                 what, known[0] ? known : "none, since the scene names none");
 }
 
 static int32_t refuse_index(const struct reading *reading, const char *of, const char *what, int64_t count) {
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
   if (count == 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has no %ss", shown, of, what);
+    return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has no %ss", shown, of, what);
   }
-  return hooke_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has the %ss 0 to %lld", shown, of, what,
-                    (long long)count - 1);
+  return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has the %ss 0 to %lld", shown, of, what,
+                 (long long)count - 1);
 }
 
 /* ---- one quantity ---- */
 
 /* "57", or "line:0" */
-static int32_t read_particle(const struct reading *reading, char *text, struct hooke_watched *watched) {
+static int32_t read_particle(const struct reading *reading, char *text, struct hk_watched *watched) {
   const hooke_system *system = reading->system;
   const char *end;
   const int64_t number = read_number(text, &end);
@@ -128,52 +128,52 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
 }
 
 /* A group has no spring of an index that anybody knows if some of its springs do nothing: they are gone. */
-static int32_t refuse_gaps(const struct reading *reading, const struct hooke_group *group) {
+static int32_t refuse_gaps(const struct reading *reading, const struct hk_group *group) {
   char shown[HOOKE_OPTION_SHOWN];
-  hooke_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
-  return hooke_fail(HOOKE_BAD_VALUE, reading->place,
-                    "\"%s\": %lld springs of %.80s have neither stiffness nor damping and are left out, so "
-                    "the others have no "
-                    "index; give those another group",
-                    shown, (long long)group->dropped, group->name);
+  hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  return hk_fail(HOOKE_BAD_VALUE, reading->place,
+                 "\"%s\": %lld springs of %.80s have neither stiffness nor damping and are left out, so "
+                 "the others have no "
+                 "index; give those another group",
+                 shown, (long long)group->dropped, group->name);
 }
 
 /* "line.stretch:3"; groups that share a name are counted as one. */
-static int32_t read_spring(const struct reading *reading, char *text, struct hooke_watched *watched) {
+static int32_t read_spring(const struct reading *reading, char *text, struct hk_watched *watched) {
   const hooke_system *system = reading->system;
   int64_t index = cut_index(text), first = 0, count = 0, known = 0;
   if (index < 0) return refuse(reading);
   const int64_t asked = index;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
-    const struct hooke_group *group = &system->group[g];
+    const struct hk_group *group = &system->group[g];
     if (text[0] == '\0' || strcmp(group_name(system, g), text) != 0) continue;
     if (group->dropped > 0 && group->count > 0) return refuse_gaps(reading, group);
     known = 1;
     count += group->count;
-    if (index >= 0 && index < group->count) watched->spring = hooke_naming_spring(system, first + index);
+    if (index >= 0 && index < group->count) watched->spring = hk_naming_spring(system, first + index);
     index -= group->count;
   }
   if (!known) return refuse_name(reading, "group of springs", group_name);
   if (asked >= count) return refuse_index(reading, text, "spring", count);
   if (watched->kind != HOOKE_WATCHED_STRAIN || watched->spring.rest_length > 0.0) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, reading->place,
-                    "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension",
-                    text, (long long)asked);
+  return hk_fail(HOOKE_BAD_VALUE, reading->place,
+                 "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension", text,
+                 (long long)asked);
 }
 
 /* The words that stand alone. */
-static int find_word(const char *text, enum hooke_watched_kind *kind) {
+static int find_word(const char *text, enum hk_watched_kind *kind) {
   static const char *const words[] = {"energy", "kinetic", "potential"};
   for (int k = 0; k < 3; k++) {
     if (strcmp(text, words[k]) != 0) continue;
-    *kind = (enum hooke_watched_kind)(HOOKE_WATCHED_ENERGY + k);
+    *kind = (enum hk_watched_kind)(HOOKE_WATCHED_ENERGY + k);
     return 1;
   }
   return 0;
 }
 
 /* `text` is cut to pieces. */
-static int32_t read_quantity(const struct reading *reading, char *text, struct hooke_watched *watched) {
+static int32_t read_quantity(const struct reading *reading, char *text, struct hk_watched *watched) {
   static const char *const of_spring[] = {"length", "strain", "tension"};
   static const char period[] = "period:";
   if (strncmp(text, period, sizeof period - 1) == 0) {
@@ -188,7 +188,7 @@ static int32_t read_quantity(const struct reading *reading, char *text, struct h
   const char *what = dot + 1;
   for (int k = 0; k < 3; k++) {
     if (strcmp(what, of_spring[k]) != 0) continue;
-    watched->kind = (enum hooke_watched_kind)(HOOKE_WATCHED_LENGTH + k);
+    watched->kind = (enum hk_watched_kind)(HOOKE_WATCHED_LENGTH + k);
     return read_spring(reading, text, watched);
   }
   if (what[0] < 'x' || what[0] > 'z' || what[1]) return refuse(reading);
@@ -198,32 +198,32 @@ static int32_t read_quantity(const struct reading *reading, char *text, struct h
 
 /* ---- lists ---- */
 
-int64_t hooke_watched_find(const struct hooke_watched_list *list, const char *text) {
+int64_t hk_watched_find(const struct hk_watched_list *list, const char *text) {
   for (int64_t k = 0; k < list->count; k++) {
     if (strcmp(list->item[k].text, text) == 0) return k;
   }
   return -1;
 }
 
-static int32_t add(struct hooke_watched_list *list, const char *place, const char *text) {
+static int32_t add(struct hk_watched_list *list, const char *place, const char *text) {
   const struct reading reading = {list->system, place, text};
-  struct hooke_watched watched = {.particle = -1};
-  if (hooke_watched_find(list, text) >= 0) return HOOKE_OK;
-  char *pieces = hooke_copy_text(text);
-  watched.text = hooke_copy_text(text);
+  struct hk_watched watched = {.particle = -1};
+  if (hk_watched_find(list, text) >= 0) return HOOKE_OK;
+  char *pieces = hk_copy_text(text);
+  watched.text = hk_copy_text(text);
   int32_t status = pieces && watched.text ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = read_quantity(&reading, pieces, &watched);
   if (status == HOOKE_OK)
-    status = hooke_grow((void **)&list->item, list->count, list->count + 1, sizeof watched);
-  hooke_free(pieces);
+    status = hk_grow((void **)&list->item, list->count, list->count + 1, sizeof watched);
+  hk_free(pieces);
   if (status == HOOKE_OK)
     list->item[list->count++] = watched;
   else
-    hooke_free(watched.text);
+    hk_free(watched.text);
   return status;
 }
 
-int32_t hooke_watched_read(struct hooke_watched_list *list, const char *place, const char *text) {
+int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text) {
   const int64_t had = list->count;
   int32_t status = HOOKE_OK;
   for (const char *at = text; status == HOOKE_OK && at;) {
@@ -244,14 +244,14 @@ int32_t hooke_watched_read(struct hooke_watched_list *list, const char *place, c
     at = comma ? comma + 1 : NULL;
   }
   while (status != HOOKE_OK && list->count > had)
-    hooke_free(list->item[--list->count].text);
+    hk_free(list->item[--list->count].text);
   return status;
 }
 
-void hooke_watched_release(struct hooke_watched_list *list) {
+void hk_watched_release(struct hk_watched_list *list) {
   for (int64_t k = 0; k < list->count; k++)
-    hooke_free(list->item[k].text);
-  hooke_free(list->item);
+    hk_free(list->item[k].text);
+  hk_free(list->item);
   memset(list, 0, sizeof *list);
 }
 
@@ -287,23 +287,22 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
     if (strcmp(group_name(system, g), text) != 0) continue;
     found = 0;
     for (int64_t k = 0; k < system->group[g].count; k++) {
-      const struct hooke_spring spring = hooke_naming_spring(system, first + k);
+      const struct hk_spring spring = hk_naming_spring(system, first + k);
       mark[spring.head] = mark[spring.tail] = 1;
     }
   }
   return found;
 }
 
-int32_t hooke_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
-                                     uint8_t *mark) {
+int32_t hk_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+                                  uint8_t *mark) {
   char known[NAMES_SIZE] = "";
   if (mark_part(system, text, mark) == 0 || mark_group(system, text, mark) == 0) return HOOKE_OK;
   if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
   list_names(system, part_name, known);
   list_names(system, group_name, known);
-  return hooke_fail(
-      HOOKE_BAD_VALUE, place,
-      "\"%.60s\" is no part, group or list of particles; allowed: %s%s particle numbers such as "
-      "0,7-9 (0 to %lld)",
-      text, known, known[0] ? ", or" : "", (long long)system->particle_count - 1);
+  return hk_fail(HOOKE_BAD_VALUE, place,
+                 "\"%.60s\" is no part, group or list of particles; allowed: %s%s particle numbers such as "
+                 "0,7-9 (0 to %lld)",
+                 text, known, known[0] ? ", or" : "", (long long)system->particle_count - 1);
 }

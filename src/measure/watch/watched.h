@@ -13,7 +13,7 @@
 
 #include "model/system.h"
 
-enum hooke_watched_kind {
+enum hk_watched_kind {
   HOOKE_WATCHED_COORDINATE,
   HOOKE_WATCHED_LENGTH,
   HOOKE_WATCHED_STRAIN,
@@ -23,43 +23,43 @@ enum hooke_watched_kind {
   HOOKE_WATCHED_POTENTIAL
 };
 
-struct hooke_watched {
+struct hk_watched {
   char *text; /* as it was written */
-  enum hooke_watched_kind kind;
+  enum hk_watched_kind kind;
   int32_t is_period; /* of that */
   int32_t axis;
-  int64_t particle;           /* of a coordinate */
-  struct hooke_spring spring; /* of a length, strain or tension */
+  int64_t particle;        /* of a coordinate */
+  struct hk_spring spring; /* of a length, strain or tension */
 };
 
-struct hooke_watched_list {
+struct hk_watched_list {
   const hooke_system *system;
   int64_t count;
-  struct hooke_watched *item;
+  struct hk_watched *item;
 };
 
 /* Adds what `text` says to a list, which starts as zeros with the committed system; what is there already is not added
  * again. HOOKE_BAD_VALUE, said of the option `place`; HOOKE_NO_MEMORY. In either case the list keeps what it has. */
-int32_t hooke_watched_read(struct hooke_watched_list *list, const char *place, const char *text);
-void hooke_watched_release(struct hooke_watched_list *list);
+int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text);
+void hk_watched_release(struct hk_watched_list *list);
 /* Number of the quantity of that text, -1 if it is not there. */
-int64_t hooke_watched_find(const struct hooke_watched_list *list, const char *text);
+int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
 
 /* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers. HOOKE_BAD_VALUE. */
-int32_t hooke_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
-                                     uint8_t *mark);
+int32_t hk_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+                                  uint8_t *mark);
 
 /* "m", "N", "J", "s", "" */
-const char *hooke_watched_unit(const struct hooke_watched *watched);
+const char *hk_watched_unit(const struct hk_watched *watched);
 
 /* The value at positions q and velocities v (rows); of a period the value of what it is of. Tension is the force along the
  * spring, of damping, too: positive where it pulls its ends together, 0 where a spring that only pulls is slack. */
-double hooke_watched_value(const struct hooke_watched *watched, const hooke_system *system, const double *q,
-                           const double *v);
+double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
+                        const double *v);
 
 /* Mean time between passages upwards through the mean of a series, each found by cubic interpolation. A passage counts
  * where the series was below the mean by a tenth of its largest deviation since the last one. NaN where there are fewer
  * than two, or fewer than four frames from one to the next, or a number that is not finite. */
-double hooke_watched_period(int64_t count, const double *time, const double *value);
+double hk_watched_period(int64_t count, const double *time, const double *value);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-const char *hooke_watched_unit(const struct hooke_watched *watched) {
+const char *hk_watched_unit(const struct hk_watched *watched) {
   static const char *const unit[] = {
       [HOOKE_WATCHED_COORDINATE] = "m", [HOOKE_WATCHED_LENGTH] = "m", [HOOKE_WATCHED_STRAIN] = "",
       [HOOKE_WATCHED_TENSION] = "N",    [HOOKE_WATCHED_ENERGY] = "J", [HOOKE_WATCHED_KINETIC] = "J",
@@ -11,9 +11,9 @@ const char *hooke_watched_unit(const struct hooke_watched *watched) {
   return watched->is_period ? "s" : unit[watched->kind];
 }
 
-double hooke_watched_value(const struct hooke_watched *watched, const hooke_system *system, const double *q,
-                           const double *v) {
-  struct hooke_stretch s;
+double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
+                        const double *v) {
+  struct hk_stretch s;
   switch (watched->kind) {
   case HOOKE_WATCHED_COORDINATE:
     return q[3 * watched->particle + watched->axis];
@@ -26,7 +26,7 @@ double hooke_watched_value(const struct hooke_watched *watched, const hooke_syst
   default:
     break;
   }
-  hooke_spring_stretch(&watched->spring, q, v, &s);
+  hk_spring_stretch(&watched->spring, q, v, &s);
   if (watched->kind == HOOKE_WATCHED_LENGTH) return s.length;
   const double rest = watched->spring.rest_length;
   return watched->kind == HOOKE_WATCHED_STRAIN ? (s.length - rest) / rest : s.tension;
@@ -73,7 +73,7 @@ static double passage(int64_t count, const double *time, const double *value, in
   return 0.5 * (low + high);
 }
 
-double hooke_watched_period(int64_t count, const double *time, const double *value) {
+double hk_watched_period(int64_t count, const double *time, const double *value) {
   double farthest = 0.0, largest = 0.0, begun = NAN, ended = NAN;
   int64_t passages = 0;
   if (count < 2) return NAN;

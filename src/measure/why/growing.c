@@ -10,7 +10,7 @@
 /* ---- products ---- */
 
 /* A spring of a batch; one of no length is stiff in all directions, one that is compressed is not stiff across. */
-static void add_spring(const struct hooke_spring_batch *batch, int64_t k, const double *q, double a, double b,
+static void add_spring(const struct hk_spring_batch *batch, int64_t k, const double *q, double a, double b,
                        const double *x, double *out) {
   const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];
   const double kappa = batch->kappa[k];
@@ -29,20 +29,20 @@ static void add_spring(const struct hooke_spring_batch *batch, int64_t k, const 
   }
 }
 
-static void add_triple(const struct hooke_triple *triple, double a, const double *x, double *out) {
+static void add_triple(const struct hk_triple *triple, double a, const double *x, double *out) {
   double d[3];
-  hooke_triple_bend(triple, x, d);
+  hk_triple_bend(triple, x, d);
   for (int e = 0; e < 3; e++) {
     for (int k = 0; k < 3; k++)
-      out[3 * triple->particle[e] + k] += a * triple->coefficient * hooke_triple_factor(e) * d[k];
+      out[3 * triple->particle[e] + k] += a * triple->coefficient * hk_triple_factor(e) * d[k];
   }
 }
 
-static void add_tetrahedron(const struct hooke_tetrahedron *t, const double *q, double a, double b,
+static void add_tetrahedron(const struct hk_tetrahedron *t, const double *q, double a, double b,
                             const double *x, double *out) {
-  struct hooke_altitude_view view;
-  if (!hooke_altitude_see(t, q, &view)) return;
-  const struct hooke_altitude_tangent *g = &view.tangent;
+  struct hk_altitude_view view;
+  if (!hk_altitude_see(t, q, &view)) return;
+  const struct hk_altitude_tangent *g = &view.tangent;
   double along = 0.0;
   for (int j = 0; j < 4; j++) {
     for (int k = 0; k < 3; k++)
@@ -55,19 +55,19 @@ static void add_tetrahedron(const struct hooke_tetrahedron *t, const double *q, 
 }
 
 /* out = (a K + b C) x, without what held particles feel; 0 if patience has an end. */
-static int32_t multiply(struct hooke_growing *g, const double *q, double a, double b) {
+static int32_t multiply(struct hk_growing *g, const double *q, double a, double b) {
   const hooke_system *system = g->system;
   memset(g->out, 0, 3 * (size_t)system->particle_count * sizeof(double));
-  struct hooke_spring_batch batch;
+  struct hk_spring_batch batch;
   int64_t turns = 0;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
-    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hooke_patience_ends(g->patience, "the motion that grows"))
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hk_patience_ends(g->patience, "the motion that grows"))
       return 0;
     for (int64_t k = 0; k < batch.count; k++)
       add_spring(&batch, k, q, a, b, g->x, g->out);
   }
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; a > 0.0 && hooke_next_triple(&at, &triple);)
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; a > 0.0 && hk_next_triple(&at, &triple);)
     add_triple(&triple, a, g->x, g->out);
   for (int64_t k = 0; k < system->altitudes.count; k++)
     add_tetrahedron(&system->altitudes.tetrahedron[k], q, a, b, g->x, g->out);
@@ -81,7 +81,7 @@ static int32_t multiply(struct hooke_growing *g, const double *q, double a, doub
 
 /* ---- the direction ---- */
 
-static double length_of(const struct hooke_growing *g, const double *x) {
+static double length_of(const struct hk_growing *g, const double *x) {
   double sum = 0.0;
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     const double *a = x + 3 * p;
@@ -91,25 +91,25 @@ static double length_of(const struct hooke_growing *g, const double *x) {
 }
 
 /* x = from / `length`, nothing where particles are held. */
-static void take(struct hooke_growing *g, const double *from, double length) {
+static void take(struct hk_growing *g, const double *from, double length) {
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     for (int64_t k = 3 * p; k < 3 * p + 3; k++)
       g->x[k] = g->system->held[p] ? 0.0 : from[k] / length;
   }
 }
 
-double hooke_growing_bytes(const hooke_system *system) {
+double hk_growing_bytes(const hooke_system *system) {
   return 6.0 * (double)system->particle_count * sizeof(double);
 }
 
-int32_t hooke_growing_create(const hooke_system *system, const double *v, struct hooke_patience *patience,
-                             struct hooke_growing *g) {
+int32_t hk_growing_create(const hooke_system *system, const double *v, struct hk_patience *patience,
+                          struct hk_growing *g) {
   const int64_t size = 3 * system->particle_count;
-  *g = (struct hooke_growing){.system = system, .patience = patience};
-  g->x = hooke_new(size, sizeof(double));
-  g->out = hooke_new(size, sizeof(double));
+  *g = (struct hk_growing){.system = system, .patience = patience};
+  g->x = hk_new(size, sizeof(double));
+  g->out = hk_new(size, sizeof(double));
   if (g->x == NULL || g->out == NULL) {
-    hooke_growing_release(g);
+    hk_growing_release(g);
     return HOOKE_NO_MEMORY;
   }
   double length = length_of(g, v);
@@ -124,13 +124,13 @@ int32_t hooke_growing_create(const hooke_system *system, const double *v, struct
   return HOOKE_OK;
 }
 
-void hooke_growing_release(struct hooke_growing *g) {
-  hooke_free(g->x);
-  hooke_free(g->out);
+void hk_growing_release(struct hk_growing *g) {
+  hk_free(g->x);
+  hk_free(g->out);
   g->x = g->out = NULL;
 }
 
-double hooke_growing_quotient(struct hooke_growing *g, const double *q, double a, double b) {
+double hk_growing_quotient(struct hk_growing *g, const double *q, double a, double b) {
   double energy = 0.0, square = 0.0;
   if (!multiply(g, q, a, b)) return 0.0;
   for (int64_t p = 0; p < g->system->particle_count; p++) {
@@ -141,11 +141,11 @@ double hooke_growing_quotient(struct hooke_growing *g, const double *q, double a
   return square > 0.0 ? energy / square : 0.0;
 }
 
-double hooke_growing_turn(struct hooke_growing *g, const double *q, double a, double b, double most,
-                          double rise, int64_t turns) {
-  double quotient = hooke_growing_quotient(g, q, a, b), before = 0.0;
+double hk_growing_turn(struct hk_growing *g, const double *q, double a, double b, double most, double rise,
+                       int64_t turns) {
+  double quotient = hk_growing_quotient(g, q, a, b), before = 0.0;
   for (int64_t k = 0; k < turns && !(quotient > most) && quotient > (1.0 + rise) * before; k++) {
-    if (hooke_patience_ends(g->patience, "the motion that grows")) break;
+    if (hk_patience_ends(g->patience, "the motion that grows")) break;
     before = quotient;
     for (int64_t p = 0; p < g->system->particle_count; p++) {
       for (int64_t i = 3 * p; i < 3 * p + 3; i++)
@@ -154,7 +154,7 @@ double hooke_growing_turn(struct hooke_growing *g, const double *q, double a, do
     const double length = length_of(g, g->out);
     if (!(length > 0.0) || !isfinite(length)) break;
     take(g, g->out, length);
-    quotient = fmax(quotient, hooke_growing_quotient(g, q, a, b));
+    quotient = fmax(quotient, hk_growing_quotient(g, q, a, b));
   }
   return quotient;
 }
@@ -162,11 +162,11 @@ double hooke_growing_turn(struct hooke_growing *g, const double *q, double a, do
 /* ---- steps ---- */
 
 static int is_damped(const hooke_system *system) {
-  return system->drag > 0.0 || system->altitudes.damped || hooke_springs_are_damped(&system->springs);
+  return system->drag > 0.0 || system->altitudes.damped || hk_springs_are_damped(&system->springs);
 }
 
-int32_t hooke_growing_rule(const hooke_system *system, const char *method, double h, double *a, double *b,
-                           double *most) {
+int32_t hk_growing_rule(const hooke_system *system, const char *method, double h, double *a, double *b,
+                        double *most) {
   const int symplectic = strcmp(method, "symplectic-euler") == 0;
   *a = h * h;
   *b = symplectic ? 2.0 * h : 0.0;

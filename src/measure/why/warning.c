@@ -19,7 +19,7 @@ enum kind { NEAR_LIMIT, ABOVE_LIMIT, NEVER_STABLE, KINDS };
 static const char *const kinds[KINDS] = {"near-limit", "above-limit", "never-stable"};
 
 struct watch {
-  struct hooke_node_blocks blocks;
+  struct hk_node_blocks blocks;
   hooke_warning *warning;
   void *ctx;
   int32_t told[KINDS];
@@ -28,8 +28,8 @@ struct watch {
 
 static void release(void *own) {
   struct watch *watch = own;
-  hooke_node_blocks_release(&watch->blocks);
-  hooke_free(watch);
+  hk_node_blocks_release(&watch->blocks);
+  hk_free(watch);
 }
 
 static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke_state *state,
@@ -37,28 +37,27 @@ static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke
   const hooke_system *system = it->system;
   const char *method = it->method->name;
   const double h = it->schedule.step;
-  const double limit = hooke_step_bound_of(&watch->blocks, method);
+  const double limit = hk_step_bound_of(&watch->blocks, method);
   char where[HOOKE_NAMING_SIZE] = "", sentence[640];
   if (isnan(limit)) return 0; /* a bound beyond all numbers says nothing */
   const enum kind kind = limit == 0.0 ? NEVER_STABLE : h > limit ? ABOVE_LIMIT : NEAR_LIMIT;
   if (watch->told[kind]) return 0;
   watch->told[kind] = 1;
-  const int64_t spring = hooke_naming_heaviest_words(system, particle, h, where);
+  const int64_t spring = hk_naming_heaviest_words(system, particle, h, where);
   if (kind == NEVER_STABLE) {
-    hooke_print(
-        sentence, sizeof sentence,
-        "at t = %.6g s %s is stable at no step, and takes %.6g s: some motion has no damping and grows "
-        "slowly, such as that at particle %lld%s%s",
-        *state->t, method, h, (long long)particle, where[0] ? " on " : "", where);
+    hk_print(sentence, sizeof sentence,
+             "at t = %.6g s %s is stable at no step, and takes %.6g s: some motion has no damping and grows "
+             "slowly, such as that at particle %lld%s%s",
+             *state->t, method, h, (long long)particle, where[0] ? " on " : "", where);
   } else {
-    hooke_print(
+    hk_print(
         sentence, sizeof sentence,
         "at t = %.6g s the step %.6g s is %s %.6g s, up to which %s is certain to be stable; it hangs on "
         "particle %lld%s%s",
         *state->t, h, kind == ABOVE_LIMIT ? "above" : "within 5 % of", limit, method, (long long)particle,
         where[0] ? " and " : "", where);
   }
-  hooke_utf8_make_plain(sentence);
+  hk_utf8_make_plain(sentence);
   return watch->warning(kinds[kind], sentence, *state->t, limit, spring, particle, watch->ctx);
 }
 
@@ -73,34 +72,34 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
     return 0; /* not yet earned by stepping */
   }
   if (watch->told[ABOVE_LIMIT] || watch->told[NEVER_STABLE]) return 0;
-  const double begun = hooke_clock_seconds();
+  const double begun = hk_clock_seconds();
   const double margin = watch->told[NEAR_LIMIT] ? 0.0 : MARGIN;
   int64_t particle;
-  hooke_node_blocks_fill(&watch->blocks, state->q);
+  hk_node_blocks_fill(&watch->blocks, state->q);
   const int safe =
-      hooke_step_is_safe(&watch->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
-  const double taken = hooke_clock_seconds() - begun;
+      hk_step_is_safe(&watch->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
+  const double taken = hk_clock_seconds() - begun;
   watch->spent += taken;
   watch->longest = fmax(watch->longest, taken);
   return safe ? 0 : tell(watch, it, state, particle);
 }
 
 int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning, void *ctx) {
-  hooke_integrator_set_checker(it, (struct hooke_checker){.look = NULL});
+  hk_integrator_set_checker(it, (struct hk_checker){.look = NULL});
   if (it->system == NULL) {
-    return hooke_fail(HOOKE_UNSUITED, NULL, "a first-order problem has no springs to bound its step by");
+    return hk_fail(HOOKE_UNSUITED, NULL, "a first-order problem has no springs to bound its step by");
   }
-  if (warning == NULL || !hooke_step_is_bounded(it->method->name)) return HOOKE_OK;
-  struct watch *watch = hooke_new(1, sizeof *watch);
+  if (warning == NULL || !hk_step_is_bounded(it->method->name)) return HOOKE_OK;
+  struct watch *watch = hk_new(1, sizeof *watch);
   if (watch == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = hooke_node_blocks_create(it->system, it->system->position, &watch->blocks);
+  const int32_t status = hk_node_blocks_create(it->system, it->system->position, &watch->blocks);
   if (status != HOOKE_OK) {
-    hooke_free(watch);
+    hk_free(watch);
     return status;
   }
   watch->warning = warning;
   watch->ctx = ctx;
   const int64_t bytes = (int64_t)sizeof *watch + 12 * it->system->particle_count * (int64_t)sizeof(double);
-  hooke_integrator_set_checker(it, (struct hooke_checker){look, release, watch, bytes});
+  hk_integrator_set_checker(it, (struct hk_checker){look, release, watch, bytes});
   return HOOKE_OK;
 }

@@ -28,8 +28,8 @@ static int ended_early(const hooke_integrator *run) {
 
 /* ---- what it may take ---- */
 
-const hooke_state *hooke_inquiry_last(const struct hooke_inquiry *inquiry) {
-  return inquiry->last ? inquiry->last : hooke_recent_state(&inquiry->run->recent, 0, NULL);
+const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry) {
+  return inquiry->last ? inquiry->last : hk_recent_state(&inquiry->run->recent, 0, NULL);
 }
 
 /* Adds to a list of what was left out. */
@@ -38,44 +38,42 @@ static void leave_out(char *list, size_t size, const char *what) {
   if (strstr(list, what) == NULL) snprintf(list + used, size - used, "%s%s", used ? ", " : "", what);
 }
 
-int32_t hooke_inquiry_has_room(struct hooke_inquiry *inquiry, double bytes, const char *what) {
+int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what) {
   if (bytes <= inquiry->room - inquiry->held) return 1;
   leave_out(inquiry->no_room, sizeof inquiry->no_room, what);
   return 0;
 }
 
-void hooke_inquiry_end_part(struct hooke_inquiry *inquiry, const char *what) {
-  if (hooke_patience_take_back(&inquiry->patience))
-    leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
+void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what) {
+  if (hk_patience_take_back(&inquiry->patience)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
 }
 
-static void tell_left_out(struct hooke_inquiry *inquiry) {
+static void tell_left_out(struct hk_inquiry *inquiry) {
   char *text = inquiry->why->left_out;
   const size_t size = sizeof inquiry->why->left_out;
   if (inquiry->no_time[0])
-    hooke_print(text, size, "not known, since time was short (%.3g s): %s",
-                (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL, inquiry->no_time);
+    hk_print(text, size, "not known, since time was short (%.3g s): %s",
+             (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL, inquiry->no_time);
   const size_t used = strlen(text);
   if (inquiry->no_room[0])
-    hooke_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s",
-                used ? "; " : "", 1e-6 * inquiry->room, inquiry->no_room);
+    hk_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s", used ? "; " : "",
+             1e-6 * inquiry->room, inquiry->no_room);
 }
 
 /* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was built. */
 static double usual_room(const hooke_integrator *run) {
   const hooke_system *system = run->system;
-  const double built = hooke_system_needed_bytes(system, (struct hooke_more){0});
+  const double built = hk_system_needed_bytes(system, (struct hk_more){0});
   const double held = (double)(hooke_system_memory(system) + hooke_integrator_count(run, "memory_bytes")) +
                       2.0 * (double)run->size * sizeof(double);
   return fmax(LEAST_BYTES, SHARE_OF_MEMORY * fmax(built, held));
 }
 
-static void begin_inquiry(struct hooke_inquiry *inquiry) {
+static void begin_inquiry(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   enum { SHAPES = 16 }; /* numbers a coordinate, of a limit with its modes */
   inquiry->room = usual_room(inquiry->run);
-  const double spectrum =
-      hooke_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
+  const double spectrum = hk_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
   inquiry->large = spectrum > inquiry->room;
   inquiry->excess.bound = NAN;
   const hooke_integrator *run = inquiry->run;
@@ -83,64 +81,64 @@ static void begin_inquiry(struct hooke_inquiry *inquiry) {
     inquiry->pass = PASS * run->wall_seconds / (double)run->count.force_evaluations;
 }
 
-static int32_t replay(struct hooke_inquiry *inquiry) {
+static int32_t replay(struct hk_inquiry *inquiry) {
   enum { NUMBERS = 4 + 1 + 2 }; /* a coordinate: blocks, positions one step ago, a state */
   const double bytes = (double)hooke_integrator_count(inquiry->run, "memory_bytes") +
                        NUMBERS * (double)inquiry->run->size * sizeof(double);
-  if (!hooke_inquiry_has_room(inquiry, bytes, "the last steps again")) return HOOKE_OK;
-  hooke_patience_lend(&inquiry->patience, 0.4);
-  int32_t status = hooke_state_create_sized(inquiry->run->size, 1, &inquiry->last);
-  if (status == HOOKE_OK) status = hooke_inquiry_replay(inquiry);
-  hooke_inquiry_end_part(inquiry, "the last steps again");
+  if (!hk_inquiry_has_room(inquiry, bytes, "the last steps again")) return HOOKE_OK;
+  hk_patience_lend(&inquiry->patience, 0.4);
+  int32_t status = hk_state_create_sized(inquiry->run->size, 1, &inquiry->last);
+  if (status == HOOKE_OK) status = hk_inquiry_replay(inquiry);
+  hk_inquiry_end_part(inquiry, "the last steps again");
   return status;
 }
 
 /* Of a large scene first what costs least; where it gives the cause, nothing more is looked for. */
-static int32_t survey(struct hooke_inquiry *inquiry) {
-  struct hooke_node_blocks blocks;
+static int32_t survey(struct hk_inquiry *inquiry) {
+  struct hk_node_blocks blocks;
   const double bytes = 12.0 * (double)inquiry->system->particle_count * sizeof(double);
   if (!inquiry->large || inquiry->run->method->adaptive) return HOOKE_OK;
-  if (!hooke_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
+  if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
   inquiry->held += bytes;
-  hooke_patience_lend(&inquiry->patience, 0.8);
-  int32_t status = hooke_node_blocks_begin(inquiry->system, &blocks);
+  hk_patience_lend(&inquiry->patience, 0.8);
+  int32_t status = hk_node_blocks_begin(inquiry->system, &blocks);
   blocks.patience = &inquiry->patience;
   if (status == HOOKE_OK) {
-    status = hooke_inquiry_survey(inquiry, &blocks);
-    hooke_node_blocks_release(&blocks);
+    status = hk_inquiry_survey(inquiry, &blocks);
+    hk_node_blocks_release(&blocks);
   }
   if (inquiry->excess.found)
-    hooke_patience_take_back(&inquiry->patience);
+    hk_patience_take_back(&inquiry->patience);
   else
-    hooke_inquiry_end_part(inquiry, "whether the step is above the limit");
+    hk_inquiry_end_part(inquiry, "whether the step is above the limit");
   inquiry->held -= bytes;
   return status;
 }
 
-static void release_growing(struct hooke_inquiry *inquiry) {
-  if (inquiry->growing.x) inquiry->held -= hooke_growing_bytes(inquiry->system);
-  hooke_growing_release(&inquiry->growing);
+static void release_growing(struct hk_inquiry *inquiry) {
+  if (inquiry->growing.x) inquiry->held -= hk_growing_bytes(inquiry->system);
+  hk_growing_release(&inquiry->growing);
 }
 
-static int32_t find_out(struct hooke_inquiry *inquiry) {
+static int32_t find_out(struct hk_inquiry *inquiry) {
   int32_t status = survey(inquiry);
   if (status == HOOKE_OK && !inquiry->excess.found && !inquiry->patience.stopped) status = replay(inquiry);
   release_growing(inquiry);
-  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hooke_inquiry_judge(inquiry);
-  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hooke_inquiry_advise(inquiry);
+  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_judge(inquiry);
+  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_advise(inquiry);
   if (!inquiry->patience.stopped) return status;
-  return hooke_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
-static int32_t inquire(struct hooke_inquiry *inquiry) {
+static int32_t inquire(struct hk_inquiry *inquiry) {
   begin_inquiry(inquiry);
-  inquiry->excess.q = hooke_new(inquiry->run->size, sizeof(double));
+  inquiry->excess.q = hk_new(inquiry->run->size, sizeof(double));
   inquiry->held = (double)inquiry->run->size * sizeof(double);
   const int32_t status = inquiry->excess.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
   tell_left_out(inquiry);
-  hooke_growing_release(&inquiry->growing);
-  hooke_blame_release(&inquiry->excess.blame);
-  hooke_free(inquiry->excess.q);
+  hk_growing_release(&inquiry->growing);
+  hk_blame_release(&inquiry->excess.blame);
+  hk_free(inquiry->excess.q);
   hooke_state_destroy(inquiry->last);
   return status;
 }
@@ -155,34 +153,34 @@ static double usual_time(const hooke_integrator *run) {
 int32_t hooke_why_create(const hooke_integrator *run, double seconds, hooke_progress *progress, void *ctx,
                          hooke_why **out) {
   if (run->system == NULL) {
-    return hooke_fail(HOOKE_UNSUITED, NULL,
-                      "a first-order problem has no springs to blame; its own message is all "
-                      "there is");
+    return hk_fail(HOOKE_UNSUITED, NULL,
+                   "a first-order problem has no springs to blame; its own message is all "
+                   "there is");
   }
   if (!ended_early(run)) {
-    return hooke_fail(HOOKE_BAD_CALL, NULL,
-                      "the last run of this integrator did not blow up: there is nothing to explain");
+    return hk_fail(HOOKE_BAD_CALL, NULL,
+                   "the last run of this integrator did not blow up: there is nothing to explain");
   }
   if (!HOOKE_HAVE_LAPACK) {
-    return hooke_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
   }
   if (run->recent.room == 0) {
-    return hooke_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
+    return hk_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
   }
-  struct hooke_why *why = hooke_handle_new("hooke_why", sizeof *why);
+  struct hooke_why *why = hk_handle_new("hooke_why", sizeof *why);
   if (why == NULL) return HOOKE_NO_MEMORY;
   why->time = why->limit = why->particle = why->step = NAN;
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
   if (!run->method->adaptive) why->step = run->schedule.step;
   snprintf(why->method, sizeof why->method, "%s", run->method->name);
-  struct hooke_inquiry inquiry = {
+  struct hk_inquiry inquiry = {
       .run = run,
       .system = run->system,
       .why = why,
       .bad_particle = -1,
       .force = -1,
       .flipped = -1,
-      .patience = hooke_patience_of(PUNCTUAL * (seconds > 0.0 ? seconds : usual_time(run)), progress, ctx)};
+      .patience = hk_patience_of(PUNCTUAL * (seconds > 0.0 ? seconds : usual_time(run)), progress, ctx)};
   const int32_t status = inquire(&inquiry);
   if (status == HOOKE_OK)
     *out = why;
@@ -198,10 +196,10 @@ int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *r
   hooke_state *state = NULL;
   int32_t status = hooke_integrator_create(system, run, &integrator);
   if (status != HOOKE_OK) return status;
-  status = hooke_state_create_sized(integrator->size, 1, &state);
+  status = hk_state_create_sized(integrator->size, 1, &state);
   if (status == HOOKE_OK) status = hooke_state_copy(last, state);
   if (status == HOOKE_OK) {
-    status = hooke_integrator_run_on(integrator, first, state);
+    status = hk_integrator_run_on(integrator, first, state);
     if (status == HOOKE_OK || ended_early(integrator))
       status = hooke_why_create(integrator, seconds, progress, ctx, out);
   }
@@ -214,7 +212,7 @@ void hooke_why_destroy(hooke_why *why) {
   if (why == NULL) return;
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  hooke_handle_free(why);
+  hk_handle_free(why);
 }
 
 const char *hooke_why_text(const hooke_why *why, const char *what) {
@@ -225,11 +223,11 @@ const char *hooke_why_text(const hooke_why *why, const char *what) {
 }
 
 double hooke_why_number(const hooke_why *why, const char *what) {
-  const struct hooke_figure numbers[] = {{"time", why->time},
-                                         {"noticed", why->noticed},
-                                         {"step", why->step},
-                                         {"limit", why->limit},
-                                         {"particle", why->particle}};
+  const struct hk_figure numbers[] = {{"time", why->time},
+                                      {"noticed", why->noticed},
+                                      {"step", why->step},
+                                      {"limit", why->limit},
+                                      {"particle", why->particle}};
   return HOOKE_FIGURE(numbers, what);
 }
 
@@ -239,7 +237,7 @@ int64_t hooke_why_blame_count(const hooke_why *why) {
 
 double hooke_why_blame_number(const hooke_why *why, int64_t place, const char *what) {
   if (place < 0 || place >= why->blame_count) return NAN;
-  const struct hooke_why_blame *blame = &why->blame[place];
+  const struct hk_why_blame *blame = &why->blame[place];
   if (strcmp(what, "share") == 0) return blame->share;
   if (blame->spring < 0) return NAN;
   if (strcmp(what, "spring") == 0) return (double)blame->spring;
@@ -259,13 +257,13 @@ int64_t hooke_why_advice_count(const hooke_why *why) {
 
 const char *hooke_why_advice_text(const hooke_why *why, int64_t place, const char *what) {
   if (place < 0 || place >= why->advice_count) return NULL;
-  const struct hooke_why_advice *advice = &why->advice[place];
+  const struct hk_why_advice *advice = &why->advice[place];
   if (strcmp(what, "change") == 0) return advice->change;
   if (strcmp(what, "option") == 0) return advice->option;
   return strcmp(what, "value") == 0 ? advice->value : NULL;
 }
 
-int32_t hooke_why_apply(const hooke_options *changes, hooke_options *run) {
+int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_options_row_count(changes) && status == HOOKE_OK; k++) {
     const char *name = hooke_options_row(changes, k, "name");
@@ -280,11 +278,11 @@ int32_t hooke_why_apply(const hooke_options *changes, hooke_options *run) {
 
 int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_options *run) {
   if (place < 0 || place >= why->advice_count) {
-    return hooke_fail(HOOKE_BAD_VALUE, "place", "there is no advice %lld; there are %lld", (long long)place,
-                      (long long)why->advice_count);
+    return hk_fail(HOOKE_BAD_VALUE, "place", "there is no advice %lld; there are %lld", (long long)place,
+                   (long long)why->advice_count);
   }
-  const int32_t status = hooke_run_options_require(run, "run");
+  const int32_t status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
   const hooke_options *changes = why->advice[place].run;
-  return changes ? hooke_why_apply(changes, run) : HOOKE_OK;
+  return changes ? hk_why_apply(changes, run) : HOOKE_OK;
 }

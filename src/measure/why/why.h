@@ -12,14 +12,14 @@
 
 enum { HOOKE_WHY_MOST_BLAME = 100, HOOKE_WHY_MOST_ADVICE = 4 };
 
-struct hooke_why_blame {
+struct hk_why_blame {
   int64_t spring, first, second;
   double share;
   char group[96];
   const char *force; /* "" of a spring; else `spring` is -1 */
 };
 
-struct hooke_why_advice {
+struct hk_why_advice {
   char change[720], option[32], value[48];
   hooke_options *run; /* of a run, with nothing set but what is to be changed; NULL: a change of the scene */
 };
@@ -29,19 +29,19 @@ struct hooke_why {
   char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;
   int64_t blame_count, advice_count;
-  struct hooke_why_blame blame[HOOKE_WHY_MOST_BLAME];
-  struct hooke_why_advice advice[HOOKE_WHY_MOST_ADVICE];
+  struct hk_why_blame blame[HOOKE_WHY_MOST_BLAME];
+  struct hk_why_advice advice[HOOKE_WHY_MOST_ADVICE];
 };
 
 /* What a callback did for the first time that it should not do, given finite numbers of a sensible size. */
-struct hooke_slip {
+struct hk_slip {
   int32_t found, of_drive;
   double time;
   int64_t particle;
 };
 
 /* Positions at which the step was above the limit. */
-struct hooke_excess {
+struct hk_excess {
   int32_t found, tries;
   int64_t pause; /* looks to let pass: between bound and limit nothing is gained by asking at every one */
   double time, *q;
@@ -50,19 +50,19 @@ struct hooke_excess {
   int64_t particle;  /* where the bound shows it */
   double bound;      /* that the step was seen above first; NaN: it never was */
   int32_t has_blame; /* of the motion that grows there */
-  struct hooke_blame blame;
+  struct hk_blame blame;
 };
 
-struct hooke_inquiry {
+struct hk_inquiry {
   const hooke_integrator *run;
   const hooke_system *system;
   struct hooke_why *why;
-  struct hooke_patience patience;
+  struct hk_patience patience;
   double room, held;               /* [bytes] that may be taken, and those that are */
   char no_time[200], no_room[200]; /* what was left out */
   double pass;                     /* [s] that one pass over the springs for bounds takes, by estimate */
   int32_t large;                   /* the spectrum is out of reach: what grows has to tell */
-  struct hooke_growing growing;
+  struct hk_growing growing;
 
   hooke_state *last;  /* the last one within all bounds; NULL: the run's newest is */
   int64_t last_step;  /* steps before it */
@@ -74,8 +74,8 @@ struct hooke_inquiry {
   double
       squares; /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
   double size, bad_size; /* largest position or velocity, before and after */
-  struct hooke_slip slip;
-  struct hooke_excess excess;
+  struct hk_slip slip;
+  struct hk_excess excess;
   int64_t flips,
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
@@ -88,46 +88,46 @@ struct hooke_inquiry {
 
 /* Takes the last steps of the run again, or all of them where that is cheap, and notes what there is to see. The statuses
  * of hooke_integrator_create(); HOOKE_STOPPED if a callback asked for it. */
-int32_t hooke_inquiry_replay(struct hooke_inquiry *inquiry);
+int32_t hk_inquiry_replay(struct hk_inquiry *inquiry);
 
 /* Looks whether the step is above the limit at positions q of the time t, if it was not before. */
-int32_t hooke_inquiry_consider(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks,
-                               const double *q, double t);
+int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks, const double *q,
+                            double t);
 
 /* The same at the states that the run kept. */
-int32_t hooke_inquiry_survey(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks);
+int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks);
 
 /* The limit of `method` at q, if there is room and time for it; else the bound below it, and `known` is 0. */
-int32_t hooke_inquiry_limit(struct hooke_inquiry *inquiry, const double *q, const char *method,
-                            double accuracy, double *limit, int32_t *known);
+int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char *method, double accuracy,
+                         double *limit, int32_t *known);
 
 /* 1 if the model gains energy by itself: at much smaller steps, too. */
-int32_t hooke_inquiry_gains(struct hooke_inquiry *inquiry, int32_t *gains);
+int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
 
 /* Finds the springs and the force to blame for an excess, and a remedy. */
-int32_t hooke_inquiry_blame(struct hooke_inquiry *inquiry);
-void hooke_inquiry_blame_spring(struct hooke_inquiry *inquiry, int64_t spring, double share);
+int32_t hk_inquiry_blame(struct hk_inquiry *inquiry);
+void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share);
 
 /* The last state within all bounds. */
-const hooke_state *hooke_inquiry_last(const struct hooke_inquiry *inquiry);
+const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);
 
 /* 1 if there is room for as many bytes more; if not, `what` is left out for that. */
-int32_t hooke_inquiry_has_room(struct hooke_inquiry *inquiry, double bytes, const char *what);
+int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what);
 
 /* Ends a part of which patience was lent; if that was spent, `what` is left out for want of time. */
-void hooke_inquiry_end_part(struct hooke_inquiry *inquiry, const char *what);
+void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what);
 
 /* Names cause, place and time. */
-int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry);
+int32_t hk_inquiry_judge(struct hk_inquiry *inquiry);
 
 /* Finds changes of the run and tries them. */
-int32_t hooke_inquiry_advise(struct hooke_inquiry *inquiry);
+int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
 
 /* Sets what is set in `changes`. */
-int32_t hooke_why_apply(const hooke_options *changes, hooke_options *run);
+int32_t hk_why_apply(const hooke_options *changes, hooke_options *run);
 
 /* The largest handy step (1, 2 or 5 times a power of ten, else a whole part) up to `limit` of which `every` (NaN: free) and
  * `duration` are whole multiples; `step` (NaN: none) is one that is. */
-double hooke_handy_step(double step, double limit, double every, double duration);
+double hk_handy_step(double step, double limit, double every, double duration);
 
 #endif

@@ -21,14 +21,14 @@ static int fits(double step, double whole) {
   return isnan(whole) || (count >= 1.0 - 1e-9 && fabs(count - round(count)) <= 1e-9 * count);
 }
 
-double hooke_handy_step(double step, double limit, double every, double duration) {
+double hk_handy_step(double step, double limit, double every, double duration) {
   static const int factors[] = {5, 2, 1};
   const int exponent = (int)floor(log10(limit));
   for (int i = 0; i < HANDY_TRIES; i++) {
     char text[32];
     double handy = 0.0;
     snprintf(text, sizeof text, "%de%d", factors[i % 3], exponent - i / 3);
-    if (hooke_number_parse(text, (int64_t)strlen(text), &handy) != HOOKE_NUMBER_FINE) continue;
+    if (hk_number_parse(text, (int64_t)strlen(text), &handy) != HOOKE_NUMBER_FINE) continue;
     if (handy > 0.0 && handy <= limit && fits(handy, every) && fits(handy, duration)) return handy;
   }
   const double whole = !isnan(step) ? step : !isnan(every) && fits(every, duration) ? every : duration;
@@ -38,39 +38,39 @@ double hooke_handy_step(double step, double limit, double every, double duration
 /* ---- candidates ---- */
 
 /* The largest step known to be stable by `method`: at the start, and where it was found too large. */
-static int32_t stable_step(struct hooke_plan *plan, const char *method, double *limit) {
-  struct hooke_inquiry *inquiry = plan->inquiry;
-  const struct hooke_excess *excess = &inquiry->excess;
+static int32_t stable_step(struct hk_plan *plan, const char *method, double *limit) {
+  struct hk_inquiry *inquiry = plan->inquiry;
+  const struct hk_excess *excess = &inquiry->excess;
   double later = INFINITY;
   int32_t known;
   if (inquiry->large && !isnan(excess->bound) && strcmp(method, inquiry->run->method->name) == 0) {
     *limit = excess->found && !(excess->at_most > 0.0) ? 0.0 : excess->bound;
     return HOOKE_OK;
   }
-  hooke_patience_lend(&inquiry->patience, 0.3);
-  int32_t status = hooke_inquiry_limit(inquiry, plan->first->q, method, ACCURACY, limit, &known);
+  hk_patience_lend(&inquiry->patience, 0.3);
+  int32_t status = hk_inquiry_limit(inquiry, plan->first->q, method, ACCURACY, limit, &known);
   if (status == HOOKE_OK && excess->found)
-    status = hooke_inquiry_limit(inquiry, excess->q, method, ACCURACY, &later, &known);
-  hooke_inquiry_end_part(inquiry, "limits of steps");
+    status = hk_inquiry_limit(inquiry, excess->q, method, ACCURACY, &later, &known);
+  hk_inquiry_end_part(inquiry, "limits of steps");
   *limit = fmin(*limit, later);
   return status;
 }
 
 /* A run of the same method or another, of steps up to `limit`; a shorter one where the whole would take days. */
-static int32_t offer_step(struct hooke_plan *plan, const char *method, double limit, const char *why_so,
+static int32_t offer_step(struct hk_plan *plan, const char *method, double limit, const char *why_so,
                           int32_t *taken) {
   const int other = strcmp(method, plan->inquiry->run->method->name) != 0;
-  struct hooke_change change;
+  struct hk_change change;
   *taken = 0;
   if (!(limit > 0.0)) return HOOKE_OK;
   if (isinf(limit) && isnan(plan->step)) limit = plan->duration / SHORT_RUN;
   const double most = isnan(plan->step) ? limit : fmin(limit, plan->step);
-  double step = hooke_handy_step(plan->step, most, plan->every, plan->duration);
+  double step = hk_handy_step(plan->step, most, plan->every, plan->duration);
   if (!(step > 0.0) || (!other && step == plan->step)) return HOOKE_OK;
-  int32_t status = hooke_change_begin(&change, other ? "method" : "step");
+  int32_t status = hk_change_begin(&change, other ? "method" : "step");
   const int too_long =
       plan->inquiry->squares > 0.0 || !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
-  if (too_long) step = hooke_handy_step(NAN, most, NAN, NAN);
+  if (too_long) step = hk_handy_step(NAN, most, NAN, NAN);
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
   if (status == HOOKE_OK && step != plan->step) status = hooke_options_set_number(change.run, "step", step);
   if (status == HOOKE_OK && too_long) {
@@ -79,17 +79,17 @@ static int32_t offer_step(struct hooke_plan *plan, const char *method, double li
       status = hooke_options_set_number(change.run, "every", SHORT_FRAME * step);
   }
   if (status != HOOKE_OK) {
-    hooke_change_drop(&change);
+    hk_change_drop(&change);
     return status;
   }
-  hooke_change_say(&change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
-                   other ? ", with " : "", step, why_so,
-                   too_long ? ", for a run that is as short as such steps make it" : "");
-  return hooke_plan_offer(plan, &change, taken);
+  hk_change_say(&change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
+                other ? ", with " : "", step, why_so,
+                too_long ? ", for a run that is as short as such steps make it" : "");
+  return hk_plan_offer(plan, &change, taken);
 }
 
 /* The same method at a share of its limit, then at smaller and smaller steps. */
-static int32_t offer_smaller(struct hooke_plan *plan, double limit, const char *why_so) {
+static int32_t offer_smaller(struct hk_plan *plan, double limit, const char *why_so) {
   int32_t taken = 0, status = HOOKE_OK;
   for (int k = 0; k < 4 && !taken && status == HOOKE_OK; k++) {
     status = offer_step(plan, plan->inquiry->run->method->name, limit, k == 0 ? why_so : "", &taken);
@@ -98,7 +98,7 @@ static int32_t offer_smaller(struct hooke_plan *plan, double limit, const char *
   return status;
 }
 
-static int32_t offer_fixed(struct hooke_plan *plan, const char *method) {
+static int32_t offer_fixed(struct hk_plan *plan, const char *method) {
   double limit = 0.0;
   int32_t taken;
   int32_t status = stable_step(plan, method, &limit);
@@ -114,94 +114,94 @@ static int32_t offer_fixed(struct hooke_plan *plan, const char *method) {
 static double rounded(double value) {
   char text[32];
   double read = value;
-  hooke_print(text, sizeof text, "%.1e", value);
-  return hooke_number_parse(text, (int64_t)strlen(text), &read) == HOOKE_NUMBER_FINE ? read : value;
+  hk_print(text, sizeof text, "%.1e", value);
+  return hk_number_parse(text, (int64_t)strlen(text), &read) == HOOKE_NUMBER_FINE ? read : value;
 }
 
-static int32_t offer_adaptive(struct hooke_plan *plan, const char *method, double looser) {
-  struct hooke_change change;
+static int32_t offer_adaptive(struct hk_plan *plan, const char *method, double looser) {
+  struct hk_change change;
   int32_t taken;
   const hooke_options *run = plan->inquiry->run->options;
   const int other = strcmp(method, plan->inquiry->run->method->name) != 0;
   const double rtol = rounded(looser * hooke_options_number(run, "rtol")),
                atol = rounded(looser * hooke_options_number(run, "atol"));
   if (!hooke_method_is_built(method) || rtol > 0.1) return HOOKE_OK;
-  int32_t status = hooke_change_begin(&change, other ? "method" : "rtol");
+  int32_t status = hk_change_begin(&change, other ? "method" : "rtol");
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
   if (status == HOOKE_OK && looser > 1.0) status = hooke_options_set_number(change.run, "rtol", rtol);
   if (status == HOOKE_OK && looser > 1.0) status = hooke_options_set_number(change.run, "atol", atol);
   if (status == HOOKE_OK && looser > 1.0)
     status = hooke_options_set_number(change.run, "atol_velocity", atol);
   if (status != HOOKE_OK) {
-    hooke_change_drop(&change);
+    hk_change_drop(&change);
     return status;
   }
   if (other)
-    hooke_change_say(&change, "the method %s, which chooses its steps itself", method);
+    hk_change_say(&change, "the method %s, which chooses its steps itself", method);
   else
-    hooke_change_say(&change, "looser tolerances, %g times", looser);
-  return hooke_plan_offer(plan, &change, &taken);
+    hk_change_say(&change, "looser tolerances, %g times", looser);
+  return hk_plan_offer(plan, &change, &taken);
 }
 
-static int32_t offer_one_iteration(struct hooke_plan *plan) {
-  struct hooke_change change;
+static int32_t offer_one_iteration(struct hk_plan *plan) {
+  struct hk_change change;
   int32_t taken;
-  int32_t status = hooke_change_begin(&change, "newton");
+  int32_t status = hk_change_begin(&change, "newton");
   if (status == HOOKE_OK) status = hooke_options_set_text(change.run, "newton", "one-iteration");
   if (status != HOOKE_OK) {
-    hooke_change_drop(&change);
+    hk_change_drop(&change);
     return status;
   }
-  hooke_change_say(&change, "one iteration a step, which has nothing to converge");
-  return hooke_plan_offer(plan, &change, &taken);
+  hk_change_say(&change, "one iteration a step, which has nothing to converge");
+  return hk_plan_offer(plan, &change, &taken);
 }
 
 /* As many steps as it takes. */
-static int32_t offer_more_steps(struct hooke_plan *plan) {
-  struct hooke_change change;
+static int32_t offer_more_steps(struct hk_plan *plan) {
+  struct hk_change change;
   int32_t taken;
   int64_t steps = -1;
-  int32_t status = hooke_change_begin(&change, "max_steps");
+  int32_t status = hk_change_begin(&change, "max_steps");
   if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "max_steps", 9e15);
-  if (status == HOOKE_OK) status = hooke_plan_count_steps(plan, &change, &steps);
+  if (status == HOOKE_OK) status = hk_plan_count_steps(plan, &change, &steps);
   if (status == HOOKE_OK && steps > 0) {
     status = hooke_options_set_number(change.run, "max_steps", ceil(1.25 * (double)steps));
-    hooke_change_say(&change, "more steps: the whole run takes %lld", (long long)steps);
-    if (status == HOOKE_OK) return hooke_plan_offer(plan, &change, &taken);
+    hk_change_say(&change, "more steps: the whole run takes %lld", (long long)steps);
+    if (status == HOOKE_OK) return hk_plan_offer(plan, &change, &taken);
   }
-  hooke_change_drop(&change);
+  hk_change_drop(&change);
   return status;
 }
 
 /* The run up to where all was well. */
-static int32_t offer_shorter(struct hooke_plan *plan) {
-  const struct hooke_inquiry *inquiry = plan->inquiry;
-  struct hooke_change change;
+static int32_t offer_shorter(struct hk_plan *plan) {
+  const struct hk_inquiry *inquiry = plan->inquiry;
+  struct hk_change change;
   int32_t taken;
   const double step = plan->step, begun = inquiry->run->t0;
-  double duration = isnan(step) ? *hooke_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
+  double duration = isnan(step) ? *hk_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
   if (inquiry->slip.found && inquiry->slip.time - begun < duration) {
     duration =
         isnan(step) ? inquiry->slip.time - begun : floor((inquiry->slip.time - begun) / step - 1.0) * step;
   }
   if (isnan(step)) duration *= 0.9;
   if (!(duration > 0.0) || duration >= plan->duration) return HOOKE_OK;
-  int32_t status = hooke_change_begin(&change, "duration");
+  int32_t status = hk_change_begin(&change, "duration");
   if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "duration", duration);
   if (status == HOOKE_OK && !isnan(plan->every) && plan->every > duration)
     status = hooke_options_set_number(change.run, "every", isnan(step) ? duration : step);
   if (status != HOOKE_OK) {
-    hooke_change_drop(&change);
+    hk_change_drop(&change);
     return status;
   }
-  hooke_change_say(&change, "a run that ends before the trouble, at t = %.6g s, to look at how it gets there",
-                   begun + duration);
-  return hooke_plan_offer(plan, &change, &taken);
+  hk_change_say(&change, "a run that ends before the trouble, at t = %.6g s, to look at how it gets there",
+                begun + duration);
+  return hk_plan_offer(plan, &change, &taken);
 }
 
 /* ---- what fits which cause ---- */
 
-static int32_t offer_others(struct hooke_plan *plan) {
+static int32_t offer_others(struct hk_plan *plan) {
   const char *const fixed[] = {"symplectic-euler", "verlet", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
   const char *mine = plan->inquiry->run->method->name;
@@ -215,8 +215,8 @@ static int32_t offer_others(struct hooke_plan *plan) {
   return status;
 }
 
-static int32_t offer_for_step(struct hooke_plan *plan) {
-  const struct hooke_excess *excess = &plan->inquiry->excess;
+static int32_t offer_for_step(struct hk_plan *plan) {
+  const struct hk_excess *excess = &plan->inquiry->excess;
   const char *mine = plan->inquiry->run->method->name;
   double limit = 0.5 * plan->step;
   int32_t status = HOOKE_OK;
@@ -232,13 +232,13 @@ static int32_t offer_for_step(struct hooke_plan *plan) {
   return status == HOOKE_OK ? offer_others(plan) : status;
 }
 
-static int32_t offer_for_collapse(struct hooke_plan *plan) {
+static int32_t offer_for_collapse(struct hk_plan *plan) {
   int32_t status = HOOKE_OK;
   if (!isnan(plan->step)) status = offer_smaller(plan, 0.25 * plan->step, ", with which it jumps less far");
   return status == HOOKE_OK ? offer_others(plan) : status;
 }
 
-static int32_t offer_for_solver(struct hooke_plan *plan) {
+static int32_t offer_for_solver(struct hk_plan *plan) {
   int32_t status = HOOKE_OK;
   if (plan->inquiry->run->outcome == HOOKE_STEP_LIMIT) status = offer_more_steps(plan);
   if (status == HOOKE_OK && !isnan(plan->step)) {
@@ -253,22 +253,22 @@ static int32_t offer_for_solver(struct hooke_plan *plan) {
 }
 
 /* No step cures it; damping does, and so may what a method damps. */
-static int32_t offer_for_gain(struct hooke_plan *plan) {
+static int32_t offer_for_gain(struct hk_plan *plan) {
   int32_t status = offer_shorter(plan);
-  if (status == HOOKE_OK) status = hooke_plan_try_damping(plan);
+  if (status == HOOKE_OK) status = hk_plan_try_damping(plan);
   if (status == HOOKE_OK) status = offer_fixed(plan, "backward-euler");
   return status == HOOKE_OK ? offer_adaptive(plan, "cvode-bdf", 1.0) : status;
 }
 
 /* As long as the squares of what moves have numbers. */
-static int32_t offer_for_squares(struct hooke_plan *plan) {
+static int32_t offer_for_squares(struct hk_plan *plan) {
   int32_t taken;
   if (isnan(plan->step)) return HOOKE_OK;
   return offer_step(plan, plan->inquiry->run->method->name, plan->inquiry->squares,
                     ", by which nothing moves beyond numbers that have squares", &taken);
 }
 
-static int32_t offer_all(struct hooke_plan *plan) {
+static int32_t offer_all(struct hk_plan *plan) {
   const struct hooke_why *why = plan->inquiry->why;
   int32_t status;
   if (strcmp(why->cause, "force-not-finite") == 0)
@@ -290,14 +290,14 @@ static int32_t offer_all(struct hooke_plan *plan) {
 
 /* ---- the scene ---- */
 
-static void advise_scene(struct hooke_inquiry *inquiry) {
+static void advise_scene(struct hk_inquiry *inquiry) {
   struct hooke_why *why = inquiry->why;
-  struct hooke_why_advice *advice = &why->advice[why->advice_count];
+  struct hk_why_advice *advice = &why->advice[why->advice_count];
   if (inquiry->slip.found) {
-    hooke_print(advice->change, sizeof advice->change,
-                "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
-                inquiry->slip.of_drive ? "drive" : "force", (long long)inquiry->slip.particle,
-                inquiry->slip.time);
+    hk_print(advice->change, sizeof advice->change,
+             "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
+             inquiry->slip.of_drive ? "drive" : "force", (long long)inquiry->slip.particle,
+             inquiry->slip.time);
   } else if (inquiry->remedy[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
@@ -319,12 +319,12 @@ static void advise_scene(struct hooke_inquiry *inquiry) {
   why->advice_count++;
 }
 
-int32_t hooke_inquiry_advise(struct hooke_inquiry *inquiry) {
-  struct hooke_plan plan;
-  int32_t status = hooke_plan_begin(inquiry, &plan);
+int32_t hk_inquiry_advise(struct hk_inquiry *inquiry) {
+  struct hk_plan plan;
+  int32_t status = hk_plan_begin(inquiry, &plan);
   if (status == HOOKE_OK && plan.duration > 0.0) status = offer_all(&plan);
-  hooke_plan_release(&plan);
-  hooke_inquiry_end_part(inquiry, "what else to do");
+  hk_plan_release(&plan);
+  hk_inquiry_end_part(inquiry, "what else to do");
   if (status == HOOKE_OK) advise_scene(inquiry);
   return status;
 }

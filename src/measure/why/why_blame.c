@@ -9,35 +9,34 @@
 #include <stdio.h>
 #include <string.h>
 
-void hooke_inquiry_blame_spring(struct hooke_inquiry *inquiry, int64_t spring, double share) {
+void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share) {
   struct hooke_why *why = inquiry->why;
   if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
-  const struct hooke_spring found = hooke_naming_spring(inquiry->system, spring);
-  struct hooke_why_blame *blame = &why->blame[why->blame_count++];
-  *blame = (struct hooke_why_blame){
+  const struct hk_spring found = hk_naming_spring(inquiry->system, spring);
+  struct hk_why_blame *blame = &why->blame[why->blame_count++];
+  *blame = (struct hk_why_blame){
       .spring = spring, .first = found.head, .second = found.tail, .share = share, .force = ""};
-  snprintf(blame->group, sizeof blame->group, "%s", hooke_naming_group(inquiry->system, spring));
+  snprintf(blame->group, sizeof blame->group, "%s", hk_naming_group(inquiry->system, spring));
 }
 
 /* A force first, then springs. */
-static void take_blame(struct hooke_inquiry *inquiry, const struct hooke_blame *blame) {
+static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame) {
   struct hooke_why *why = inquiry->why;
   why->blame_count = 0;
-  inquiry->force = hooke_blame_force(blame);
+  inquiry->force = hk_blame_force(blame);
   if (inquiry->force >= 0) {
-    why->blame[why->blame_count++] =
-        (struct hooke_why_blame){.spring = -1,
-                                 .first = -1,
-                                 .second = -1,
-                                 .share = blame->force_share[inquiry->force],
-                                 .force = hooke_blame_force_name(inquiry->force)};
+    why->blame[why->blame_count++] = (struct hk_why_blame){.spring = -1,
+                                                           .first = -1,
+                                                           .second = -1,
+                                                           .share = blame->force_share[inquiry->force],
+                                                           .force = hk_blame_force_name(inquiry->force)};
   }
   for (int64_t k = 0; k < blame->spring_count; k++)
-    hooke_inquiry_blame_spring(inquiry, blame->spring[k].spring, blame->spring[k].share);
+    hk_inquiry_blame_spring(inquiry, blame->spring[k].spring, blame->spring[k].share);
 }
 
 /* By the mode that limits, where the step was first seen above the limit. */
-static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
+static int32_t ask_limit(struct hk_inquiry *inquiry, hooke_state *state) {
   const hooke_integrator *run = inquiry->run;
   hooke_options *options = NULL;
   hooke_limit *limit = NULL;
@@ -51,7 +50,7 @@ static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
     limit->room = inquiry->room - inquiry->held;
     status = hooke_limit_find(limit, state);
     if (limit->found) take_blame(inquiry, &limit->blame);
-    const struct hooke_remedy *remedy = &limit->remedy;
+    const struct hk_remedy *remedy = &limit->remedy;
     if (status == HOOKE_OK && (remedy->kind || remedy->force))
       snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", remedy->sentence);
   }
@@ -60,23 +59,23 @@ static int32_t ask_limit(struct hooke_inquiry *inquiry, hooke_state *state) {
   return status;
 }
 
-int32_t hooke_inquiry_blame(struct hooke_inquiry *inquiry) {
-  const struct hooke_excess *excess = &inquiry->excess;
+int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
+  const struct hk_excess *excess = &inquiry->excess;
   hooke_state *state = NULL;
   int32_t status = HOOKE_OK;
   if (excess->has_blame) take_blame(inquiry, &excess->blame);
   if (!inquiry->large) {
-    hooke_patience_lend(&inquiry->patience, 0.5);
-    status = hooke_state_create_sized(inquiry->run->size, 1, &state);
+    hk_patience_lend(&inquiry->patience, 0.5);
+    status = hk_state_create_sized(inquiry->run->size, 1, &state);
     if (status == HOOKE_OK) status = ask_limit(inquiry, state);
     hooke_state_destroy(state);
-    hooke_inquiry_end_part(inquiry, "what the limit hangs on");
+    hk_inquiry_end_part(inquiry, "what the limit hangs on");
   }
   if (status == HOOKE_NO_MEMORY) return status;
   /* where no mode is to be had, the particle at which the bound showed it */
   if (inquiry->why->blame_count == 0) {
-    hooke_inquiry_blame_spring(
-        inquiry, hooke_naming_heaviest(inquiry->system, excess->particle, inquiry->run->schedule.step), NAN);
+    hk_inquiry_blame_spring(
+        inquiry, hk_naming_heaviest(inquiry->system, excess->particle, inquiry->run->schedule.step), NAN);
   }
   return HOOKE_OK;
 }

@@ -14,10 +14,10 @@
 
 static const double COLLAPSED = 1e-3; /* of the rest length */
 
-static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...)
+static void say(struct hk_inquiry *inquiry, const char *cause, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-static void say(struct hooke_inquiry *inquiry, const char *cause, const char *format, ...) {
+static void say(struct hk_inquiry *inquiry, const char *cause, const char *format, ...) {
   struct hooke_why *why = inquiry->why;
   const int32_t outcome = inquiry->run->outcome;
   const char *how = outcome == HOOKE_DIVERGED        ? "the run diverged"
@@ -27,32 +27,32 @@ static void say(struct hooke_inquiry *inquiry, const char *cause, const char *fo
   why->cause = cause;
   int used = snprintf(why->sentence, sizeof why->sentence, "%s: ", how);
   va_start(args, format);
-  hooke_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
+  hk_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
   va_end(args);
-  hooke_utf8_make_plain(why->sentence);
+  hk_utf8_make_plain(why->sentence);
 }
 
 /* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */
-static const char *show(const struct hooke_inquiry *inquiry, char text[160]) {
+static const char *show(const struct hk_inquiry *inquiry, char text[160]) {
   const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
                                                                                   : inquiry->why->noticed;
   if (inquiry->run->outcome == HOOKE_DIVERGED && inquiry->bad_particle < 0) {
-    hooke_print(text, 160, "it was noticed at t = %.6g s", t);
+    hk_print(text, 160, "it was noticed at t = %.6g s", t);
   } else if (inquiry->run->outcome == HOOKE_DIVERGED) {
-    hooke_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
-                (long long)inquiry->bad_particle,
-                isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
-                                            : "numbers are no longer finite");
+    hk_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
+             (long long)inquiry->bad_particle,
+             isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
+                                         : "numbers are no longer finite");
   } else {
-    hooke_print(text, 160, "at t = %.6g s it ended", t);
+    hk_print(text, 160, "at t = %.6g s it ended", t);
   }
   return text;
 }
 
 /* ---- causes ---- */
 
-static void judge_slip(struct hooke_inquiry *inquiry) {
-  const struct hooke_slip *slip = &inquiry->slip;
+static void judge_slip(struct hk_inquiry *inquiry) {
+  const struct hk_slip *slip = &inquiry->slip;
   inquiry->why->particle = (double)slip->particle;
   if (slip->of_drive) {
     say(inquiry, "force-not-finite",
@@ -70,28 +70,28 @@ static void judge_slip(struct hooke_inquiry *inquiry) {
 }
 
 /* What the limit hangs on. */
-static void name_blamed(const struct hooke_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
+static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hooke_why *why = inquiry->why;
   const int64_t particle = inquiry->excess.particle;
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;
-  if (first < why->blame_count) hooke_naming_words(inquiry->system, why->blame[first].spring, spring);
+  if (first < why->blame_count) hk_naming_words(inquiry->system, why->blame[first].spring, spring);
   if (inquiry->force == HOOKE_BLAME_DRAG)
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "the drag of particle %lld", (long long)particle);
   else if (inquiry->force >= HOOKE_BLAME_BENDING)
-    hooke_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
+    hk_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
   else
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s",
              inquiry->force == HOOKE_BLAME_DAMPING ? "the damping of " : "", spring);
 }
 
-static int32_t judge_excess(struct hooke_inquiry *inquiry) {
-  const struct hooke_excess *excess = &inquiry->excess;
+static int32_t judge_excess(struct hk_inquiry *inquiry) {
+  const struct hk_excess *excess = &inquiry->excess;
   const char *method = inquiry->run->method->name;
   char where[2 * HOOKE_NAMING_SIZE], end[160];
   inquiry->why->limit = excess->limit;
   inquiry->why->particle = (double)excess->particle;
-  const int32_t status = hooke_inquiry_blame(inquiry);
+  const int32_t status = hk_inquiry_blame(inquiry);
   name_blamed(inquiry, where);
   show(inquiry, end);
   if (excess->at_most == 0.0) {
@@ -117,11 +117,11 @@ static int32_t judge_excess(struct hooke_inquiry *inquiry) {
 
 /* The particle that bending or an altitude spring accelerates most, if by more than `most`; -1 if not. */
 static int64_t steepest_bending(const hooke_system *system, double most) {
-  struct hooke_triple triple;
+  struct hk_triple triple;
   int64_t found = -1;
-  for (struct hooke_triples at = {&system->bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 3; e++) {
-      const double factor = hooke_triple_factor(e);
+      const double factor = hk_triple_factor(e);
       const double steepness =
           triple.coefficient * (factor * factor) * system->inverse_mass[triple.particle[e]];
       if (!(steepness > most)) continue;
@@ -130,10 +130,9 @@ static int64_t steepest_bending(const hooke_system *system, double most) {
     }
   }
   for (int64_t k = 0; k < 4 * system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
     const int32_t p = t->particle[k % 4];
-    const double steepness =
-        (hooke_tetrahedron_kappa(t) + hooke_tetrahedron_gamma(t)) * system->inverse_mass[p];
+    const double steepness = (hk_tetrahedron_kappa(t) + hk_tetrahedron_gamma(t)) * system->inverse_mass[p];
     if (!(steepness > most)) continue;
     most = steepness;
     found = p;
@@ -147,7 +146,7 @@ static int64_t steepest_spring(const hooke_system *system, double *steepest) {
   int64_t found = -1;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hooke_spring s = hooke_run_spring(&system->springs.run[r], k);
+      const struct hk_spring s = hk_run_spring(&system->springs.run[r], k);
       const double ease = fmax(system->inverse_mass[s.head], system->inverse_mass[s.tail]);
       const double steepness = (s.kappa + s.gamma) * ease;
       if (!(steepness > most)) continue;
@@ -159,27 +158,26 @@ static int64_t steepest_spring(const hooke_system *system, double *steepest) {
   return found;
 }
 
-static void judge_overflow(struct hooke_inquiry *inquiry) {
+static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   double steepest;
   const int64_t spring = steepest_spring(system, &steepest), bent = steepest_bending(system, steepest);
   char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
-  if (bent < 0) hooke_inquiry_blame_spring(inquiry, spring, NAN);
+  if (bent < 0) hk_inquiry_blame_spring(inquiry, spring, NAN);
   if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
-  if (!isnan(inquiry->why->step))
-    hooke_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
-  const struct hooke_spring s = spring >= 0 ? hooke_naming_spring(system, spring) : (struct hooke_spring){0};
+  if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
+  const struct hk_spring s = spring >= 0 ? hk_naming_spring(system, spring) : (struct hk_spring){0};
   const int64_t light =
       spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
   if (bent >= 0) {
-    hooke_naming_heaviest_words(system, bent, 1.0, where);
+    hk_naming_heaviest_words(system, bent, 1.0, where);
     say(inquiry, "overflow",
         "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
         "%s, on %.6g kg%s",
         inquiry->why->time, where, system->mass[bent], step);
   } else if (spring >= 0) {
-    hooke_naming_words(system, spring, where);
+    hk_naming_words(system, spring, where);
     say(inquiry, "overflow",
         "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
         "%s, %.6g N/m "
@@ -192,10 +190,10 @@ static void judge_overflow(struct hooke_inquiry *inquiry) {
   }
 }
 
-static void judge_collapse(struct hooke_inquiry *inquiry, int64_t spring, const char *what) {
+static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const char *what) {
   char where[HOOKE_NAMING_SIZE], end[160];
-  hooke_inquiry_blame_spring(inquiry, spring, 1.0);
-  hooke_naming_words(inquiry->system, spring, where);
+  hk_inquiry_blame_spring(inquiry, spring, 1.0);
+  hk_naming_words(inquiry->system, spring, where);
   say(inquiry, "collapsed-spring",
       "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
       where, what, show(inquiry, end));
@@ -219,7 +217,7 @@ static int64_t largest_unsquared(const hooke_system *system, const double *x, do
 }
 
 /* 1 if a spring, or a motion from one step to the next, is too long for its square, or a speed too large. */
-static int32_t judge_squares(struct hooke_inquiry *inquiry, double t, const double *q, const double *v) {
+static int32_t judge_squares(struct hk_inquiry *inquiry, double t, const double *q, const double *v) {
   const char *const words[] = {"is at a speed of", "is at a distance of"}, *const units[] = {"m/s", "m"};
   const double *const x[] = {v, q};
   for (int k = 0; k < 2; k++) {
@@ -238,9 +236,9 @@ static int32_t judge_squares(struct hooke_inquiry *inquiry, double t, const doub
 }
 
 /* At the start already; where it is not known, at the last state. */
-static int32_t judge_start(struct hooke_inquiry *inquiry) {
+static int32_t judge_start(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
-  const hooke_state *known = run->recent.first ? run->recent.first : hooke_inquiry_last(inquiry);
+  const hooke_state *known = run->recent.first ? run->recent.first : hk_inquiry_last(inquiry);
   if (run->recent.first == NULL && run->t0 == 0.0)
     return judge_squares(inquiry, 0.0, inquiry->system->position, inquiry->system->velocity);
   return judge_squares(inquiry, *known->t, known->q, known->v);
@@ -249,15 +247,15 @@ static int32_t judge_start(struct hooke_inquiry *inquiry) {
 /* ---- solvers ---- */
 
 /* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
-static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *ratio) {
-  const hooke_state *state = hooke_inquiry_last(inquiry);
+static int64_t shortest_spring(const struct hk_inquiry *inquiry, double *ratio) {
+  const hooke_state *state = hk_inquiry_last(inquiry);
   const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
-  const struct hooke_springs *springs = &inquiry->system->springs;
+  const struct hk_springs *springs = &inquiry->system->springs;
   int64_t found = -1;
   *ratio = INFINITY;
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      const struct hk_spring s = hk_run_spring(&springs->run[r], k);
       double square = 0.0, cosine = 0.0;
       for (int a = 0; a < 3; a++) {
         const int64_t i = 3 * s.head + a, j = 3 * s.tail + a;
@@ -274,11 +272,11 @@ static int64_t shortest_spring(const struct hooke_inquiry *inquiry, double *rati
   return found;
 }
 
-static int32_t is_beyond_numbers(const struct hooke_inquiry *inquiry, int32_t *beyond) {
-  const hooke_state *last = hooke_inquiry_last(inquiry);
+static int32_t is_beyond_numbers(const struct hk_inquiry *inquiry, int32_t *beyond) {
+  const hooke_state *last = hk_inquiry_last(inquiry);
   const int64_t size = last->size;
   const double h = inquiry->run->method->adaptive ? 1.0 : inquiry->run->schedule.step;
-  double *a = hooke_new(size, sizeof(double));
+  double *a = hk_new(size, sizeof(double));
   if (a == NULL) return HOOKE_NO_MEMORY;
   const int32_t status = hooke_system_acceleration(inquiry->system, *last->t, last->q, last->v, a);
   *beyond = 0;
@@ -286,11 +284,11 @@ static int32_t is_beyond_numbers(const struct hooke_inquiry *inquiry, int32_t *b
     const double gain = fmax(1.0, h) * fabs(a[k]);
     *beyond |= !(gain < 1e100) || !(h * gain < 1e100);
   }
-  hooke_free(a);
+  hk_free(a);
   return status;
 }
 
-static int32_t judge_solver(struct hooke_inquiry *inquiry) {
+static int32_t judge_solver(struct hk_inquiry *inquiry) {
   double ratio;
   int32_t beyond = 0;
   const int32_t status = is_beyond_numbers(inquiry, &beyond);
@@ -311,7 +309,7 @@ static int32_t judge_solver(struct hooke_inquiry *inquiry) {
 /* ---- */
 
 /* What no step or tolerance cures. */
-static const char *altitude_words(const struct hooke_inquiry *inquiry) {
+static const char *altitude_words(const struct hk_inquiry *inquiry) {
   return inquiry->system->altitudes.count == 0 ? ""
                                                : ", or altitude springs gave it energy, which they do far "
                                                  "from rest wherever another altitude comes "
@@ -320,12 +318,12 @@ static const char *altitude_words(const struct hooke_inquiry *inquiry) {
 
 /* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in proportion, as a
  * callback's may, end in a leap, too. */
-static int grew_before(const struct hooke_inquiry *inquiry) {
+static int grew_before(const struct hk_inquiry *inquiry) {
   const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
   return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
 }
 
-static int32_t judge_gain(struct hooke_inquiry *inquiry) {
+static int32_t judge_gain(struct hk_inquiry *inquiry) {
   char end[160];
   say(inquiry, "model-gains-energy",
       "with %s steps it does, too, so it is no matter of the step %.6g s: the model gains energy by itself, "
@@ -338,8 +336,8 @@ static int32_t judge_gain(struct hooke_inquiry *inquiry) {
 }
 
 /* There was no time or no room to look. */
-static void judge_unknown(struct hooke_inquiry *inquiry) {
-  const struct hooke_excess *excess = &inquiry->excess;
+static void judge_unknown(struct hk_inquiry *inquiry) {
+  const struct hk_excess *excess = &inquiry->excess;
   char end[160];
   show(inquiry, end);
   if (isnan(excess->bound)) {
@@ -353,11 +351,11 @@ static void judge_unknown(struct hooke_inquiry *inquiry) {
   }
 }
 
-static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
+static int32_t judge_divergence(struct hk_inquiry *inquiry) {
   char end[160], what[120];
   int32_t gains = 0;
   if (judge_start(inquiry)) return HOOKE_OK;
-  const int32_t status = hooke_inquiry_gains(inquiry, &gains);
+  const int32_t status = hk_inquiry_gains(inquiry, &gains);
   if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
   if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
@@ -365,11 +363,11 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
     return judge_excess(inquiry);
   } else if (inquiry->flips > 0) {
     inquiry->why->particle = NAN;
-    hooke_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
-                (long long)inquiry->flips, inquiry->flip_time);
+    hk_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
+             (long long)inquiry->flips, inquiry->flip_time);
     judge_collapse(inquiry, inquiry->flipped, what);
-  } else if (judge_squares(inquiry, *hooke_inquiry_last(inquiry)->t, hooke_inquiry_last(inquiry)->q,
-                           hooke_inquiry_last(inquiry)->v)) {
+  } else if (judge_squares(inquiry, *hk_inquiry_last(inquiry)->t, hk_inquiry_last(inquiry)->q,
+                           hk_inquiry_last(inquiry)->v)) {
     return HOOKE_OK;
   } else if (inquiry->last == NULL || inquiry->cut) {
     judge_unknown(inquiry);
@@ -390,7 +388,7 @@ static int32_t judge_divergence(struct hooke_inquiry *inquiry) {
 }
 
 /* Adds to the sentence that springs began without a direction. */
-static void tell_coincident(struct hooke_inquiry *inquiry) {
+static void tell_coincident(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   char *text = inquiry->why->sentence;
   const size_t used = strlen(text);
@@ -399,12 +397,12 @@ static void tell_coincident(struct hooke_inquiry *inquiry) {
                                       : NULL;
   const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
   if (count > 0)
-    hooke_print(text + used, sizeof inquiry->why->sentence - used,
-                "; %lld springs began with both ends at one place, without a direction", (long long)count);
+    hk_print(text + used, sizeof inquiry->why->sentence - used,
+             "; %lld springs began with both ends at one place, without a direction", (long long)count);
 }
 
-int32_t hooke_inquiry_judge(struct hooke_inquiry *inquiry) {
-  inquiry->why->time = *hooke_inquiry_last(inquiry)->t;
+int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
+  inquiry->why->time = *hk_inquiry_last(inquiry)->t;
   int32_t status = HOOKE_OK;
   if (inquiry->slip.found)
     judge_slip(inquiry);

@@ -12,13 +12,13 @@
 static const double LIMIT_ACCURACY = 1e-4, LEAST_RISE = 2e-3;
 enum { MOST_TRIES = 12, MOST_TURNS = 60, MORE_TURNS = 12 };
 
-static const char *method_of(const struct hooke_inquiry *inquiry) {
+static const char *method_of(const struct hk_inquiry *inquiry) {
   return inquiry->run->method->name;
 }
 
-static void take(struct hooke_inquiry *inquiry, const double *q, double t, double limit, double at_most,
+static void take(struct hk_inquiry *inquiry, const double *q, double t, double limit, double at_most,
                  int64_t particle) {
-  struct hooke_excess *excess = &inquiry->excess;
+  struct hk_excess *excess = &inquiry->excess;
   excess->found = 1;
   excess->time = t;
   excess->limit = limit;
@@ -28,121 +28,120 @@ static void take(struct hooke_inquiry *inquiry, const double *q, double t, doubl
 }
 
 /* 0 if patience has an end or the numbers have none: unknown is not above. */
-static int32_t by_spectrum(struct hooke_inquiry *inquiry, const double *q, double t, int64_t particle) {
+static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
   double limit = 0.0;
   const int32_t status =
-      hooke_limit_predict_within(inquiry->system, q, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
-                                 inquiry->room - inquiry->held, &inquiry->patience, &limit);
+      hk_limit_predict_within(inquiry->system, q, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
+                              inquiry->room - inquiry->held, &inquiry->patience, &limit);
   if (status == HOOKE_NO_MEMORY) return status;
   if (status == HOOKE_OK && inquiry->run->schedule.step > limit) take(inquiry, q, t, limit, limit, particle);
   return HOOKE_OK;
 }
 
 /* Motion that the last states have most of is turned towards what grows. */
-static int32_t begin_growing(struct hooke_inquiry *inquiry) {
+static int32_t begin_growing(struct hk_inquiry *inquiry) {
   if (inquiry->growing.x) return HOOKE_OK;
-  const double bytes = hooke_growing_bytes(inquiry->system);
-  if (!hooke_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
+  const double bytes = hk_growing_bytes(inquiry->system);
+  if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
   inquiry->held += bytes;
-  return hooke_growing_create(inquiry->system, hooke_recent_state(&inquiry->run->recent, 0, NULL)->v,
-                              &inquiry->patience, &inquiry->growing);
+  return hk_growing_create(inquiry->system, hk_recent_state(&inquiry->run->recent, 0, NULL)->v,
+                           &inquiry->patience, &inquiry->growing);
 }
 
-static int32_t blame_growing(struct hooke_inquiry *inquiry, double h) {
-  struct hooke_excess *excess = &inquiry->excess;
+static int32_t blame_growing(struct hk_inquiry *inquiry, double h) {
+  struct hk_excess *excess = &inquiry->excess;
   double a = 1.0, b = 0.0, most;
-  hooke_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
+  hk_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
   excess->has_blame = 1;
-  return hooke_blame_find(inquiry->system, excess->q, inquiry->growing.x, a, 0.5 * b, &excess->blame);
+  return hk_blame_find(inquiry->system, excess->q, inquiry->growing.x, a, 0.5 * b, &excess->blame);
 }
 
 static int is_damped(const hooke_system *system) {
-  return system->drag > 0.0 || system->altitudes.damped || hooke_springs_are_damped(&system->springs);
+  return system->drag > 0.0 || system->altitudes.damped || hk_springs_are_damped(&system->springs);
 }
 
 /* `above`: by how much the quotient is above what is stable; infinity where no step is. */
-static int32_t take_growth(struct hooke_inquiry *inquiry, const double *q, double t, int64_t particle,
+static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle,
                            double above) {
   const double h = inquiry->run->schedule.step;
   take(inquiry, q, t, isinf(above) ? 0.0 : (double)NAN, h / sqrt(above), particle);
   return blame_growing(inquiry, h);
 }
 
-static int32_t by_growth(struct hooke_inquiry *inquiry, const double *q, double t, int64_t particle) {
-  struct hooke_growing *growing = &inquiry->growing;
+static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
+  struct hk_growing *growing = &inquiry->growing;
   double a = 1.0, b = 0.0, most;
   const int never = strcmp(method_of(inquiry), "forward-euler") == 0 && !is_damped(inquiry->system);
-  if (!hooke_growing_rule(inquiry->system, method_of(inquiry), inquiry->run->schedule.step, &a, &b, &most) &&
+  if (!hk_growing_rule(inquiry->system, method_of(inquiry), inquiry->run->schedule.step, &a, &b, &most) &&
       !never)
     return HOOKE_OK;
   if (never) most = 0.0;
   const int32_t status = begin_growing(inquiry);
   if (status != HOOKE_OK || growing->x == NULL) return status;
-  double quotient = hooke_growing_turn(growing, q, a, b, most, LEAST_RISE, MOST_TURNS);
+  double quotient = hk_growing_turn(growing, q, a, b, most, LEAST_RISE, MOST_TURNS);
   if (!(quotient > most)) return HOOKE_OK;
-  quotient = fmax(quotient, hooke_growing_turn(growing, q, a, b, INFINITY, LEAST_RISE, MORE_TURNS));
+  quotient = fmax(quotient, hk_growing_turn(growing, q, a, b, INFINITY, LEAST_RISE, MORE_TURNS));
   return take_growth(inquiry, q, t, particle, quotient / most);
 }
 
-int32_t hooke_inquiry_consider(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks,
-                               const double *q, double t) {
-  struct hooke_excess *excess = &inquiry->excess;
+int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks, const double *q,
+                            double t) {
+  struct hk_excess *excess = &inquiry->excess;
   int64_t particle;
-  if (excess->found || excess->tries >= MOST_TRIES || !hooke_step_is_bounded(method_of(inquiry)))
+  if (excess->found || excess->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
     return HOOKE_OK;
-  if (!hooke_all_finite(inquiry->run->size, q)) return HOOKE_OK;
-  hooke_node_blocks_fill(blocks, q);
-  if (hooke_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
-  if (hooke_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle)) return HOOKE_OK;
+  if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
+  hk_node_blocks_fill(blocks, q);
+  if (hk_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
+  if (hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle)) return HOOKE_OK;
   if (excess->pause-- > 0) return HOOKE_OK;
   excess->pause = excess->tries++;
-  if (isnan(excess->bound)) excess->bound = hooke_step_bound_of(blocks, method_of(inquiry));
+  if (isnan(excess->bound)) excess->bound = hk_step_bound_of(blocks, method_of(inquiry));
   return inquiry->large ? by_growth(inquiry, q, t, particle) : by_spectrum(inquiry, q, t, particle);
 }
 
 /* Earlier states first, so that the time at which the step became too large is the earliest known. */
-static int32_t survey_small(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks) {
-  const struct hooke_recent *recent = &inquiry->run->recent;
+static int32_t survey_small(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
+  const struct hk_recent *recent = &inquiry->run->recent;
   int32_t status = HOOKE_OK;
-  if (recent->first) status = hooke_inquiry_consider(inquiry, blocks, recent->first->q, *recent->first->t);
+  if (recent->first) status = hk_inquiry_consider(inquiry, blocks, recent->first->q, *recent->first->t);
   for (int64_t k = recent->count - 1; k >= 0 && status == HOOKE_OK; k--) {
-    const hooke_state *state = hooke_recent_state(recent, k, NULL);
-    status = hooke_inquiry_consider(inquiry, blocks, state->q, *state->t);
+    const hooke_state *state = hk_recent_state(recent, k, NULL);
+    status = hk_inquiry_consider(inquiry, blocks, state->q, *state->t);
   }
   return status;
 }
 
 /* The newest first, which has most of what grows; what grew there is then asked whether it grew at the start. */
-static int32_t survey_large(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks) {
+static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   const hooke_integrator *run = inquiry->run;
-  const hooke_state *newest = hooke_recent_state(&run->recent, 0, NULL), *first = run->recent.first;
-  int32_t status = hooke_inquiry_consider(inquiry, blocks, newest->q, *newest->t);
+  const hooke_state *newest = hk_recent_state(&run->recent, 0, NULL), *first = run->recent.first;
+  int32_t status = hk_inquiry_consider(inquiry, blocks, newest->q, *newest->t);
   const double *q = first ? first->q : run->t0 == 0.0 ? inquiry->system->position : NULL;
   double a = 1.0, b = 0.0, most;
   if (status != HOOKE_OK || !inquiry->excess.found || inquiry->growing.x == NULL || q == NULL) return status;
-  if (!hooke_growing_rule(inquiry->system, method_of(inquiry), run->schedule.step, &a, &b, &most))
-    return status;
-  const double above = hooke_growing_quotient(&inquiry->growing, q, a, b) / most;
+  if (!hk_growing_rule(inquiry->system, method_of(inquiry), run->schedule.step, &a, &b, &most)) return status;
+  const double above = hk_growing_quotient(&inquiry->growing, q, a, b) / most;
   if (!(above > 1.0)) return HOOKE_OK;
-  hooke_blame_release(&inquiry->excess.blame);
+  hk_blame_release(&inquiry->excess.blame);
   return take_growth(inquiry, q, run->t0, inquiry->excess.particle, above);
 }
 
-int32_t hooke_inquiry_survey(struct hooke_inquiry *inquiry, struct hooke_node_blocks *blocks) {
+int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   return inquiry->large ? survey_large(inquiry, blocks) : survey_small(inquiry, blocks);
 }
 
 /* ---- limits ---- */
 
-int32_t hooke_inquiry_limit(struct hooke_inquiry *inquiry, const double *q, const char *method,
-                            double accuracy, double *limit, int32_t *known) {
+int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char *method, double accuracy,
+                         double *limit, int32_t *known) {
   int32_t status = HOOKE_STOPPED;
   if (!inquiry->large)
-    status = hooke_limit_predict_within(inquiry->system, q, method, NULL, NULL, accuracy,
-                                        inquiry->room - inquiry->held, &inquiry->patience, limit);
+    status = hk_limit_predict_within(inquiry->system, q, method, NULL, NULL, accuracy,
+                                     inquiry->room - inquiry->held, &inquiry->patience, limit);
   *known = status == HOOKE_OK;
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   *limit = 0.0;
-  if (!hooke_patience_has(&inquiry->patience, 2.0 * inquiry->pass)) return HOOKE_OK;
+  if (!hk_patience_has(&inquiry->patience, 2.0 * inquiry->pass)) return HOOKE_OK;
   return hooke_step_bound(inquiry->system, method, q, limit);
 }

@@ -16,14 +16,14 @@ static const double TIGHTEST = 1e-12;
 static const double DAMPING[] = {2.0, 8.0, 32.0, 128.0}, PART_OF_TIME = 1e-4;
 enum { FINER_TRIES = 2, DAMPING_TRIES = 4 };
 
-static int32_t may_gain(const struct hooke_inquiry *inquiry) {
+static int32_t may_gain(const struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   return system->altitudes.count > 0 && system->force == NULL && system->drive_count == 0;
 }
 
 /* ---- at smaller steps ---- */
 
-static int32_t refine(const struct hooke_plan *plan, int k, hooke_options *run) {
+static int32_t refine(const struct hk_plan *plan, int k, hooke_options *run) {
   const hooke_options *given = plan->inquiry->run->options;
   if (!isnan(plan->step)) return hooke_options_set_number(run, "step", plan->step / FINER[k]);
   static const char *const names[] = {"rtol", "atol", "atol_velocity"};
@@ -36,75 +36,75 @@ static int32_t refine(const struct hooke_plan *plan, int k, hooke_options *run) 
 }
 
 /* 1 if the run with smaller steps diverges, too. */
-static int32_t diverges_finer(struct hooke_plan *plan, int k, int32_t *diverges) {
-  struct hooke_change change;
-  struct hooke_trial trial = {.reached = NAN};
-  int32_t status = hooke_change_begin(&change, "step");
+static int32_t diverges_finer(struct hk_plan *plan, int k, int32_t *diverges) {
+  struct hk_change change;
+  struct hk_trial trial = {.reached = NAN};
+  int32_t status = hk_change_begin(&change, "step");
   if (status == HOOKE_OK) status = refine(plan, k, change.run);
-  if (status == HOOKE_OK) status = hooke_plan_try(plan, plan->inquiry->system, &change, &trial);
+  if (status == HOOKE_OK) status = hk_plan_try(plan, plan->inquiry->system, &change, &trial);
   *diverges = trial.diverged;
-  hooke_change_drop(&change);
+  hk_change_drop(&change);
   return status;
 }
 
-int32_t hooke_inquiry_gains(struct hooke_inquiry *inquiry, int32_t *gains) {
-  struct hooke_plan plan;
+int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
+  struct hk_plan plan;
   *gains = 0;
   if (!may_gain(inquiry) || (inquiry->excess.found && inquiry->excess.time <= inquiry->run->t0))
     return HOOKE_OK;
-  int32_t status = hooke_plan_begin(inquiry, &plan);
+  int32_t status = hk_plan_begin(inquiry, &plan);
   *gains = status == HOOKE_OK && plan.duration > 0.0 && !plan.late;
-  hooke_patience_lend(&inquiry->patience, 0.5);
+  hk_patience_lend(&inquiry->patience, 0.5);
   for (int k = 0; k < FINER_TRIES && status == HOOKE_OK && *gains; k++)
     status = diverges_finer(&plan, k, gains);
   *gains = *gains && !inquiry->patience.spent;
   inquiry->cut |= inquiry->patience.spent;
-  hooke_inquiry_end_part(inquiry, "whether smaller steps gain energy, too");
-  hooke_plan_release(&plan);
+  hk_inquiry_end_part(inquiry, "whether smaller steps gain energy, too");
+  hk_plan_release(&plan);
   return status;
 }
 
 /* ---- with damping ---- */
 
 /* The run with the change, of the same system but for the damping of its altitude springs, `times` their stiffness. */
-static int32_t try_damped(struct hooke_plan *plan, double times, const struct hooke_change *change,
-                          struct hooke_trial *trial) {
+static int32_t try_damped(struct hk_plan *plan, double times, const struct hk_change *change,
+                          struct hk_trial *trial) {
   hooke_system damped = *plan->inquiry->system;
-  struct hooke_tetrahedron *own = hooke_new(damped.altitudes.count, sizeof *own);
+  struct hk_tetrahedron *own = hk_new(damped.altitudes.count, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   memcpy(own, damped.altitudes.tetrahedron, (size_t)damped.altitudes.count * sizeof *own);
   for (int64_t k = 0; k < damped.altitudes.count; k++)
     own[k].damping = fmax(own[k].damping, times * own[k].stiffness);
   damped.altitudes.tetrahedron = own;
   damped.altitudes.damped = 1;
-  const int32_t status = hooke_plan_try(plan, &damped, change, trial);
-  hooke_free(own);
+  const int32_t status = hk_plan_try(plan, &damped, change, trial);
+  hk_free(own);
   return status;
 }
 
 /* Damping asks for smaller steps itself, so one `finer` times smaller is tried, too. */
-static int32_t try_damping(struct hooke_plan *plan, double times, double finer) {
+static int32_t try_damping(struct hk_plan *plan, double times, double finer) {
   char *text = plan->inquiry->remedy, step[64] = "";
-  struct hooke_change change;
-  struct hooke_trial trial = {.reached = NAN};
-  int32_t status = hooke_change_begin(&change, "step");
+  struct hk_change change;
+  struct hk_trial trial = {.reached = NAN};
+  int32_t status = hk_change_begin(&change, "step");
   if (status == HOOKE_OK && finer > 1.0) {
     status = hooke_options_set_number(change.run, "step", plan->step / finer);
-    hooke_print(step, sizeof step, ", with a step of %.6g s,", plan->step / finer);
+    hk_print(step, sizeof step, ", with a step of %.6g s,", plan->step / finer);
   }
   if (status == HOOKE_OK) status = try_damped(plan, times, &change, &trial);
   if (status == HOOKE_OK && trial.proof[0]) {
-    hooke_print(
+    hk_print(
         text, sizeof plan->inquiry->remedy,
         "damping of altitude springs of %.3g s times their stiffness%s takes out what their jumps give%s",
         times, step, trial.proof);
   }
-  hooke_change_drop(&change);
+  hk_change_drop(&change);
   return status;
 }
 
-int32_t hooke_plan_try_damping(struct hooke_plan *plan) {
-  const struct hooke_inquiry *inquiry = plan->inquiry;
+int32_t hk_plan_try_damping(struct hk_plan *plan) {
+  const struct hk_inquiry *inquiry = plan->inquiry;
   const int adaptive = isnan(plan->step);
   const double unit = adaptive ? PART_OF_TIME * (inquiry->why->noticed - inquiry->run->t0) : plan->step;
   int32_t status = HOOKE_OK;

@@ -19,15 +19,15 @@ enum { BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
 
 struct spied_drive {
   struct spy *spy;
-  const struct hooke_drive_group *real;
+  const struct hk_drive_group *real;
 };
 
 struct spy {
   const hooke_system *real;
   hooke_system system; /* the same but for its callbacks */
-  struct hooke_drive_group *drive;
+  struct hk_drive_group *drive;
   struct spied_drive *drive_ctx;
-  struct hooke_slip *slip;
+  struct hk_slip *slip;
 };
 
 static int is_sensible(int64_t count, const double *value) {
@@ -51,7 +51,7 @@ static int32_t spy_force(int64_t n, double t, const double *q, const double *v, 
   const int32_t value = real->force(n, t, q, v, force, real->force_ctx);
   const int64_t wild = first_wild(3 * n, force);
   if (meant && wild >= 0 && !spy->slip->found)
-    *spy->slip = (struct hooke_slip){.found = 1, .time = t, .particle = wild / 3};
+    *spy->slip = (struct hk_slip){.found = 1, .time = t, .particle = wild / 3};
   return value;
 }
 
@@ -63,21 +63,20 @@ static int32_t spy_product(int64_t n, double t, const double *q, const double *v
 
 static int32_t spy_drive(int64_t count, double t, double *q, double *v, void *ctx) {
   const struct spied_drive *own = ctx;
-  struct hooke_slip *slip = own->spy->slip;
+  struct hk_slip *slip = own->spy->slip;
   const int32_t value = own->real->callback(count, t, q, v, own->real->ctx);
   const int64_t wild_q = first_wild(3 * count, q), wild_v = first_wild(3 * count, v);
   const int64_t wild = wild_q >= 0 ? wild_q : wild_v;
   if (wild >= 0 && !slip->found) {
-    *slip =
-        (struct hooke_slip){.found = 1, .of_drive = 1, .time = t, .particle = own->real->particle[wild / 3]};
+    *slip = (struct hk_slip){.found = 1, .of_drive = 1, .time = t, .particle = own->real->particle[wild / 3]};
   }
   return value;
 }
 
-static int32_t spy_create(const hooke_system *system, struct hooke_slip *slip, struct spy *spy) {
+static int32_t spy_create(const hooke_system *system, struct hk_slip *slip, struct spy *spy) {
   *spy = (struct spy){.real = system, .system = *system, .slip = slip};
-  spy->drive = hooke_new(system->drive_count, sizeof *spy->drive);
-  spy->drive_ctx = hooke_new(system->drive_count, sizeof *spy->drive_ctx);
+  spy->drive = hk_new(system->drive_count, sizeof *spy->drive);
+  spy->drive_ctx = hk_new(system->drive_count, sizeof *spy->drive_ctx);
   if (spy->drive == NULL || spy->drive_ctx == NULL) return HOOKE_NO_MEMORY;
   for (int64_t g = 0; g < system->drive_count; g++) {
     spy->drive[g] = system->drive[g];
@@ -94,18 +93,18 @@ static int32_t spy_create(const hooke_system *system, struct hooke_slip *slip, s
 }
 
 static void spy_release(struct spy *spy) {
-  hooke_free(spy->drive);
-  hooke_free(spy->drive_ctx);
+  hk_free(spy->drive);
+  hk_free(spy->drive_ctx);
 }
 
 /* ---- what a step shows ---- */
 
 /* Springs that now point the other way than before: in between, their length went through zero. */
-static void watch_turns(struct hooke_inquiry *inquiry, const double *before, const hooke_state *state) {
-  const struct hooke_springs *springs = &inquiry->system->springs;
+static void watch_turns(struct hk_inquiry *inquiry, const double *before, const hooke_state *state) {
+  const struct hk_springs *springs = &inquiry->system->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      const struct hk_spring s = hk_run_spring(&springs->run[r], k);
       if (!(s.rest_length > 0.0)) continue;
       double cosine = 0.0;
       for (int a = 0; a < 3; a++) {
@@ -128,8 +127,8 @@ static double largest_of(const hooke_state *state) {
 }
 
 /* The fastest particle of the step that went wrong, which is still in the integrator, and how large its numbers are. */
-static void look_at_damage(struct hooke_inquiry *inquiry, const hooke_integrator *again) {
-  const struct hooke_motion *motion = again->motion;
+static void look_at_damage(struct hk_inquiry *inquiry, const hooke_integrator *again) {
+  const struct hk_motion *motion = again->motion;
   double most = -1.0, size = 0.0;
   for (int64_t p = 0; p < motion->n; p++) {
     double speed = 0.0;
@@ -150,9 +149,9 @@ static void look_at_damage(struct hooke_inquiry *inquiry, const hooke_integrator
 /* ---- the steps again ---- */
 
 struct replay {
-  struct hooke_inquiry *inquiry;
+  struct hk_inquiry *inquiry;
   hooke_integrator *again;
-  struct hooke_node_blocks blocks;
+  struct hk_node_blocks blocks;
   double *before;          /* positions one step ago */
   double size[BEFORE + 1]; /* largest number of the last steps, the newest first */
   int64_t stride;          /* steps between looks at the step */
@@ -170,16 +169,16 @@ static void note_size(struct replay *replay, const hooke_state *state) {
 }
 
 static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
-  struct hooke_inquiry *inquiry = replay->inquiry;
+  struct hk_inquiry *inquiry = replay->inquiry;
   const double springs = (double)inquiry->system->springs.count;
   int32_t status = HOOKE_OK;
   for (int k = 0; k <= BEFORE; k++)
     replay->size[k] = largest_of(state);
   for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
-    inquiry->cut = hooke_patience_ends(&inquiry->patience, "the last steps again");
+    inquiry->cut = hk_patience_ends(&inquiry->patience, "the last steps again");
     if (inquiry->cut) return HOOKE_OK;
     if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
-      status = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+      status = hk_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (status != HOOKE_OK) return status;
     status = take_step(replay, state);
     if (status != HOOKE_OK) break;
@@ -190,7 +189,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   if (status == HOOKE_DIVERGED) {
     inquiry->excess.tries = 0;
     inquiry->excess.pause = 0;
-    const int32_t looked = hooke_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+    const int32_t looked = hk_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (looked != HOOKE_OK) return looked;
   }
   inquiry->reproduced = status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED;
@@ -205,10 +204,10 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
 
 /* From the last state that was kept; or from the first where that is cheap. */
 static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) {
-  struct hooke_inquiry *inquiry = replay->inquiry;
+  struct hk_inquiry *inquiry = replay->inquiry;
   const hooke_integrator *run = inquiry->run;
   int64_t from = 0;
-  const hooke_state *kept = hooke_recent_state(&run->recent, 0, &from);
+  const hooke_state *kept = hk_recent_state(&run->recent, 0, &from);
   const double size = (double)(inquiry->system->particle_count + inquiry->system->springs.count +
                                inquiry->system->bending.count + inquiry->system->altitudes.count);
   if (!run->method->adaptive && run->recent.first && (double)run->k * size <= WHOLE_RUN) {
@@ -219,40 +218,40 @@ static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) 
       run->method->adaptive ? MOST_INTERNAL_STEPS : run->k - from + (run->outcome == HOOKE_SOLVER_FAILED);
   replay->stride = 1 + (int64_t)((double)*steps / MOST_LOOKS);
   int32_t status = hooke_state_copy(kept, state);
-  if (status == HOOKE_OK) status = hooke_integrator_place(replay->again, run, from, state);
+  if (status == HOOKE_OK) status = hk_integrator_place(replay->again, run, from, state);
   return status;
 }
 
 static int32_t replay_with(struct replay *replay, const hooke_system *observed) {
-  struct hooke_inquiry *inquiry = replay->inquiry;
+  struct hk_inquiry *inquiry = replay->inquiry;
   const hooke_integrator *run = inquiry->run;
   int64_t steps = 0;
   int32_t status = hooke_integrator_create(observed, run->options, &replay->again);
   if (status != HOOKE_OK) return status;
   replay->again->thorough = 1;
-  status = hooke_node_blocks_begin(inquiry->system, &replay->blocks);
+  status = hk_node_blocks_begin(inquiry->system, &replay->blocks);
   replay->blocks.patience = &inquiry->patience;
-  replay->before = hooke_new(run->size, sizeof(double));
+  replay->before = hk_new(run->size, sizeof(double));
   if (status == HOOKE_OK && replay->before == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = start(replay, inquiry->last, &steps);
   if (status == HOOKE_OK && replay->again->recent.step[0] > 0)
-    status = hooke_inquiry_survey(inquiry, &replay->blocks);
+    status = hk_inquiry_survey(inquiry, &replay->blocks);
   if (status == HOOKE_OK && run->outcome != HOOKE_STEP_LIMIT) status = walk(replay, inquiry->last, steps);
-  hooke_recent_state(&replay->again->recent, 0, &inquiry->last_step);
+  hk_recent_state(&replay->again->recent, 0, &inquiry->last_step);
   /* an error-controlled method that starts anew takes other steps */
   if (status == HOOKE_OK && run->method->adaptive)
-    status = hooke_state_copy(hooke_recent_state(&run->recent, 0, NULL), inquiry->last);
+    status = hooke_state_copy(hk_recent_state(&run->recent, 0, NULL), inquiry->last);
   return status;
 }
 
-int32_t hooke_inquiry_replay(struct hooke_inquiry *inquiry) {
+int32_t hk_inquiry_replay(struct hk_inquiry *inquiry) {
   struct spy spy;
   struct replay replay = {.inquiry = inquiry};
   int32_t status = spy_create(inquiry->system, &inquiry->slip, &spy);
   if (status == HOOKE_OK) status = replay_with(&replay, &spy.system);
-  hooke_node_blocks_release(&replay.blocks);
+  hk_node_blocks_release(&replay.blocks);
   hooke_integrator_destroy(replay.again);
-  hooke_free(replay.before);
+  hk_free(replay.before);
   spy_release(&spy);
   return status;
 }

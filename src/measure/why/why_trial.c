@@ -20,9 +20,9 @@ static double work_of_run(const hooke_integrator *run, double size) {
 
 /* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from there to the
  * trouble, the earliest of the last good states. */
-static int32_t find_first(struct hooke_plan *plan) {
+static int32_t find_first(struct hk_plan *plan) {
   const hooke_integrator *run = plan->inquiry->run;
-  const hooke_state *oldest = hooke_recent_state(&run->recent, run->recent.count - 1, NULL);
+  const hooke_state *oldest = hk_recent_state(&run->recent, run->recent.count - 1, NULL);
   plan->late = work_of_run(run, plan->size) > 0.5 * HOOKE_TRIAL_WORK && *oldest->t > run->t0;
   plan->first = plan->late ? oldest : run->recent.first;
   if (plan->first) return HOOKE_OK;
@@ -31,12 +31,12 @@ static int32_t find_first(struct hooke_plan *plan) {
   return status;
 }
 
-int32_t hooke_plan_begin(struct hooke_inquiry *inquiry, struct hooke_plan *plan) {
+int32_t hk_plan_begin(struct hk_inquiry *inquiry, struct hk_plan *plan) {
   const hooke_integrator *run = inquiry->run;
   const hooke_system *system = inquiry->system;
-  const struct hooke_schedule *s = &run->schedule;
+  const struct hk_schedule *s = &run->schedule;
   const double span = inquiry->why->noticed - run->t0;
-  *plan = (struct hooke_plan){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
+  *plan = (struct hk_plan){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
   /* a loop of the caller's own has no end: some way past the trouble */
   plan->duration = !isnan(s->duration) ? s->duration
                    : isnan(plan->step) ? 2.0 * span
@@ -48,52 +48,52 @@ int32_t hooke_plan_begin(struct hooke_inquiry *inquiry, struct hooke_plan *plan)
   return find_first(plan);
 }
 
-void hooke_plan_release(struct hooke_plan *plan) {
+void hk_plan_release(struct hk_plan *plan) {
   hooke_state_destroy(plan->initial);
 }
 
-int32_t hooke_change_begin(struct hooke_change *change, const char *option) {
+int32_t hk_change_begin(struct hk_change *change, const char *option) {
   snprintf(change->option, sizeof change->option, "%s", option);
   change->words[0] = '\0';
   change->run = NULL;
   return hooke_run_options_create(&change->run);
 }
 
-void hooke_change_say(struct hooke_change *change, const char *format, ...) {
+void hk_change_say(struct hk_change *change, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  hooke_print_list(change->words, sizeof change->words, format, args);
+  hk_print_list(change->words, sizeof change->words, format, args);
   va_end(args);
 }
 
-void hooke_change_drop(struct hooke_change *change) {
+void hk_change_drop(struct hk_change *change) {
   hooke_options_destroy(change->run);
   change->run = NULL;
 }
 
 /* The options of the run with the changes; frames that hooke chose are chosen anew. */
-static int32_t changed_options(const struct hooke_plan *plan, const struct hooke_change *change,
+static int32_t changed_options(const struct hk_plan *plan, const struct hk_change *change,
                                hooke_options **out) {
   const hooke_integrator *run = plan->inquiry->run;
   int32_t status = hooke_options_copy(run->options, out);
   if (status == HOOKE_OK && !run->schedule.every_given) status = hooke_options_unset(*out, "every");
   if (status == HOOKE_OK && isnan(run->schedule.duration))
     status = hooke_options_set_number(*out, "duration", plan->duration);
-  return status == HOOKE_OK ? hooke_why_apply(change->run, *out) : status;
+  return status == HOOKE_OK ? hk_why_apply(change->run, *out) : status;
 }
 
 /* ---- trials ---- */
 
 struct effort {
   const hooke_integrator *integrator;
-  struct hooke_patience *patience;
+  struct hk_patience *patience;
   double size;
   int32_t spent;
 };
 
 static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   struct effort *effort = ctx;
-  const struct hooke_counts *c = &effort->integrator->count;
+  const struct hk_counts *c = &effort->integrator->count;
   (void)step, (void)state;
   effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK;
   return effort->spent;
@@ -102,12 +102,12 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
 static int32_t watch_time(double done, const char *method, void *ctx) {
   struct effort *effort = ctx;
   (void)done, (void)method;
-  effort->spent = hooke_patience_ends(effort->patience, "trying what to do");
+  effort->spent = hk_patience_ends(effort->patience, "trying what to do");
   return effort->spent;
 }
 
 /* What a run by a method holds at most [bytes]. */
-static double bytes_of_trial(const struct hooke_plan *plan, const char *method) {
+static double bytes_of_trial(const struct hk_plan *plan, const char *method) {
   static const struct {
     const char *method;
     double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
@@ -126,11 +126,11 @@ static double bytes_of_trial(const struct hooke_plan *plan, const char *method) 
 }
 
 /* Runs as far as the work allows. */
-static int32_t run_trial(struct hooke_plan *plan, hooke_integrator *integrator, struct hooke_trial *trial) {
+static int32_t run_trial(struct hk_plan *plan, hooke_integrator *integrator, struct hk_trial *trial) {
   hooke_state *state = NULL;
   struct effort effort = {.integrator = integrator, .patience = &plan->inquiry->patience, .size = plan->size};
   const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
-  int32_t status = hooke_state_create_sized(plan->first->size, 1, &state);
+  int32_t status = hk_state_create_sized(plan->first->size, 1, &state);
   if (status != HOOKE_OK) return status;
   hooke_state_copy(plan->first, state);
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);
@@ -145,8 +145,8 @@ static int32_t run_trial(struct hooke_plan *plan, hooke_integrator *integrator, 
   return status > 0 || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
-static int32_t try_run(struct hooke_plan *plan, const hooke_system *system, const hooke_options *options,
-                       struct hooke_trial *trial) {
+static int32_t try_run(struct hk_plan *plan, const hooke_system *system, const hooke_options *options,
+                       struct hk_trial *trial) {
   hooke_integrator *integrator = NULL;
   plan->trials++;
   int32_t status = hooke_integrator_create(system, options, &integrator);
@@ -158,30 +158,30 @@ static int32_t try_run(struct hooke_plan *plan, const hooke_system *system, cons
 }
 
 /* Words for what the trial showed; 0 if it did not get past the trouble. */
-static int proves(const struct hooke_plan *plan, double reached, int32_t finished, char *text, size_t size) {
+static int proves(const struct hk_plan *plan, double reached, int32_t finished, char *text, size_t size) {
   const double noticed = plan->inquiry->why->noticed, begun = *plan->first->t;
   if (!(finished && !plan->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
   if (plan->late)
-    hooke_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
+    hk_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
   else if (finished)
     snprintf(text, size, " (tried: it runs to its end)");
   else
-    hooke_print(text, size, " (tried up to t = %.3g s: there it is well)", reached);
+    hk_print(text, size, " (tried up to t = %.3g s: there it is well)", reached);
   return 1;
 }
 
 /* 1 if there is time and room for a trial; if not, that is noted. */
-static int32_t can_try(const struct hooke_plan *plan, const hooke_options *options) {
-  struct hooke_inquiry *inquiry = plan->inquiry;
+static int32_t can_try(const struct hk_plan *plan, const hooke_options *options) {
+  struct hk_inquiry *inquiry = plan->inquiry;
   const double bytes = bytes_of_trial(plan, hooke_options_text(options, "method"));
-  if (hooke_patience_ends(&inquiry->patience, "trying what to do")) return 0;
-  return hooke_inquiry_has_room(inquiry, bytes, "trials of what to do");
+  if (hk_patience_ends(&inquiry->patience, "trying what to do")) return 0;
+  return hk_inquiry_has_room(inquiry, bytes, "trials of what to do");
 }
 
-int32_t hooke_plan_try(struct hooke_plan *plan, const hooke_system *system, const struct hooke_change *change,
-                       struct hooke_trial *trial) {
+int32_t hk_plan_try(struct hk_plan *plan, const hooke_system *system, const struct hk_change *change,
+                    struct hk_trial *trial) {
   hooke_options *options = NULL;
-  *trial = (struct hooke_trial){.reached = -INFINITY};
+  *trial = (struct hk_trial){.reached = -INFINITY};
   int32_t status = changed_options(plan, change, &options);
   trial->tried = status == HOOKE_OK && can_try(plan, options);
   if (trial->tried) status = try_run(plan, system, options, trial);
@@ -205,7 +205,7 @@ static int same_changes(const hooke_options *a, const hooke_options *b) {
   return 1;
 }
 
-static int is_known(const struct hooke_plan *plan, const struct hooke_change *change) {
+static int is_known(const struct hk_plan *plan, const struct hk_change *change) {
   const struct hooke_why *why = plan->inquiry->why;
   for (int64_t k = 0; k < why->advice_count; k++) {
     if (why->advice[k].run && same_changes(why->advice[k].run, change->run)) return 1;
@@ -213,41 +213,41 @@ static int is_known(const struct hooke_plan *plan, const struct hooke_change *ch
   return 0;
 }
 
-void hooke_plan_take(struct hooke_plan *plan, struct hooke_change *change, const char *proof) {
+void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *proof) {
   struct hooke_why *why = plan->inquiry->why;
-  struct hooke_why_advice *advice = &why->advice[why->advice_count++];
+  struct hk_why_advice *advice = &why->advice[why->advice_count++];
   advice->run = change->run;
   change->run = NULL;
   snprintf(advice->change, sizeof advice->change, "%s%s", change->words, proof);
   snprintf(advice->option, sizeof advice->option, "%s", change->option);
   if (hooke_options_number_count(advice->run, change->option) > 0)
-    hooke_number_print(hooke_options_number(advice->run, change->option), advice->value);
+    hk_number_print(hooke_options_number(advice->run, change->option), advice->value);
   else
     snprintf(advice->value, sizeof advice->value, "%s", hooke_options_text(advice->run, change->option));
 }
 
-int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken) {
-  const struct hooke_inquiry *inquiry = plan->inquiry;
+int32_t hk_plan_offer(struct hk_plan *plan, struct hk_change *change, int32_t *taken) {
+  const struct hk_inquiry *inquiry = plan->inquiry;
   int32_t status = HOOKE_OK;
   *taken = 0;
   if (inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
-    struct hooke_trial trial;
-    status = hooke_plan_try(plan, inquiry->system, change, &trial);
+    struct hk_trial trial;
+    status = hk_plan_try(plan, inquiry->system, change, &trial);
     const int32_t cut = !trial.tried || inquiry->patience.spent;
     if (!trial.proof[0] && plan->backed && cut) {
       snprintf(trial.proof, sizeof trial.proof, " (not tried to its end, for want of %s)",
                inquiry->patience.spent ? "time" : "memory");
     }
     *taken = status == HOOKE_OK && trial.proof[0];
-    if (*taken) hooke_plan_take(plan, change, trial.proof);
+    if (*taken) hk_plan_take(plan, change, trial.proof);
   }
-  hooke_change_drop(change);
+  hk_change_drop(change);
   return status;
 }
 
-int32_t hooke_plan_count_steps(struct hooke_plan *plan, const struct hooke_change *change, int64_t *steps) {
-  struct hooke_trial trial;
-  const int32_t status = hooke_plan_try(plan, plan->inquiry->system, change, &trial);
+int32_t hk_plan_count_steps(struct hk_plan *plan, const struct hk_change *change, int64_t *steps) {
+  struct hk_trial trial;
+  const int32_t status = hk_plan_try(plan, plan->inquiry->system, change, &trial);
   *steps = trial.finished && !plan->late ? trial.steps : -1;
   return status;
 }

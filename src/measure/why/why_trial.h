@@ -8,8 +8,8 @@
 #define HOOKE_TRIAL_WORK 2e8
 
 /* What there is to try with. */
-struct hooke_plan {
-  struct hooke_inquiry *inquiry;
+struct hk_plan {
+  struct hk_inquiry *inquiry;
   const hooke_state *first;     /* where trials begin */
   int32_t late;                 /* 1: not where the run began, since from there the trouble is too far */
   hooke_state *initial;         /* the system's own beginning, where the run's was not kept */
@@ -19,23 +19,22 @@ struct hooke_plan {
   int32_t backed; /* what is offered has a step below the limits that are known: it is advice untried, too */
 };
 
-/* HOOKE_NO_MEMORY, HOOKE_STOPPED; hooke_plan_release() has to follow. */
-int32_t hooke_plan_begin(struct hooke_inquiry *inquiry, struct hooke_plan *plan);
-void hooke_plan_release(struct hooke_plan *plan);
+/* HOOKE_NO_MEMORY, HOOKE_STOPPED; hk_plan_release() has to follow. */
+int32_t hk_plan_begin(struct hk_inquiry *inquiry, struct hk_plan *plan);
+void hk_plan_release(struct hk_plan *plan);
 
 /* Changes of a run, with a word on them, before they are tried. */
-struct hooke_change {
+struct hk_change {
   hooke_options *run;
   char words[240], option[32];
 };
 
-int32_t hooke_change_begin(struct hooke_change *change, const char *option);
-void hooke_change_say(struct hooke_change *change, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-void hooke_change_drop(struct hooke_change *change);
+int32_t hk_change_begin(struct hk_change *change, const char *option);
+void hk_change_say(struct hk_change *change, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void hk_change_drop(struct hk_change *change);
 
 /* What a trial showed: how far it came, and what that proves, in words ("": nothing). */
-struct hooke_trial {
+struct hk_trial {
   int32_t tried, finished, diverged;
   int64_t steps;
   double reached;
@@ -43,18 +42,18 @@ struct hooke_trial {
 };
 
 /* Runs `system`, the plan's or one like it, with the change as far as the work allows, if there is time and room. */
-int32_t hooke_plan_try(struct hooke_plan *plan, const hooke_system *system, const struct hooke_change *change,
-                       struct hooke_trial *trial);
+int32_t hk_plan_try(struct hk_plan *plan, const hooke_system *system, const struct hk_change *change,
+                    struct hk_trial *trial);
 
 /* Tries more and more damping of altitude springs, and makes what proves well the remedy. */
-int32_t hooke_plan_try_damping(struct hooke_plan *plan);
+int32_t hk_plan_try_damping(struct hk_plan *plan);
 
 /* Tries the change, and gives it as advice if it proves well; takes it over in any case. */
-int32_t hooke_plan_offer(struct hooke_plan *plan, struct hooke_change *change, int32_t *taken);
+int32_t hk_plan_offer(struct hk_plan *plan, struct hk_change *change, int32_t *taken);
 /* Gives it without a trial. */
-void hooke_plan_take(struct hooke_plan *plan, struct hooke_change *change, const char *proof);
+void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *proof);
 
 /* Runs with the change as far as the work allows; `steps` is how many it took, -1 if it did not come to its end. */
-int32_t hooke_plan_count_steps(struct hooke_plan *plan, const struct hooke_change *change, int64_t *steps);
+int32_t hk_plan_count_steps(struct hk_plan *plan, const struct hk_change *change, int64_t *steps);
 
 #endif

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_option_row rows[] = {
+static const struct hk_option_row rows[] = {
     {.name = "stiffness",
      .type = HOOKE_OPTION_NUMBERS,
      .unit = "N",
@@ -40,46 +40,46 @@ static const struct hooke_option_row rows[] = {
      .doc = "false: the springs only pull"},
 };
 
-static const struct hooke_option_table table = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table table = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_altitude_options_create(hooke_options **options) {
-  return hooke_options_create(&table, options);
+  return hk_options_create(&table, options);
 }
 
-void hooke_altitude_group_release(struct hooke_altitude_group *group) {
-  hooke_free(group->name);
-  hooke_free(group->tetrahedron);
+void hk_altitude_group_release(struct hk_altitude_group *group) {
+  hk_free(group->name);
+  hk_free(group->tetrahedron);
   memset(group, 0, sizeof *group);
 }
 
-static int acts(const struct hooke_tetrahedron *tetrahedron) {
+static int acts(const struct hk_tetrahedron *tetrahedron) {
   return tetrahedron->stiffness != 0.0 || tetrahedron->damping != 0.0;
 }
 
-void hooke_altitude_group_strip(struct hooke_altitude_group *group) {
+void hk_altitude_group_strip(struct hk_altitude_group *group) {
   int64_t kept = 0;
   for (int64_t k = 0; k < group->count; k++)
     kept += acts(&group->tetrahedron[k]);
   group->count = kept;
-  hooke_free(group->tetrahedron);
+  hk_free(group->tetrahedron);
   group->tetrahedron = NULL;
 }
 
-int32_t hooke_altitudes_create(const struct hooke_altitude_group *group, int64_t group_count,
-                               struct hooke_altitudes *altitudes) {
+int32_t hk_altitudes_create(const struct hk_altitude_group *group, int64_t group_count,
+                            struct hk_altitudes *altitudes) {
   memset(altitudes, 0, sizeof *altitudes);
   for (int64_t n = 0; n < group_count; n++) {
-    const struct hooke_altitude_group *g = &group[n];
+    const struct hk_altitude_group *g = &group[n];
     for (int64_t k = 0; k < g->count; k++)
       altitudes->count += acts(&g->tetrahedron[k]);
   }
-  struct hooke_tetrahedron *next = altitudes->tetrahedron = hooke_new(altitudes->count, sizeof *next);
+  struct hk_tetrahedron *next = altitudes->tetrahedron = hk_new(altitudes->count, sizeof *next);
   if (next == NULL) {
     memset(altitudes, 0, sizeof *altitudes);
     return HOOKE_NO_MEMORY;
   }
   for (int64_t n = 0; n < group_count; n++) {
-    const struct hooke_altitude_group *g = &group[n];
+    const struct hk_altitude_group *g = &group[n];
     for (int64_t k = 0; k < g->count; k++) {
       if (!acts(&g->tetrahedron[k])) continue;
       altitudes->damped |= g->tetrahedron[k].damping != 0.0;
@@ -89,17 +89,16 @@ int32_t hooke_altitudes_create(const struct hooke_altitude_group *group, int64_t
   return HOOKE_OK;
 }
 
-void hooke_altitudes_release(struct hooke_altitudes *altitudes) {
-  hooke_free(altitudes->tetrahedron);
+void hk_altitudes_release(struct hk_altitudes *altitudes) {
+  hk_free(altitudes->tetrahedron);
   memset(altitudes, 0, sizeof *altitudes);
 }
 
-int64_t hooke_altitudes_memory(const struct hooke_altitudes *altitudes) {
+int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes) {
   return altitudes->count * (int64_t)sizeof *altitudes->tetrahedron;
 }
 
-double hooke_altitude_row(const hooke_system *system, const int32_t particle[4], const double weight[4],
-                          int j) {
+double hk_altitude_row(const hooke_system *system, const int32_t particle[4], const double weight[4], int j) {
   double sum = 0.0;
   for (int k = 0; k < 4; k++)
     sum += system->held[particle[k]] ? 0.0 : fabs(weight[k]);
@@ -111,7 +110,7 @@ double hooke_altitude_row(const hooke_system *system, const int32_t particle[4],
 /* An altitude below this share of the longest edge is rounding of positions. */
 static const double FLAT = 1e-9;
 
-int32_t hooke_tetrahedron_rest(const double x[4][3], double scale, struct hooke_tetrahedron *t) {
+int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *t) {
   double longest = 0.0, shortest = INFINITY;
   for (int k = 0; k < 4; k++) {
     for (int j = 0; j < k; j++) {
@@ -121,17 +120,17 @@ int32_t hooke_tetrahedron_rest(const double x[4][3], double scale, struct hooke_
   }
   t->side = 1.0;
   for (int32_t k = HOOKE_ALTITUDES - 1; k >= 0; k--) {
-    struct hooke_altitude altitude;
-    struct hooke_tetrahedron one = *t;
+    struct hk_altitude altitude;
+    struct hk_tetrahedron one = *t;
     one.choice = k;
-    const double length = hooke_altitude_find(&one, x, &altitude) ? altitude.length : 0.0;
+    const double length = hk_altitude_find(&one, x, &altitude) ? altitude.length : 0.0;
     t->rest[k] = scale * fabs(length);
     shortest = fmin(shortest, fabs(length));
     if (length < 0.0 && k == 0) t->side = -1.0;
   }
   t->choice = HOOKE_ALTITUDE_SHORTEST;
   if (shortest > FLAT * longest && isfinite(longest)) return HOOKE_OK;
-  return hooke_fail(
+  return hk_fail(
       HOOKE_BAD_VALUE, NULL,
       "particles %d, %d, %d and %d lie in a plane at rest: their shortest altitude is %g m, and they "
       "are up to %g m apart; allowed: more than 1e-9 of that",
@@ -139,16 +138,15 @@ int32_t hooke_tetrahedron_rest(const double x[4][3], double scale, struct hooke_
 }
 
 /* That they are there is known. */
-static int32_t check_particles(int64_t count, const struct hooke_tetrahedron *tetrahedron) {
+static int32_t check_particles(int64_t count, const struct hk_tetrahedron *tetrahedron) {
   for (int64_t k = 0; k < count; k++) {
     const int32_t *p = tetrahedron[k].particle;
     for (int e = 0; e < 4; e++) {
       for (int other = 0; other < e; other++) {
         if (p[e] != p[other]) continue;
-        hooke_fail(HOOKE_BAD_VALUE, NULL,
-                   "particles %d, %d, %d and %d; a tetrahedron has four different ones", (int)p[0], (int)p[1],
-                   (int)p[2], (int)p[3]);
-        return hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld]", (long long)k);
+        hk_fail(HOOKE_BAD_VALUE, NULL, "particles %d, %d, %d and %d; a tetrahedron has four different ones",
+                (int)p[0], (int)p[1], (int)p[2], (int)p[3]);
+        return hk_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld]", (long long)k);
       }
     }
   }
@@ -160,7 +158,7 @@ static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *plac
   const int64_t count = system->altitude_group_count, capacity = 2 * system->altitude_group_capacity + 4;
   if (count == system->altitude_group_capacity) {
     const int32_t status =
-        hooke_grow((void **)&system->altitude_group, count, capacity, sizeof *system->altitude_group);
+        hk_grow((void **)&system->altitude_group, count, capacity, sizeof *system->altitude_group);
     if (status != HOOKE_OK) return status;
     system->altitude_group_capacity = capacity;
   }
@@ -173,21 +171,20 @@ static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *plac
   return HOOKE_OK;
 }
 
-int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int32_t from_part, int64_t count,
-                                    const struct hooke_tetrahedron *tetrahedron) {
-  int32_t status = hooke_system_require_open(system);
+int32_t hk_system_add_tetrahedra(hooke_system *system, const char *name, int32_t from_part, int64_t count,
+                                 const struct hk_tetrahedron *tetrahedron) {
+  int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
+    status = hk_system_check_room(system, (struct hk_more){.tetrahedra = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_particles(count, tetrahedron);
   if (status != HOOKE_OK) return status;
-  struct hooke_altitude_group group = {
-      .count = count, .from_part = from_part, .part = system->part_count - 1};
-  group.name = hooke_copy_text(name);
-  group.tetrahedron = hooke_new(count, sizeof *tetrahedron);
+  struct hk_altitude_group group = {.count = count, .from_part = from_part, .part = system->part_count - 1};
+  group.name = hk_copy_text(name);
+  group.tetrahedron = hk_new(count, sizeof *tetrahedron);
   int64_t place;
   status = group.name && group.tetrahedron ? open_place(system, from_part, &place) : HOOKE_NO_MEMORY;
   if (status != HOOKE_OK) {
-    hooke_altitude_group_release(&group);
+    hk_altitude_group_release(&group);
     return status;
   }
   if (count > 0) memcpy(group.tetrahedron, tetrahedron, (size_t)count * sizeof *tetrahedron);
@@ -199,33 +196,32 @@ int32_t hooke_system_add_tetrahedra(hooke_system *system, const char *name, int3
 static int32_t check_count(const hooke_options *options, const char *name, int64_t count) {
   const int64_t given = hooke_options_number_count(options, name);
   if (given <= 1 || given == count) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld tetrahedra; allowed: one, or one for each",
-                    (long long)given, (long long)count);
+  return hk_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld tetrahedra; allowed: one, or one for each",
+                 (long long)given, (long long)count);
 }
 
 static int32_t check_call(const hooke_system *system, int64_t count, const int64_t *corners,
                           const hooke_options *options) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
-  if (options == NULL || hooke_options_table(options) != &table) {
-    return hooke_fail(
+  if (options == NULL || hk_options_table(options) != &table) {
+    return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "the options are not those of altitude springs; make them with hooke_altitude_options_create()");
   }
   if (count < 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed",
-                      (long long)count);
+    return hk_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed", (long long)count);
   }
-  status = hooke_system_check_room(system, (struct hooke_more){.tetrahedra = (double)count}, NULL);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "tetrahedra");
-  status = hooke_options_check_required(options);
+  status = hk_system_check_room(system, (struct hk_more){.tetrahedra = (double)count}, NULL);
+  if (status != HOOKE_OK) return hk_fail_within(status, "tetrahedra");
+  status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
   if (status == HOOKE_OK) status = check_count(options, "damping", count);
   for (int64_t k = 0; k < 4 * count && status == HOOKE_OK; k++) {
     if (corners[k] >= 0 && corners[k] < system->particle_count) continue;
-    hooke_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)corners[k],
-               (long long)(system->particle_count - 1));
-    status = hooke_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld][%d]", (long long)(k / 4), (int)(k % 4));
+    hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)corners[k],
+            (long long)(system->particle_count - 1));
+    status = hk_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld][%d]", (long long)(k / 4), (int)(k % 4));
   }
   return status;
 }
@@ -235,9 +231,9 @@ static double value_of(const hooke_options *options, const char *name, int64_t k
 }
 
 static int32_t fill(const hooke_system *system, int64_t count, const int64_t *corners,
-                    const hooke_options *options, struct hooke_tetrahedron *tetrahedron) {
+                    const hooke_options *options, struct hk_tetrahedron *tetrahedron) {
   for (int64_t k = 0; k < count; k++) {
-    struct hooke_tetrahedron *t = &tetrahedron[k];
+    struct hk_tetrahedron *t = &tetrahedron[k];
     double x[4][3];
     for (int e = 0; e < 4; e++) {
       t->particle[e] = (int32_t)corners[4 * k + e];
@@ -252,9 +248,9 @@ static int32_t fill(const hooke_system *system, int64_t count, const int64_t *co
     double x[4][3];
     for (int e = 0; e < 4; e++)
       memcpy(x[e], system->position + 3 * (int64_t)tetrahedron[k].particle[e], sizeof x[e]);
-    status = hooke_tetrahedron_rest((const double(*)[3])x, hooke_options_number(options, "rest_scale"),
-                                    &tetrahedron[k]);
-    if (status != HOOKE_OK) hooke_fail_within(status, "tetrahedra[%lld]", (long long)k);
+    status = hk_tetrahedron_rest((const double(*)[3])x, hooke_options_number(options, "rest_scale"),
+                                 &tetrahedron[k]);
+    if (status != HOOKE_OK) hk_fail_within(status, "tetrahedra[%lld]", (long long)k);
   }
   return status;
 }
@@ -263,11 +259,11 @@ int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_
                                   const int64_t *tetrahedra, const hooke_options *options) {
   int32_t status = check_call(system, count, tetrahedra, options);
   if (status != HOOKE_OK) return status;
-  struct hooke_tetrahedron *tetrahedron = hooke_new(count, sizeof *tetrahedron);
+  struct hk_tetrahedron *tetrahedron = hk_new(count, sizeof *tetrahedron);
   if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
   status = fill(system, count, tetrahedra, options, tetrahedron);
-  if (status == HOOKE_OK) status = hooke_system_add_tetrahedra(system, name, 0, count, tetrahedron);
-  hooke_free(tetrahedron);
+  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(system, name, 0, count, tetrahedron);
+  hk_free(tetrahedron);
   return status;
 }
 
@@ -293,7 +289,7 @@ int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t gro
 }
 
 int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < 4 * system->altitudes.count; k++)
     tetrahedra[k] = system->altitudes.tetrahedron[k / 4].particle[k % 4];
@@ -302,10 +298,10 @@ int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahed
 
 int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness, double *damping,
                                        double *rest_length) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
     if (stiffness) stiffness[k] = t->stiffness;
     if (damping) damping[k] = t->damping;
     for (int a = 0; a < HOOKE_ALTITUDES && rest_length; a++)
@@ -315,11 +311,11 @@ int32_t hooke_system_altitude_material(const hooke_system *system, double *stiff
 }
 
 int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length) {
-  const int32_t status = hooke_system_require_committed(system);
+  const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    struct hooke_tautness tautness;
-    const int32_t found = hooke_tautness_find(&system->altitudes.tetrahedron[k], q, NULL, &tautness);
+    struct hk_tautness tautness;
+    const int32_t found = hk_tautness_find(&system->altitudes.tetrahedron[k], q, NULL, &tautness);
     length[k] = found ? tautness.altitude.length : 0.0;
   }
   return HOOKE_OK;

@@ -14,24 +14,24 @@ static void cross(const double a[3], const double b[3], double n[3]) {
   n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static void gather(const struct hooke_tetrahedron *t, const double *rows, double x[4][3]) {
+static void gather(const struct hk_tetrahedron *t, const double *rows, double x[4][3]) {
   for (int j = 0; j < 4; j++)
     memcpy(x[j], rows + 3 * (int64_t)t->particle[j], sizeof x[j]);
 }
 
-int32_t hooke_tautness_find(const struct hooke_tetrahedron *t, const double *q, const double *v,
-                            struct hooke_tautness *s) {
+int32_t hk_tautness_find(const struct hk_tetrahedron *t, const double *q, const double *v,
+                         struct hk_tautness *s) {
   double x[4][3], w[3];
   gather(t, q, x);
   memset(s, 0, sizeof *s);
-  if (!hooke_altitude_find(t, (const double(*)[3])x, &s->altitude)) return 0;
+  if (!hk_altitude_find(t, (const double(*)[3])x, &s->altitude)) return 0;
   if (v) {
     gather(t, v, x);
-    hooke_altitude_weigh(&s->altitude, (const double(*)[3])x, w);
+    hk_altitude_weigh(&s->altitude, (const double(*)[3])x, w);
     s->rate = dot(s->altitude.u, w);
   }
   const double rest = t->rest[s->altitude.choice];
-  s->tension = hooke_altitude_tension(t, &s->altitude, s->rate, &s->slack);
+  s->tension = hk_altitude_tension(t, &s->altitude, s->rate, &s->slack);
   s->elastic =
       t->pull_only && s->altitude.length <= rest ? 0.0 : t->stiffness * (s->altitude.length - rest) / rest;
   return 1;
@@ -39,7 +39,7 @@ int32_t hooke_tautness_find(const struct hooke_tetrahedron *t, const double *q, 
 
 /* The vectors that the altitude is made of: e, f and r. */
 static void span(int32_t choice, const double x[4][3], double e[3], double f[3], double r[3]) {
-  const int8_t *role = hooke_altitude_role[choice];
+  const int8_t *role = hk_altitude_role[choice];
   const double *x0 = x[role[0]], *x1 = x[role[1]], *x2 = x[role[2]], *x3 = x[role[3]];
   for (int a = 0; a < 3; a++) {
     e[a] = x1[a] - x0[a];
@@ -58,12 +58,12 @@ static void cross_change(const double a[3], const double b[3], const double da[3
     dn[k] += other[k];
 }
 
-void hooke_tautness_differentiate(const struct hooke_tetrahedron *t, const struct hooke_tautness *s,
-                                  const double *q, const double *v, const double *dq, const double *dv,
-                                  struct hooke_tautness_change *change) {
-  const struct hooke_altitude *altitude = &s->altitude;
+void hk_tautness_differentiate(const struct hk_tetrahedron *t, const struct hk_tautness *s, const double *q,
+                               const double *v, const double *dq, const double *dv,
+                               struct hk_tautness_change *change) {
+  const struct hk_altitude *altitude = &s->altitude;
   const int32_t choice = altitude->choice;
-  const int8_t *role = hooke_altitude_role[choice];
+  const int8_t *role = hk_altitude_role[choice];
   double x[4][3], dx[4][3], u[4][3], du[4][3];
   double e[3], f[3], r[3], de[3], df[3], dr[3], n[3], dn[3], rf[3], re[3], drf[3], dre[3];
   gather(t, q, x);
@@ -90,9 +90,9 @@ void hooke_tautness_differentiate(const struct hooke_tetrahedron *t, const struc
   change->weight[role[3]] = choice < 4 ? 0.0 : db;
   /* dh, and d(u.w) of the weighted velocity w */
   double w[3], moved[3], dw[3];
-  hooke_altitude_weigh(altitude, (const double(*)[3])dx, moved);
-  hooke_altitude_weigh(altitude, (const double(*)[3])u, w);
-  hooke_altitude_weigh(altitude, (const double(*)[3])du, dw);
+  hk_altitude_weigh(altitude, (const double(*)[3])dx, moved);
+  hk_altitude_weigh(altitude, (const double(*)[3])u, w);
+  hk_altitude_weigh(altitude, (const double(*)[3])du, dw);
   for (int j = 0; j < 4; j++) {
     for (int k = 0; k < 3; k++)
       dw[k] += change->weight[j] * u[j][k];

@@ -6,7 +6,7 @@
 
 struct hooke_system;
 
-struct hooke_bending_group {
+struct hk_bending_group {
   char *name;
   int64_t count; /* from commit on without triples of coefficient 0 */
   int32_t from_part;
@@ -17,40 +17,40 @@ struct hooke_bending_group {
 };
 
 /* All triples of a committed system, in their order. */
-struct hooke_bending {
+struct hk_bending {
   int64_t count;
   int64_t run_count;
-  struct hooke_bending_run *run;
+  struct hk_bending_run *run;
   int64_t indexed_count, mixed_count; /* triples whose particles, or coefficient, are stored one by one */
   int32_t *particle[3];
   double *coefficient;
 };
 
 /* One triple, whatever run it is in: c/2 |x_0 - 2 x_1 + x_2|^2, c [N/m]. */
-struct hooke_triple {
+struct hk_triple {
   int64_t particle[3];
   double coefficient;
 };
 
-static inline struct hooke_triple hooke_run_triple(const struct hooke_bending_run *run, int64_t k) {
+static inline struct hk_triple hk_run_triple(const struct hk_bending_run *run, int64_t k) {
   const int32_t indexed = run->shape & HOOKE_BENDING_INDEXED;
-  struct hooke_triple triple;
+  struct hk_triple triple;
   for (int e = 0; e < 3; e++)
     triple.particle[e] = indexed ? run->particle[e][k] : run->start + k + e * (int64_t)run->offset;
   triple.coefficient = run->shape & HOOKE_BENDING_MIXED ? run->coefficients[k] : run->coefficient;
   return triple;
 }
 
-/* All triples in their order: for (struct hooke_triples at = {bending}; hooke_next_triple(&at, &triple);) */
-struct hooke_triples {
-  const struct hooke_bending *bending;
+/* All triples in their order: for (struct hk_triples at = {bending}; hk_next_triple(&at, &triple);) */
+struct hk_triples {
+  const struct hk_bending *bending;
   int64_t run, k;
 };
 
-static inline int hooke_next_triple(struct hooke_triples *at, struct hooke_triple *triple) {
+static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple) {
   if (at->run == at->bending->run_count) return 0;
-  const struct hooke_bending_run *run = &at->bending->run[at->run];
-  *triple = hooke_run_triple(run, at->k);
+  const struct hk_bending_run *run = &at->bending->run[at->run];
+  *triple = hk_run_triple(run, at->k);
   if (++at->k == run->count) {
     at->run++;
     at->k = 0;
@@ -59,12 +59,12 @@ static inline int hooke_next_triple(struct hooke_triples *at, struct hooke_tripl
 }
 
 /* What a row of x_0 - 2 x_1 + x_2 multiplies particle e by. */
-static inline double hooke_triple_factor(int e) {
+static inline double hk_triple_factor(int e) {
   return e == 1 ? -2.0 : 1.0;
 }
 
 /* x_0 - 2 x_1 + x_2 of rows of x y z. */
-static inline void hooke_triple_bend(const struct hooke_triple *triple, const double *x, double bend[3]) {
+static inline void hk_triple_bend(const struct hk_triple *triple, const double *x, double bend[3]) {
   for (int a = 0; a < 3; a++) {
     bend[a] = (x[3 * triple->particle[0] + a] - 2.0 * x[3 * triple->particle[1] + a]) +
               x[3 * triple->particle[2] + a];
@@ -73,20 +73,20 @@ static inline void hooke_triple_bend(const struct hooke_triple *triple, const do
 
 /* Sum of the sizes of a row of the stiffness of a triple at its particle e, over those that are not held, in units of c;
  * the diagonal matrix of these is at least the stiffness, since (a + b + c)^2 <= (a^2/p + b^2/q + c^2/r) (p + q + r). */
-double hooke_triple_row(const struct hooke_system *system, const struct hooke_triple *triple, int e);
+double hk_triple_row(const struct hooke_system *system, const struct hk_triple *triple, int e);
 
 /* f += factor times the forces at x; x, y and z apart. */
-void hooke_bending_add(const struct hooke_bending *bending, double factor, const double *const x[3],
-                       double *const f[3]);
+void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
+                    double *const f[3]);
 
 /* Sorts groups into runs. HOOKE_NO_MEMORY leaves `bending` empty. */
-int32_t hooke_bending_create(const struct hooke_bending_group *group, int64_t group_count,
-                             struct hooke_bending *bending);
-void hooke_bending_release(struct hooke_bending *bending);
-int64_t hooke_bending_memory(const struct hooke_bending *bending);
+int32_t hk_bending_create(const struct hk_bending_group *group, int64_t group_count,
+                          struct hk_bending *bending);
+void hk_bending_release(struct hk_bending *bending);
+int64_t hk_bending_memory(const struct hk_bending *bending);
 
 /* Frees what only building needed: all of a group but its name and its count, which is that of the runs from now on. */
-void hooke_bending_group_strip(struct hooke_bending_group *group);
-void hooke_bending_group_release(struct hooke_bending_group *group);
+void hk_bending_group_strip(struct hk_bending_group *group);
+void hk_bending_group_release(struct hk_bending_group *group);
 
 #endif

@@ -8,27 +8,27 @@
 #include <math.h>
 #include <string.h>
 
-void hooke_drive_release(struct hooke_drive_group *drive) {
-  hooke_free(drive->particle);
-  hooke_free(drive->origin);
-  hooke_free(drive->time);
-  hooke_free(drive->displacement);
-  hooke_free(drive->slope);
+void hk_drive_release(struct hk_drive_group *drive) {
+  hk_free(drive->particle);
+  hk_free(drive->origin);
+  hk_free(drive->time);
+  hk_free(drive->displacement);
+  hk_free(drive->slope);
 }
 
 /* ---- motion ---- */
 
-static void harmonic_displacement(const struct hooke_drive_group *drive, double t, double *d, double *rate) {
+static void harmonic_displacement(const struct hk_drive_group *drive, double t, double *d, double *rate) {
   const double two_pi = 6.28318530717958647693;
   double sine, cosine;
-  hooke_sine_of_turns(drive->frequency * t + drive->phase / two_pi, &sine, &cosine);
+  hk_sine_of_turns(drive->frequency * t + drive->phase / two_pi, &sine, &cosine);
   for (int a = 0; a < 3; a++) {
     d[a] = drive->amplitude[a] * sine;
     rate[a] = drive->amplitude[a] * (two_pi * drive->frequency) * cosine;
   }
 }
 
-static void table_displacement(const struct hooke_drive_group *drive, double t, double *d, double *rate) {
+static void table_displacement(const struct hk_drive_group *drive, double t, double *d, double *rate) {
   const double *time = drive->time;
   const int64_t last = drive->samples - 1;
   if (t <= time[0] || t >= time[last]) {
@@ -55,7 +55,7 @@ static void table_displacement(const struct hooke_drive_group *drive, double t, 
   }
 }
 
-int32_t hooke_drive_evaluate(const struct hooke_drive_group *drive, double t, double *q, double *v) {
+int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *q, double *v) {
   if (drive->kind == HOOKE_DRIVE_CALLBACK) return drive->callback(drive->count, t, q, v, drive->ctx);
   double d[3], rate[3];
   if (drive->kind == HOOKE_DRIVE_HARMONIC)
@@ -75,7 +75,7 @@ int32_t hooke_drive_evaluate(const struct hooke_drive_group *drive, double t, do
 
 /* Slope at every sample of the parabola through it and its neighbours (at the ends: through the first or last
  * three). */
-static void find_slopes(struct hooke_drive_group *drive) {
+static void find_slopes(struct hk_drive_group *drive) {
   const int64_t m = drive->samples;
   for (int64_t k = 0; k < m; k++) {
     for (int a = 0; a < 3; a++) {
@@ -94,17 +94,17 @@ static void find_slopes(struct hooke_drive_group *drive) {
 }
 
 /* Appends a drive with its particles marked; on failure the system is unchanged. */
-static int32_t append_drive(hooke_system *system, struct hooke_drive_group drive, const int64_t *particles) {
+static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, const int64_t *particles) {
   int32_t status = HOOKE_OK;
   if (system->drive_count == system->drive_capacity) {
     int64_t capacity = 2 * system->drive_capacity + 4;
-    status = hooke_grow((void **)&system->drive, system->drive_count, capacity, sizeof *system->drive);
+    status = hk_grow((void **)&system->drive, system->drive_count, capacity, sizeof *system->drive);
     if (status == HOOKE_OK) system->drive_capacity = capacity;
   }
-  drive.particle = hooke_new(drive.count, sizeof *drive.particle);
-  drive.origin = hooke_new(3 * drive.count, sizeof(double));
+  drive.particle = hk_new(drive.count, sizeof *drive.particle);
+  drive.origin = hk_new(3 * drive.count, sizeof(double));
   if (status != HOOKE_OK || drive.particle == NULL || drive.origin == NULL) {
-    hooke_drive_release(&drive);
+    hk_drive_release(&drive);
     return HOOKE_NO_MEMORY;
   }
   for (int64_t k = 0; k < drive.count; k++) {
@@ -117,34 +117,34 @@ static int32_t append_drive(hooke_system *system, struct hooke_drive_group drive
 }
 
 static int32_t check_driven(const hooke_system *system, int64_t count, const int64_t *particles) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   if (count < 0 || count > INT32_MAX)
-    return hooke_fail(HOOKE_BAD_VALUE, "particles", "%lld particles; allowed: 0 to 2147483647, each once",
-                      (long long)count);
+    return hk_fail(HOOKE_BAD_VALUE, "particles", "%lld particles; allowed: 0 to 2147483647, each once",
+                   (long long)count);
   /* of more than there are, one of the first is named twice */
   if (count > system->particle_count) count = system->particle_count + 1;
-  status = hooke_system_check_particles(system, "particles", count, particles,
-                                        HOOKE_HELD_PINNED | HOOKE_HELD_DRIVEN);
+  status =
+      hk_system_check_particles(system, "particles", count, particles, HOOKE_HELD_PINNED | HOOKE_HELD_DRIVEN);
   if (status != HOOKE_OK) return status;
   /* a particle twice in one list */
-  uint8_t *seen = hooke_new(system->particle_count, 1);
+  uint8_t *seen = hk_new(system->particle_count, 1);
   if (seen == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     if (seen[particles[k]]) {
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "particle %lld is named twice; a particle is driven once",
-                 (long long)particles[k]);
-      status = hooke_fail_within(HOOKE_BAD_VALUE, "particles[%lld]", (long long)k);
+      hk_fail(HOOKE_BAD_VALUE, NULL, "particle %lld is named twice; a particle is driven once",
+              (long long)particles[k]);
+      status = hk_fail_within(HOOKE_BAD_VALUE, "particles[%lld]", (long long)k);
     }
     seen[particles[k]] = 1;
   }
-  hooke_free(seen);
+  hk_free(seen);
   return status;
 }
 
 static int32_t require_finite(const char *place, double value) {
   if (isfinite(value)) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, place, "%g is not allowed; a finite number is", value);
+  return hk_fail(HOOKE_BAD_VALUE, place, "%g is not allowed; a finite number is", value);
 }
 
 int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
@@ -157,7 +157,7 @@ int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const i
   if (status == HOOKE_OK) status = require_finite("frequency", frequency);
   if (status == HOOKE_OK) status = require_finite("phase", phase);
   if (status != HOOKE_OK) return status;
-  struct hooke_drive_group drive = {
+  struct hk_drive_group drive = {
       .kind = HOOKE_DRIVE_HARMONIC, .count = count, .frequency = frequency, .phase = phase};
   memcpy(drive.amplitude, amplitude, sizeof drive.amplitude);
   return append_drive(system, drive, particles);
@@ -165,17 +165,17 @@ int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const i
 
 static int32_t check_table(int64_t samples, const double *time, const double *displacement) {
   if (samples < 2) {
-    return hooke_fail(HOOKE_BAD_VALUE, "time", "%lld samples; a table needs 2 or more", (long long)samples);
+    return hk_fail(HOOKE_BAD_VALUE, "time", "%lld samples; a table needs 2 or more", (long long)samples);
   }
   for (int64_t k = 0; k < samples; k++) {
     if (!isfinite(time[k]) || (k > 0 && !(time[k] > time[k - 1]))) {
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; times are finite and ascend", time[k]);
-      return hooke_fail_within(HOOKE_BAD_VALUE, "time[%lld]", (long long)k);
+      hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; times are finite and ascend", time[k]);
+      return hk_fail_within(HOOKE_BAD_VALUE, "time[%lld]", (long long)k);
     }
     for (int a = 0; a < 3; a++) {
       if (isfinite(displacement[3 * k + a])) continue;
-      hooke_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", displacement[3 * k + a]);
-      return hooke_fail_within(HOOKE_BAD_VALUE, "position[%lld][%d]", (long long)k, a);
+      hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", displacement[3 * k + a]);
+      return hk_fail_within(HOOKE_BAD_VALUE, "position[%lld][%d]", (long long)k, a);
     }
   }
   return HOOKE_OK;
@@ -186,12 +186,12 @@ int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int6
   int32_t status = check_driven(system, count, particles);
   if (status == HOOKE_OK) status = check_table(samples, time, displacement);
   if (status != HOOKE_OK) return status;
-  struct hooke_drive_group drive = {.kind = HOOKE_DRIVE_TABLE, .count = count, .samples = samples};
-  drive.time = hooke_new(samples, sizeof(double));
-  drive.displacement = hooke_new(3 * samples, sizeof(double));
-  drive.slope = hooke_new(3 * samples, sizeof(double));
+  struct hk_drive_group drive = {.kind = HOOKE_DRIVE_TABLE, .count = count, .samples = samples};
+  drive.time = hk_new(samples, sizeof(double));
+  drive.displacement = hk_new(3 * samples, sizeof(double));
+  drive.slope = hk_new(3 * samples, sizeof(double));
   if (drive.time == NULL || drive.displacement == NULL || drive.slope == NULL) {
-    hooke_drive_release(&drive);
+    hk_drive_release(&drive);
     return HOOKE_NO_MEMORY;
   }
   memcpy(drive.time, time, (size_t)samples * sizeof(double));
@@ -204,9 +204,8 @@ int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const i
                                     hooke_drive *callback, void *ctx) {
   int32_t status = check_driven(system, count, particles);
   if (status != HOOKE_OK) return status;
-  if (callback == NULL)
-    return hooke_fail(HOOKE_BAD_VALUE, "drive", "no callback given; a function is needed");
-  struct hooke_drive_group drive = {
+  if (callback == NULL) return hk_fail(HOOKE_BAD_VALUE, "drive", "no callback given; a function is needed");
+  struct hk_drive_group drive = {
       .kind = HOOKE_DRIVE_CALLBACK, .count = count, .callback = callback, .ctx = ctx};
   return append_drive(system, drive, particles);
 }

@@ -4,10 +4,10 @@
 
 #include "hooke/system.h"
 
-enum hooke_drive_kind { HOOKE_DRIVE_HARMONIC, HOOKE_DRIVE_TABLE, HOOKE_DRIVE_CALLBACK };
+enum hk_drive_kind { HOOKE_DRIVE_HARMONIC, HOOKE_DRIVE_TABLE, HOOKE_DRIVE_CALLBACK };
 
-struct hooke_drive_group {
-  enum hooke_drive_kind kind;
+struct hk_drive_group {
+  enum hk_drive_kind kind;
   int64_t count;
   int32_t *particle;
   double *origin; /* where the particles were added, 3 count */
@@ -20,8 +20,8 @@ struct hooke_drive_group {
 
 /* Position and velocity of the group's particles at time t, 3 count each; returns what a callback returned.
  */
-int32_t hooke_drive_evaluate(const struct hooke_drive_group *drive, double t, double *q, double *v);
+int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *q, double *v);
 
-void hooke_drive_release(struct hooke_drive_group *drive);
+void hk_drive_release(struct hk_drive_group *drive);
 
 #endif

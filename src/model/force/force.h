@@ -7,37 +7,37 @@
 #include "model/sum/pattern.h"
 
 /* A state in rows of x y z, with a displacement of it for derivatives. */
-struct hooke_point {
+struct hk_point {
   double t;
   const double *q, *v, *dq, *dv;
   int32_t *stop_value; /* receives what a callback that stopped returned */
 };
 
 /* Everything but `name` and `present` may be NULL: the force then has no such part. */
-struct hooke_force_row {
+struct hk_force_row {
   const char *name;
   int32_t (*present)(const hooke_system *system);
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
-  int32_t (*add)(const hooke_system *system, struct hooke_motion *motion, double t);
+  int32_t (*add)(const hooke_system *system, struct hk_motion *motion, double t);
   /* potential energy [J], and power turned into heat [W] */
   double (*energy)(const hooke_system *system, const double *q);
   double (*heat)(const hooke_system *system, const double *q, const double *v);
   /* out += (df/dq) dq + (df/dv) dv */
-  int32_t (*add_product)(const hooke_system *system, const struct hooke_point *point, double *out);
+  int32_t (*add_product)(const hooke_system *system, const struct hk_point *point, double *out);
   /* adds df/dq and df/dv to 3x3 blocks; either may be NULL */
   void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
-                     const struct hooke_pattern *pattern, double *dfdq, double *dfdv);
+                     const struct hk_pattern *pattern, double *dfdq, double *dfdv);
 };
 
-extern const struct hooke_force_row hooke_force_springs, hooke_force_bending, hooke_force_altitude,
-    hooke_force_drag, hooke_force_callback, hooke_force_gravity;
+extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_drag,
+    hk_force_callback, hk_force_gravity;
 
 /* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out` (NULL: none) says.
  * HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
-int32_t hooke_forces_product(const hooke_system *system, const struct hooke_point *point,
-                             int (*left_out)(const struct hooke_force_row *row), double *out);
+int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
+                          int (*left_out)(const struct hk_force_row *row), double *out);
 
 /* Row `k` of the table, NULL past the last. */
-const struct hooke_force_row *hooke_force_table(int32_t k);
+const struct hk_force_row *hk_force_table(int32_t k);
 
 #endif

@@ -13,41 +13,41 @@ static int32_t present(const hooke_system *system) {
   return system->altitudes.count > 0;
 }
 
-static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
   const double *const v[3] = {motion->v[0], motion->v[1], motion->v[2]};
-  hooke_altitude_add(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
+  hk_altitude_add(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
   return HOOKE_OK;
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
-    struct hooke_tautness s;
-    if (!hooke_tautness_find(t, q, NULL, &s)) continue;
-    hooke_sum_add(&sum, 0.5 * s.elastic * (s.altitude.length - t->rest[s.altitude.choice]));
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    struct hk_tautness s;
+    if (!hk_tautness_find(t, q, NULL, &s)) continue;
+    hk_sum_add(&sum, 0.5 * s.elastic * (s.altitude.length - t->rest[s.altitude.choice]));
   }
-  return hooke_sum_value(&sum);
+  return hk_sum_value(&sum);
 }
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
-    struct hooke_tautness s;
-    if (t->damping == 0.0 || !hooke_tautness_find(t, q, v, &s)) continue;
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    struct hk_tautness s;
+    if (t->damping == 0.0 || !hk_tautness_find(t, q, v, &s)) continue;
     if (t->pull_only) /* it brakes no more than its tension lets it */
-      hooke_sum_add(&sum, (s.tension - s.elastic) * s.rate);
+      hk_sum_add(&sum, (s.tension - s.elastic) * s.rate);
     else
-      hooke_sum_add(&sum, (t->damping / t->rest[s.altitude.choice] * s.rate) * s.rate);
+      hk_sum_add(&sum, (t->damping / t->rest[s.altitude.choice] * s.rate) * s.rate);
   }
-  return hooke_sum_value(&sum);
+  return hk_sum_value(&sum);
 }
 
 /* change[j] += the change of the force on particle j. */
-static void find_change(const struct hooke_tautness *s, const struct hooke_tautness_change *d,
+static void find_change(const struct hk_tautness *s, const struct hk_tautness_change *d,
                         double change[4][3]) {
   for (int j = 0; j < 4; j++) {
     const double g = s->altitude.weight[j];
@@ -58,14 +58,14 @@ static void find_change(const struct hooke_tautness *s, const struct hooke_tautn
   }
 }
 
-static int32_t add_product(const hooke_system *system, const struct hooke_point *point, double *out) {
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
-    struct hooke_tautness s;
-    struct hooke_tautness_change d;
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    struct hk_tautness s;
+    struct hk_tautness_change d;
     double change[4][3];
-    if (!hooke_tautness_find(t, point->q, point->v, &s) || s.slack) continue;
-    hooke_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
+    if (!hk_tautness_find(t, point->q, point->v, &s) || s.slack) continue;
+    hk_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
     find_change(&s, &d, change);
     for (int j = 0; j < 4; j++) {
       for (int a = 0; a < 3; a++)
@@ -76,32 +76,32 @@ static int32_t add_product(const hooke_system *system, const struct hooke_point 
 }
 
 /* Column `a` of the blocks of particle j: rows 0 to 2 of every corner. */
-static void add_column(const struct hooke_pattern *pattern, const struct hooke_tetrahedron *t, int j, int a,
+static void add_column(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, int j, int a,
                        double change[4][3], double *blocks) {
   for (int row = 0; row < 4; row++) {
-    double *block = blocks + 9 * hooke_pattern_block(pattern, t->particle[row], t->particle[j]);
+    double *block = blocks + 9 * hk_pattern_block(pattern, t->particle[row], t->particle[j]);
     for (int b = 0; b < 3; b++)
       block[3 * b + a] += change[row][b];
   }
 }
 
 /* The tetrahedron alone, its corners numbered 0 to 3: displaced by one component of one corner after the other. */
-static void add_columns(const struct hooke_pattern *pattern, const struct hooke_tetrahedron *t,
-                        const double q[12], const double v[12], double *dfdq, double *dfdv) {
-  struct hooke_tetrahedron own = *t;
+static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, const double q[12],
+                        const double v[12], double *dfdq, double *dfdv) {
+  struct hk_tetrahedron own = *t;
   for (int j = 0; j < 4; j++)
     own.particle[j] = j;
-  struct hooke_tautness s;
-  struct hooke_tautness_change d;
+  struct hk_tautness s;
+  struct hk_tautness_change d;
   double one[12] = {0.0}, change[4][3];
   const double none[12] = {0.0};
-  if (!hooke_tautness_find(&own, q, v, &s) || s.slack) return;
+  if (!hk_tautness_find(&own, q, v, &s) || s.slack) return;
   for (int k = 0; k < 12; k++) {
     one[k] = 1.0;
-    hooke_tautness_differentiate(&own, &s, q, v, one, none, &d);
+    hk_tautness_differentiate(&own, &s, q, v, one, none, &d);
     find_change(&s, &d, change);
     if (dfdq) add_column(pattern, t, k / 3, k % 3, change, dfdq);
-    hooke_tautness_differentiate(&own, &s, q, v, none, one, &d);
+    hk_tautness_differentiate(&own, &s, q, v, none, one, &d);
     find_change(&s, &d, change);
     if (dfdv) add_column(pattern, t, k / 3, k % 3, change, dfdv);
     one[k] = 0.0;
@@ -109,9 +109,9 @@ static void add_columns(const struct hooke_pattern *pattern, const struct hooke_
 }
 
 static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hooke_pattern *pattern, double *dfdq, double *dfdv) {
+                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
   for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hooke_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
     double x[12], u[12];
     for (int64_t j = 0; j < 4; j++) {
       memcpy(x + 3 * j, q + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
@@ -121,10 +121,10 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   }
 }
 
-const struct hooke_force_row hooke_force_altitude = {.name = "altitude",
-                                                     .present = present,
-                                                     .add = add,
-                                                     .energy = energy,
-                                                     .heat = heat,
-                                                     .add_product = add_product,
-                                                     .add_blocks = add_blocks};
+const struct hk_force_row hk_force_altitude = {.name = "altitude",
+                                               .present = present,
+                                               .add = add,
+                                               .energy = energy,
+                                               .heat = heat,
+                                               .add_product = add_product,
+                                               .add_blocks = add_blocks};

@@ -12,21 +12,21 @@ static int32_t present(const hooke_system *system) {
 }
 
 static int32_t stopped(int32_t value, double t) {
-  return hooke_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
+  return hk_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
 }
 
-static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   const int64_t n = motion->n;
   double *q = motion->rows, *v = q + 3 * n, *f = v + 3 * n;
-  hooke_rows_from_components(n, motion->q, q);
-  hooke_rows_from_components(n, motion->v, v);
-  hooke_rows_from_components(n, motion->f, f);
+  hk_rows_from_components(n, motion->q, q);
+  hk_rows_from_components(n, motion->v, v);
+  hk_rows_from_components(n, motion->f, f);
   const int32_t value = system->force(n, t, q, v, f, system->force_ctx);
   if (value != 0) {
     motion->stop_value = value;
     return stopped(value, t);
   }
-  hooke_components_from_rows(n, f, motion->f);
+  hk_components_from_rows(n, f, motion->f);
   return 0;
 }
 
@@ -47,13 +47,13 @@ static double extent(int64_t n, const double *q) {
 
 /* Central difference of the callback along (dq, dv). The error of size step^2 balances rounding near
  * cbrt(2^-52). */
-static int32_t add_difference(const hooke_system *system, const struct hooke_point *point, double *out) {
+static int32_t add_difference(const hooke_system *system, const struct hk_point *point, double *out) {
   const int64_t n = system->particle_count, size = 3 * n;
   const double length = fmax(extent(n, point->q), 1e-3), speed = fmax(largest(size, point->v), length);
   const double share = fmax(largest(size, point->dq) / length, largest(size, point->dv) / speed);
   if (!(share > 0.0)) return 0;
   const double step = 6e-6 / share;
-  double *q = hooke_new(4 * size, sizeof(double));
+  double *q = hk_new(4 * size, sizeof(double));
   if (q == NULL) return HOOKE_NO_MEMORY;
   double *v = q + size, *ahead = v + size, *behind = ahead + size;
   int32_t value = 0;
@@ -66,12 +66,12 @@ static int32_t add_difference(const hooke_system *system, const struct hooke_poi
   }
   for (int64_t k = 0; k < size && value == 0; k++)
     out[k] += (ahead[k] - behind[k]) / (2.0 * step);
-  hooke_free(q);
+  hk_free(q);
   *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }
 
-static int32_t add_product(const hooke_system *system, const struct hooke_point *point, double *out) {
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   if (system->force_product == NULL) return add_difference(system, point, out);
   const int32_t value = system->force_product(system->particle_count, point->t, point->q, point->v, point->dq,
                                               point->dv, out, system->force_ctx);
@@ -79,5 +79,5 @@ static int32_t add_product(const hooke_system *system, const struct hooke_point 
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }
 
-const struct hooke_force_row hooke_force_callback = {
+const struct hk_force_row hk_force_callback = {
     .name = "callback", .present = present, .add = add, .add_product = add_product};

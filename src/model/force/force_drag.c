@@ -7,7 +7,7 @@ static int32_t present(const hooke_system *system) {
   return system->drag > 0.0;
 }
 
-static void brake(const hooke_system *system, struct hooke_motion *motion, int64_t from, int64_t to) {
+static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {
   const double c = system->drag;
   for (int a = 0; a < 3; a++) {
     double *f = motion->f[a];
@@ -17,7 +17,7 @@ static void brake(const hooke_system *system, struct hooke_motion *motion, int64
   }
 }
 
-static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   int64_t from = 0;
   for (int64_t k = 0; k < system->held_count; k++) {
@@ -30,15 +30,15 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
   (void)q;
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    hooke_sum_add(&sum, (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
+    hk_sum_add(&sum, (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
   }
-  return system->drag * hooke_sum_value(&sum);
+  return system->drag * hk_sum_value(&sum);
 }
 
-static int32_t add_product(const hooke_system *system, const struct hooke_point *point, double *out) {
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
     for (int a = 0; a < 3; a++)
@@ -48,19 +48,19 @@ static int32_t add_product(const hooke_system *system, const struct hooke_point 
 }
 
 static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hooke_pattern *pattern, double *dfdq, double *dfdv) {
+                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
   (void)q, (void)v, (void)dfdq;
   for (int64_t p = 0; dfdv && p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    double *block = dfdv + 9 * hooke_pattern_block(pattern, p, p);
+    double *block = dfdv + 9 * hk_pattern_block(pattern, p, p);
     for (int64_t a = 0; a < 3; a++)
       block[4 * a] -= system->drag;
   }
 }
 
-const struct hooke_force_row hooke_force_drag = {.name = "drag",
-                                                 .present = present,
-                                                 .add = add,
-                                                 .heat = heat,
-                                                 .add_product = add_product,
-                                                 .add_blocks = add_blocks};
+const struct hk_force_row hk_force_drag = {.name = "drag",
+                                           .present = present,
+                                           .add = add,
+                                           .heat = heat,
+                                           .add_product = add_product,
+                                           .add_blocks = add_blocks};

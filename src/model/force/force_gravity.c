@@ -10,12 +10,12 @@ static int32_t present(const hooke_system *system) {
 
 static double energy(const hooke_system *system, const double *q) {
   const double *g = system->gravity;
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
-    hooke_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
+    hk_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
-  return hooke_sum_value(&sum);
+  return hk_sum_value(&sum);
 }
 
-const struct hooke_force_row hooke_force_gravity = {.name = "gravity", .present = present, .energy = energy};
+const struct hk_force_row hk_force_gravity = {.name = "gravity", .present = present, .energy = energy};

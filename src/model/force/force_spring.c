@@ -13,13 +13,13 @@ static int32_t present(const hooke_system *system) {
   return system->springs.count > 0;
 }
 
-static int32_t add(const hooke_system *system, struct hooke_motion *motion, double t) {
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   if (system->lanes.count > 0 || system->net.particles > 0) {
-    hooke_motion_pass(system, motion, &(const struct hooke_move){.kind = HOOKE_MOVE_KEEP});
+    hk_motion_pass(system, motion, &(const struct hk_move){.kind = HOOKE_MOVE_KEEP});
     return HOOKE_OK;
   }
-  struct hooke_fields fields;
+  struct hk_fields fields;
   for (int a = 0; a < 3; a++) {
     fields.q[a] = motion->q[a];
     fields.v[a] = motion->v[a];
@@ -27,7 +27,7 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
   }
   int64_t coincident = 0;
   for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hooke_run *run = &system->springs.run[k];
+    const struct hk_run *run = &system->springs.run[k];
     coincident += run->loop(run, &fields);
   }
   motion->coincident = coincident;
@@ -35,61 +35,60 @@ static int32_t add(const hooke_system *system, struct hooke_motion *motion, doub
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
-    hooke_batch_lengths(&batch, q, length);
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    hk_batch_lengths(&batch, q, length);
     for (int64_t k = 0; k < batch.count; k++) {
       const double stretch = length[k] - batch.rest_length[k];
       stored[k] = 0.5 * (batch.kappa[k] * stretch) * stretch;
     }
     for (int64_t k = 0; k < batch.count; k++) {
       if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
-      hooke_sum_add(&sum, stored[k]);
+      hk_sum_add(&sum, stored[k]);
     }
   }
-  return hooke_sum_value(&sum);
+  return hk_sum_value(&sum);
 }
 
 /* Of springs that pull and push. */
-static void find_heat(const struct hooke_spring_batch *batch, const double *q, const double *v,
-                      double *heat) {
+static void find_heat(const struct hk_spring_batch *batch, const double *q, const double *v, double *heat) {
   for (int64_t k = 0; k < batch->count; k++) {
     const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];
     const double d[3] = {q[i] - q[j], q[i + 1] - q[j + 1], q[i + 2] - q[j + 2]};
     const double u[3] = {v[i] - v[j], v[i + 1] - v[j + 1], v[i + 2] - v[j + 2]};
-    const double ir = hooke_spring_inverse_length(hooke_spring_length(d[0], d[1], d[2]));
+    const double ir = hk_spring_inverse_length(hk_spring_length(d[0], d[1], d[2]));
     const double rate = ((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]) * ir;
     heat[k] = (batch->gamma[k] * rate) * rate;
   }
 }
 
 /* A spring that only pulls brakes no more than its tension lets it. */
-static void find_heat_of_cables(const struct hooke_spring_batch *batch, const double *q, const double *v,
+static void find_heat_of_cables(const struct hk_spring_batch *batch, const double *q, const double *v,
                                 double *heat) {
   for (int64_t k = 0; k < batch->count; k++) {
-    const struct hooke_spring spring = hooke_batch_spring(batch, k);
-    struct hooke_stretch s;
-    hooke_spring_stretch(&spring, q, v, &s);
+    const struct hk_spring spring = hk_batch_spring(batch, k);
+    struct hk_stretch s;
+    hk_spring_stretch(&spring, q, v, &s);
     heat[k] = (s.tension - s.elastic) * s.rate;
   }
 }
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
-  struct hooke_sum sum = {0.0, 0.0};
+  struct hk_sum sum = {0.0, 0.0};
   double lost[HOOKE_SPRING_BATCH];
-  struct hooke_spring_batch batch;
-  for (hooke_begin_batches(&batch); hooke_next_batch(system, &batch);) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     if (!batch.damped) continue;
     if (batch.pull_only)
       find_heat_of_cables(&batch, q, v, lost);
     else
       find_heat(&batch, q, v, lost);
     for (int64_t k = 0; k < batch.count; k++)
-      hooke_sum_add(&sum, lost[k]);
+      hk_sum_add(&sum, lost[k]);
   }
-  return hooke_sum_value(&sum);
+  return hk_sum_value(&sum);
 }
 
 /* The two numbers and two vectors that df/dx = -(u c^T + b P) and df/dv = -gamma u u^T are made of. */
@@ -98,10 +97,9 @@ struct slope {
   int isotropic; /* ends at one place, rest length 0: df/dx = -b I */
 };
 
-static int find_slope(const struct hooke_spring *spring, const double *q, const double *v,
-                      struct slope *slope) {
-  struct hooke_stretch s;
-  hooke_spring_stretch(spring, q, v, &s);
+static int find_slope(const struct hk_spring *spring, const double *q, const double *v, struct slope *slope) {
+  struct hk_stretch s;
+  hk_spring_stretch(spring, q, v, &s);
   slope->isotropic = 0;
   slope->gamma = spring->gamma;
   if (s.length == 0.0) {
@@ -124,11 +122,11 @@ static double dot(const double *a, const double *b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-static int32_t add_product(const hooke_system *system, const struct hooke_point *point, double *out) {
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       struct slope s;
       if (!find_slope(&spring, point->q, point->v, &s)) continue;
       const int64_t i = 3 * spring.head, j = 3 * spring.tail;
@@ -149,13 +147,13 @@ static int32_t add_product(const hooke_system *system, const struct hooke_point 
   return 0;
 }
 
-static void add_pair(const struct hooke_pattern *pattern, int64_t i, int64_t j, const double block[9],
+static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, const double block[9],
                      double *blocks) {
   if (blocks == NULL) return;
-  double *ii = blocks + 9 * hooke_pattern_block(pattern, i, i),
-         *ij = blocks + 9 * hooke_pattern_block(pattern, i, j);
-  double *ji = blocks + 9 * hooke_pattern_block(pattern, j, i),
-         *jj = blocks + 9 * hooke_pattern_block(pattern, j, j);
+  double *ii = blocks + 9 * hk_pattern_block(pattern, i, i),
+         *ij = blocks + 9 * hk_pattern_block(pattern, i, j);
+  double *ji = blocks + 9 * hk_pattern_block(pattern, j, i),
+         *jj = blocks + 9 * hk_pattern_block(pattern, j, j);
   for (int a = 0; a < 9; a++) {
     ii[a] -= block[a];
     ij[a] += block[a];
@@ -165,11 +163,11 @@ static void add_pair(const struct hooke_pattern *pattern, int64_t i, int64_t j, 
 }
 
 static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hooke_pattern *pattern, double *dfdq, double *dfdv) {
+                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
   for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hooke_run *run = &system->springs.run[r];
+    const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       struct slope s;
       if (!find_slope(&spring, q, v, &s)) continue;
       double stiff[9], damp[9];
@@ -186,10 +184,10 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   }
 }
 
-const struct hooke_force_row hooke_force_springs = {.name = "springs",
-                                                    .present = present,
-                                                    .add = add,
-                                                    .energy = energy,
-                                                    .heat = heat,
-                                                    .add_product = add_product,
-                                                    .add_blocks = add_blocks};
+const struct hk_force_row hk_force_springs = {.name = "springs",
+                                              .present = present,
+                                              .add = add,
+                                              .energy = energy,
+                                              .heat = heat,
+                                              .add_product = add_product,
+                                              .add_blocks = add_blocks};

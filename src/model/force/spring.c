@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct hooke_option_row spring_rows[] = {
+static const struct hk_option_row spring_rows[] = {
     {.name = "law",
      .type = HOOKE_OPTION_CHOICE,
      .words = "strain length",
@@ -53,25 +53,25 @@ static const struct hooke_option_row spring_rows[] = {
      .doc = "false: the spring only pulls, like a cable"},
 };
 
-static const struct hooke_option_table spring_table = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
+static const struct hk_option_table spring_table = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
 
 int32_t hooke_spring_options_create(hooke_options **options) {
-  return hooke_options_create(&spring_table, options);
+  return hk_options_create(&spring_table, options);
 }
 
-void hooke_group_release_arrays(struct hooke_group *group) {
-  hooke_free(group->head);
-  hooke_free(group->tail);
-  hooke_free(group->kappa);
-  hooke_free(group->gamma);
-  hooke_free(group->rest_length);
+void hk_group_release_arrays(struct hk_group *group) {
+  hk_free(group->head);
+  hk_free(group->tail);
+  hk_free(group->kappa);
+  hk_free(group->gamma);
+  hk_free(group->rest_length);
   group->head = group->tail = NULL;
   group->kappa = group->gamma = group->rest_length = NULL;
 }
 
-void hooke_group_release(struct hooke_group *group) {
-  hooke_group_release_arrays(group);
-  hooke_free(group->name);
+void hk_group_release(struct hk_group *group) {
+  hk_group_release_arrays(group);
+  hk_free(group->name);
   hooke_options_destroy(group->options);
   memset(group, 0, sizeof *group);
 }
@@ -88,7 +88,7 @@ static void swap_ends(int32_t *end, int64_t a, int64_t b) {
   end[b] = kept;
 }
 
-void hooke_group_drop(struct hooke_group *group) {
+void hk_group_drop(struct hk_group *group) {
   int64_t acting = 0;
   for (int64_t k = 0; k < group->count; k++) {
     if (group->kappa[k] == 0.0 && group->gamma[k] == 0.0) continue;
@@ -103,16 +103,16 @@ void hooke_group_drop(struct hooke_group *group) {
   group->count = acting;
 }
 
-void hooke_group_take_back(struct hooke_group *group) {
+void hk_group_take_back(struct hk_group *group) {
   group->count += group->dropped;
   group->dropped = 0;
 }
 
-void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
-                          struct hooke_stretch *stretch) {
+void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
+                       struct hk_stretch *stretch) {
   const double *qi = q + 3 * spring->head, *qj = q + 3 * spring->tail;
   const double d[3] = {qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]};
-  const double r = hooke_spring_length(d[0], d[1], d[2]), ir = hooke_spring_inverse_length(r);
+  const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
   double rate = 0.0;
   if (v) {
     const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
@@ -129,36 +129,35 @@ void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, co
   stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
 }
 
-void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *q,
-                               struct hooke_stretch *stretch) {
-  struct hooke_spring taut = *spring;
+void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch) {
+  struct hk_spring taut = *spring;
   taut.pull_only = 0;
-  hooke_spring_stretch(&taut, q, NULL, stretch);
+  hk_spring_stretch(&taut, q, NULL, stretch);
 }
 
 /* ---- adding a group ---- */
 
 static int32_t check_ends(const hooke_system *system, int64_t count, const int64_t *ends) {
   if (count < 0) {
-    return hooke_fail(HOOKE_BAD_VALUE, "between", "%lld springs; 0 or more are allowed", (long long)count);
+    return hk_fail(HOOKE_BAD_VALUE, "between", "%lld springs; 0 or more are allowed", (long long)count);
   }
-  const int32_t status = hooke_system_check_room(system, (struct hooke_more){.springs = (double)count}, NULL);
-  if (status != HOOKE_OK) return hooke_fail_within(status, "between");
+  const int32_t status = hk_system_check_room(system, (struct hk_more){.springs = (double)count}, NULL);
+  if (status != HOOKE_OK) return hk_fail_within(status, "between");
   for (int64_t k = 0; k < count; k++) {
     for (int end = 0; end < 2; end++) {
       const int64_t p = ends[2 * k + end];
       if (p >= 0 && p < system->particle_count) continue;
       char place[64];
       snprintf(place, sizeof place, "between[%lld][%d]", (long long)k, end);
-      return hooke_fail(HOOKE_BAD_VALUE, place, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
-                        (long long)(system->particle_count - 1));
+      return hk_fail(HOOKE_BAD_VALUE, place, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
+                     (long long)(system->particle_count - 1));
     }
     if (ends[2 * k] == ends[2 * k + 1]) {
       char place[64];
       snprintf(place, sizeof place, "between[%lld]", (long long)k);
-      return hooke_fail(HOOKE_BAD_VALUE, place,
-                        "both ends are particle %lld; a spring joins two different particles",
-                        (long long)ends[2 * k]);
+      return hk_fail(HOOKE_BAD_VALUE, place,
+                     "both ends are particle %lld; a spring joins two different particles",
+                     (long long)ends[2 * k]);
     }
   }
   return HOOKE_OK;
@@ -167,8 +166,8 @@ static int32_t check_ends(const hooke_system *system, int64_t count, const int64
 static int32_t check_count(const hooke_options *options, const char *name, int64_t count) {
   const int64_t given = hooke_options_number_count(options, name);
   if (given <= 1 || given == count) return HOOKE_OK;
-  return hooke_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld springs; allowed: one, or one for each",
-                    (long long)given, (long long)count);
+  return hk_fail(HOOKE_BAD_VALUE, name, "%lld values for %lld springs; allowed: one, or one for each",
+                 (long long)given, (long long)count);
 }
 
 /* Values that are one number or one for each spring. */
@@ -188,27 +187,27 @@ static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
   } else {
     snprintf(place, sizeof place, given == 1 ? "rest_length" : "between[%lld]", (long long)k);
   }
-  return hooke_fail(HOOKE_BAD_VALUE, place,
-                    "rest length %g of spring %lld; the strain law needs one > 0 (the length law takes 0)",
-                    length, (long long)k);
+  return hk_fail(HOOKE_BAD_VALUE, place,
+                 "rest length %g of spring %lld; the strain law needs one > 0 (the length law takes 0)",
+                 length, (long long)k);
 }
 
 /* Springs are in any order, so that the places of their ends come late unless they are asked for early. */
-static void ask_for_ends(const struct hooke_group *group, const double *position, int64_t k) {
+static void ask_for_ends(const struct hk_group *group, const double *position, int64_t k) {
   if (k >= group->count) return;
   __builtin_prefetch(position + 3 * (int64_t)group->head[k]);
   __builtin_prefetch(position + 3 * (int64_t)group->tail[k]);
 }
 
-static double initial_length(const struct hooke_group *group, const double *position, int64_t k) {
+static double initial_length(const struct hk_group *group, const double *position, int64_t k) {
   const double *qi = position + 3 * (int64_t)group->head[k], *qj = position + 3 * (int64_t)group->tail[k];
   ask_for_ends(group, position, k + 16);
-  return hooke_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
+  return hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
 }
 
 /* kappa, gamma and rest length of every spring of the group. */
 static int32_t find_material(const hooke_system *system, const hooke_options *options,
-                             struct hooke_group *group) {
+                             struct hk_group *group) {
   const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
   const double scale = hooke_options_number(options, "rest_scale");
   const int64_t given = hooke_options_number_count(options, "rest_length");
@@ -224,7 +223,7 @@ static int32_t find_material(const hooke_system *system, const hooke_options *op
     group->kappa[k] = strain ? stiffness / length : stiffness;
     group->gamma[k] = strain ? damping / length : damping;
     if (group->kappa[k] <= 1e300 && group->gamma[k] <= 1e300 && length <= 1e300) continue;
-    return hooke_fail(
+    return hk_fail(
         HOOKE_BAD_VALUE, "stiffness",
         "spring %lld has stiffness %g, damping %g and rest length %g; allowed: stiffness / rest length, "
         "damping / rest length and rest length up to 1e300",
@@ -234,15 +233,15 @@ static int32_t find_material(const hooke_system *system, const hooke_options *op
 }
 
 static int32_t fill_group(const hooke_system *system, const char *name, int64_t count, const int64_t *ends,
-                          const hooke_options *options, struct hooke_group *group) {
+                          const hooke_options *options, struct hk_group *group) {
   group->count = count;
   group->pull_only = hooke_options_number(options, "compression") == 0.0;
-  group->name = hooke_copy_text(name);
-  group->head = hooke_new(count, sizeof(int32_t));
-  group->tail = hooke_new(count, sizeof(int32_t));
-  group->kappa = hooke_new(count, sizeof(double));
-  group->gamma = hooke_new(count, sizeof(double));
-  group->rest_length = hooke_new(count, sizeof(double));
+  group->name = hk_copy_text(name);
+  group->head = hk_new(count, sizeof(int32_t));
+  group->tail = hk_new(count, sizeof(int32_t));
+  group->kappa = hk_new(count, sizeof(double));
+  group->gamma = hk_new(count, sizeof(double));
+  group->rest_length = hk_new(count, sizeof(double));
   if (!group->name || !group->head || !group->tail || !group->kappa || !group->gamma || !group->rest_length) {
     return HOOKE_NO_MEMORY;
   }
@@ -253,7 +252,7 @@ static int32_t fill_group(const hooke_system *system, const char *name, int64_t 
   return find_material(system, options, group);
 }
 
-static int32_t keep_options(const hooke_options *options, struct hooke_group *group) {
+static int32_t keep_options(const hooke_options *options, struct hk_group *group) {
   static const char *const lists[] = {"stiffness", "damping", "rest_length"};
   for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
     if (hooke_options_number_count(options, lists[k]) > 1) return HOOKE_OK;
@@ -263,28 +262,28 @@ static int32_t keep_options(const hooke_options *options, struct hooke_group *gr
 
 static int32_t add_group(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
                          const hooke_options *options, int32_t from_part) {
-  int32_t status = hooke_system_require_open(system);
+  int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hooke_options_require(options, &spring_table, "options", "hooke_spring_options_create()");
-  if (status == HOOKE_OK) status = hooke_options_check_required(options);
+    status = hk_options_require(options, &spring_table, "options", "hooke_spring_options_create()");
+  if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = check_ends(system, count, ends);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
   if (status == HOOKE_OK) status = check_count(options, "damping", count);
   if (status == HOOKE_OK) status = check_count(options, "rest_length", count);
   if (status == HOOKE_OK && system->group_count == system->group_capacity) {
     int64_t capacity = 2 * system->group_capacity + 4;
-    status = hooke_grow((void **)&system->group, system->group_count, capacity, sizeof *system->group);
+    status = hk_grow((void **)&system->group, system->group_count, capacity, sizeof *system->group);
     if (status == HOOKE_OK) system->group_capacity = capacity;
   }
   if (status != HOOKE_OK) return status;
-  struct hooke_group group = {.from_part = from_part, .part = system->part_count - 1};
+  struct hk_group group = {.from_part = from_part, .part = system->part_count - 1};
   status = fill_group(system, name, count, ends, options, &group);
   if (status == HOOKE_OK && !from_part) status = keep_options(options, &group);
   if (status == HOOKE_OK) {
     system->group[system->group_count++] = group;
     system->spring_total += count;
   } else {
-    hooke_group_release(&group);
+    hk_group_release(&group);
   }
   return status;
 }
@@ -294,7 +293,7 @@ int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t
   return add_group(system, name, count, ends, options, 0);
 }
 
-int32_t hooke_system_add_part_springs(hooke_system *system, const char *name, int64_t count,
-                                      const int64_t *ends, const hooke_options *options) {
+int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                                   const hooke_options *options) {
   return add_group(system, name, count, ends, options, 1);
 }

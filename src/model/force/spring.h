@@ -5,7 +5,7 @@
 #include "core/option.h"
 #include "kernel/spring_loops.h"
 
-struct hooke_group {
+struct hk_group {
   char *name;
   int64_t count;
   int64_t dropped;        /* from commit on: springs without stiffness and damping, which count no more */
@@ -19,26 +19,26 @@ struct hooke_group {
 };
 
 /* All springs of a committed system, in spring order. */
-struct hooke_springs {
+struct hk_springs {
   int64_t count;
   int64_t run_count;
-  struct hooke_run *run;
+  struct hk_run *run;
   int64_t indexed_count, mixed_count; /* springs whose ends, or material, are stored one by one */
   int32_t *head, *tail;
   double *kappa, *gamma, *rest_length;
 };
 
 /* One spring, whatever run it is in. */
-struct hooke_spring {
+struct hk_spring {
   int64_t head, tail;
   double kappa, gamma, rest_length;
   int32_t pull_only;
 };
 
-static inline struct hooke_spring hooke_run_spring(const struct hooke_run *run, int64_t k) {
+static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
   const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
-  const struct hooke_material material = hooke_run_material(run, k);
-  struct hooke_spring spring;
+  const struct hk_material material = hk_run_material(run, k);
+  struct hk_spring spring;
   spring.head = indexed ? run->head[k] : run->start + k;
   spring.tail = indexed ? run->tail[k] : run->start + k + run->offset;
   spring.kappa = material.kappa;
@@ -49,43 +49,41 @@ static inline struct hooke_spring hooke_run_spring(const struct hooke_run *run, 
 }
 
 /* Particles of the lower ends of a run of constant offset: from the first to the one after the last. */
-static inline int64_t hooke_run_low(const struct hooke_run *run) {
+static inline int64_t hk_run_low(const struct hk_run *run) {
   return run->offset > 0 ? run->start : run->start + run->offset;
 }
 
-static inline int64_t hooke_run_high(const struct hooke_run *run) {
-  return hooke_run_low(run) + run->count;
+static inline int64_t hk_run_high(const struct hk_run *run) {
+  return hk_run_low(run) + run->count;
 }
 
 /* A spring at given ends: length, direction (zeros where it has none), tension and rate of stretch; v may be
  * NULL. */
-struct hooke_stretch {
+struct hk_stretch {
   double length, direction[3], tension, elastic, rate;
   int32_t slack; /* pulls only, and has nothing to pull */
 };
-void hooke_spring_stretch(const struct hooke_spring *spring, const double *q, const double *v,
-                          struct hooke_stretch *stretch);
+void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
+                       struct hk_stretch *stretch);
 /* The same at rest and under tension: a spring that only pulls may become taut at any time. */
-void hooke_spring_stretch_taut(const struct hooke_spring *spring, const double *q,
-                               struct hooke_stretch *stretch);
+void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch);
 
 /* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
-int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_count,
-                             struct hooke_springs *springs);
-void hooke_springs_release(struct hooke_springs *springs);
+int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, struct hk_springs *springs);
+void hk_springs_release(struct hk_springs *springs);
 /* 1 if some spring is damped. */
-int32_t hooke_springs_are_damped(const struct hooke_springs *springs);
+int32_t hk_springs_are_damped(const struct hk_springs *springs);
 /* For whoever has made the runs look their material up elsewhere. */
-void hooke_springs_drop_material(struct hooke_springs *springs);
-int64_t hooke_springs_memory(const struct hooke_springs *springs);
+void hk_springs_drop_material(struct hk_springs *springs);
+int64_t hk_springs_memory(const struct hk_springs *springs);
 
 /* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes them out of
  * the count; and back into it. */
-void hooke_group_drop(struct hooke_group *group);
-void hooke_group_take_back(struct hooke_group *group);
+void hk_group_drop(struct hk_group *group);
+void hk_group_take_back(struct hk_group *group);
 
-void hooke_group_release(struct hooke_group *group);
+void hk_group_release(struct hk_group *group);
 /* Releases what is one number a spring; the runs have it. */
-void hooke_group_release_arrays(struct hooke_group *group);
+void hk_group_release_arrays(struct hk_group *group);
 
 #endif

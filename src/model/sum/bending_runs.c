@@ -13,13 +13,13 @@ enum { SHORTEST_RUN = 8 };
 
 /* What is counted in the first pass and filled in the second. */
 struct sorter {
-  struct hooke_bending *bending;
+  struct hk_bending *bending;
   int64_t runs, indexed, mixed;
   int32_t fill;
 };
 
 /* Length of the stretch from triple k on that has a stiffness; with `in_line`, all of one offset, one after the other. */
-static int64_t stretch_at(const struct hooke_bending_group *g, int64_t k, int in_line) {
+static int64_t stretch_at(const struct hk_bending_group *g, int64_t k, int in_line) {
   const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
   const int32_t offset = b[k] - a[k];
   int64_t end = k;
@@ -32,19 +32,19 @@ static int64_t stretch_at(const struct hooke_bending_group *g, int64_t k, int in
   return end - k;
 }
 
-static int is_mixed(const struct hooke_bending_group *g, int64_t from, int64_t count) {
+static int is_mixed(const struct hk_bending_group *g, int64_t from, int64_t count) {
   for (int64_t k = from + 1; k < from + count; k++) {
     if (memcmp(&g->coefficient[k], &g->coefficient[from], sizeof g->coefficient[k]) != 0) return 1;
   }
   return 0;
 }
 
-static void add_run(struct sorter *sorter, const struct hooke_bending_group *g, int64_t from, int64_t count,
+static void add_run(struct sorter *sorter, const struct hk_bending_group *g, int64_t from, int64_t count,
                     int indexed) {
   const int mixed = is_mixed(g, from, count);
-  struct hooke_bending *bending = sorter->bending;
+  struct hk_bending *bending = sorter->bending;
   if (sorter->fill) {
-    struct hooke_bending_run *run = &bending->run[sorter->runs];
+    struct hk_bending_run *run = &bending->run[sorter->runs];
     run->first = bending->count;
     run->count = count;
     run->shape = (indexed ? HOOKE_BENDING_INDEXED : 0) | (mixed ? HOOKE_BENDING_MIXED : 0);
@@ -59,7 +59,7 @@ static void add_run(struct sorter *sorter, const struct hooke_bending_group *g, 
       run->coefficients =
           memcpy(bending->coefficient + sorter->mixed, g->coefficient + from, (size_t)count * sizeof(double));
     }
-    run->loop = hooke_spring_set(0)->bending[run->shape];
+    run->loop = hk_spring_set(0)->bending[run->shape];
     bending->count += count;
   }
   sorter->runs++;
@@ -68,7 +68,7 @@ static void add_run(struct sorter *sorter, const struct hooke_bending_group *g, 
 }
 
 /* Triples from k up to `end`, all of which have a stiffness. */
-static void sort_stretch(struct sorter *sorter, const struct hooke_bending_group *g, int64_t k, int64_t end) {
+static void sort_stretch(struct sorter *sorter, const struct hk_bending_group *g, int64_t k, int64_t end) {
   int64_t pending = k; /* first triple not yet in a run */
   while (k < end) {
     const int64_t length = stretch_at(g, k, 1);
@@ -82,10 +82,10 @@ static void sort_stretch(struct sorter *sorter, const struct hooke_bending_group
   if (end > pending) add_run(sorter, g, pending, end - pending, 1);
 }
 
-static void sort_groups(struct sorter *sorter, const struct hooke_bending_group *group, int64_t group_count) {
+static void sort_groups(struct sorter *sorter, const struct hk_bending_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
   for (int64_t n = 0; n < group_count; n++) {
-    const struct hooke_bending_group *g = &group[n];
+    const struct hk_bending_group *g = &group[n];
     for (int64_t k = 0; k < g->count;) {
       const int64_t length = stretch_at(g, k, 0);
       sort_stretch(sorter, g, k, k + length);
@@ -94,20 +94,20 @@ static void sort_groups(struct sorter *sorter, const struct hooke_bending_group 
   }
 }
 
-int32_t hooke_bending_create(const struct hooke_bending_group *group, int64_t group_count,
-                             struct hooke_bending *bending) {
+int32_t hk_bending_create(const struct hk_bending_group *group, int64_t group_count,
+                          struct hk_bending *bending) {
   memset(bending, 0, sizeof *bending);
   struct sorter sorter = {.bending = bending};
   sort_groups(&sorter, group, group_count);
   bending->run_count = sorter.runs;
   bending->indexed_count = sorter.indexed;
   bending->mixed_count = sorter.mixed;
-  int there = (bending->run = hooke_new(sorter.runs, sizeof *bending->run)) != NULL;
+  int there = (bending->run = hk_new(sorter.runs, sizeof *bending->run)) != NULL;
   for (int e = 0; e < 3; e++)
-    there &= (bending->particle[e] = hooke_new(sorter.indexed, sizeof(int32_t))) != NULL;
-  there &= (bending->coefficient = hooke_new(sorter.mixed, sizeof(double))) != NULL;
+    there &= (bending->particle[e] = hk_new(sorter.indexed, sizeof(int32_t))) != NULL;
+  there &= (bending->coefficient = hk_new(sorter.mixed, sizeof(double))) != NULL;
   if (!there) {
-    hooke_bending_release(bending);
+    hk_bending_release(bending);
     return HOOKE_NO_MEMORY;
   }
   sorter.fill = 1;
@@ -115,15 +115,15 @@ int32_t hooke_bending_create(const struct hooke_bending_group *group, int64_t gr
   return HOOKE_OK;
 }
 
-void hooke_bending_release(struct hooke_bending *bending) {
-  hooke_free(bending->run);
+void hk_bending_release(struct hk_bending *bending) {
+  hk_free(bending->run);
   for (int e = 0; e < 3; e++)
-    hooke_free(bending->particle[e]);
-  hooke_free(bending->coefficient);
+    hk_free(bending->particle[e]);
+  hk_free(bending->coefficient);
   memset(bending, 0, sizeof *bending);
 }
 
-int64_t hooke_bending_memory(const struct hooke_bending *bending) {
+int64_t hk_bending_memory(const struct hk_bending *bending) {
   return bending->run_count * (int64_t)sizeof *bending->run +
          bending->indexed_count * (int64_t)(3 * sizeof(int32_t)) +
          bending->mixed_count * (int64_t)sizeof(double);

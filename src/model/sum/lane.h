@@ -12,7 +12,7 @@
 
 enum { HOOKE_TILE = 256 };
 
-struct hooke_lane {
+struct hk_lane {
   int64_t offset, first, last;            /* lower ends of the first spring and the last */
   int32_t shape;                          /* HOOKE_RUN_*, never indexed */
   uint8_t *present;                       /* a bit for each particle: whether a spring begins there */
@@ -21,28 +21,28 @@ struct hooke_lane {
 };
 
 /* `count` 0: the springs do not form lanes, or too few of them for lanes to pay. */
-struct hooke_lanes {
+struct hk_lanes {
   int32_t count;
   int64_t reach; /* the largest offset, in whole units */
-  struct hooke_lane lane[HOOKE_MOST_LANES];
+  struct hk_lane lane[HOOKE_MOST_LANES];
   int64_t memory;
 };
 
 /* HOOKE_NO_MEMORY. Material that is stored one by one goes from the springs to the lanes, where the runs then have it. */
-int32_t hooke_lanes_create(struct hooke_springs *springs, int64_t particle_count, struct hooke_lanes *lanes);
-void hooke_lanes_release(struct hooke_lanes *lanes);
+int32_t hk_lanes_create(struct hk_springs *springs, int64_t particle_count, struct hk_lanes *lanes);
+void hk_lanes_release(struct hk_lanes *lanes);
 
 /* Rings of one pass at a time by `members` threads, for systems with lanes; NULL without memory. */
-struct hooke_rings;
-struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t members);
-void hooke_rings_destroy(struct hooke_rings *rings);
-int64_t hooke_rings_memory(const struct hooke_rings *rings);
+struct hk_rings;
+struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t members);
+void hk_rings_destroy(struct hk_rings *rings);
+int64_t hk_rings_memory(const struct hk_rings *rings);
 
-struct hooke_motion;
+struct hk_motion;
 struct hooke_system;
 
 /* One pass over the particles of `motion` that are stepped; returns how many springs had a rest length but no direction. */
-int64_t hooke_lanes_pass(const struct hooke_system *system, struct hooke_motion *motion,
-                         const struct hooke_move *move);
+int64_t hk_lanes_pass(const struct hooke_system *system, struct hk_motion *motion,
+                      const struct hk_move *move);
 
 #endif

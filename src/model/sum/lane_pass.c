@@ -11,15 +11,15 @@
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
 struct share {
-  struct hooke_lane_view view[HOOKE_MOST_LANES]; /* every lane, with its ring here */
-  struct hooke_lane_pass pass;                   /* lanes that the loop is at */
-  uint8_t open[HOOKE_MOST_LANES];                /* 0: has springs of another place, or none yet */
+  struct hk_lane_view view[HOOKE_MOST_LANES]; /* every lane, with its ring here */
+  struct hk_lane_pass pass;                   /* lanes that the loop is at */
+  uint8_t open[HOOKE_MOST_LANES];             /* 0: has springs of another place, or none yet */
   double *border; /* q and v, x y z apart, of `reach` particles at the end of the range, and of those after */
   int64_t from, to; /* the range */
   int64_t at, lost; /* the first particle that the loop has not come to */
 };
 
-struct hooke_rings {
+struct hk_rings {
   int32_t members;
   int64_t reach, border_stride, memory;
   double *block;
@@ -28,8 +28,8 @@ struct hooke_rings {
 
 struct task {
   const hooke_system *system;
-  struct hooke_motion *motion;
-  const struct hooke_move *move;
+  struct hk_motion *motion;
+  const struct hk_move *move;
 };
 
 static int64_t larger(int64_t a, int64_t b) {
@@ -44,36 +44,36 @@ static int64_t whole_units(int64_t count) {
   return (count + HOOKE_LANE_UNIT - 1) / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
 }
 
-static int64_t ring_room(const struct hooke_lane *lane) {
+static int64_t ring_room(const struct hk_lane *lane) {
   int64_t room = HOOKE_LANE_UNIT;
   while (room < lane->offset + HOOKE_RING_SLACK)
     room *= 2;
   return room;
 }
 
-static struct hooke_lane_view view_of(const struct hooke_lane *lane, double *ring) {
+static struct hk_lane_view view_of(const struct hk_lane *lane, double *ring) {
   const int64_t base = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
-  return (struct hooke_lane_view){.shape = lane->shape,
-                                  .present = lane->present,
-                                  .offset = lane->offset,
-                                  .mask = ring_room(lane) - 1,
-                                  .ring = ring,
-                                  .kappa = lane->kappa,
-                                  .gamma = lane->gamma,
-                                  .rest_length = lane->rest_length,
-                                  .kappas = lane->kappas,
-                                  .gammas = lane->gammas,
-                                  .rest_lengths = lane->rest_lengths,
-                                  .base = base,
-                                  .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
+  return (struct hk_lane_view){.shape = lane->shape,
+                               .present = lane->present,
+                               .offset = lane->offset,
+                               .mask = ring_room(lane) - 1,
+                               .ring = ring,
+                               .kappa = lane->kappa,
+                               .gamma = lane->gamma,
+                               .rest_length = lane->rest_length,
+                               .kappas = lane->kappas,
+                               .gammas = lane->gammas,
+                               .rest_lengths = lane->rest_lengths,
+                               .base = base,
+                               .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
 }
 
-static int64_t ring_size(const struct hooke_lane *lane) {
-  return 3 * hooke_ring_stride(ring_room(lane) - 1);
+static int64_t ring_size(const struct hk_lane *lane) {
+  return 3 * hk_ring_stride(ring_room(lane) - 1);
 }
 
-struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t members) {
-  struct hooke_rings *rings = hooke_new(1, sizeof *rings);
+struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t members) {
+  struct hk_rings *rings = hk_new(1, sizeof *rings);
   if (rings == NULL) return NULL;
   int64_t numbers = 0;
   for (int32_t k = 0; k < lanes->count; k++)
@@ -82,12 +82,12 @@ struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t 
   rings->reach = lanes->reach;
   rings->border_stride = 2 * lanes->reach + HOOKE_LANE_UNIT;
   numbers += members > 1 ? 6 * rings->border_stride : 0;
-  rings->share = hooke_new(members, sizeof *rings->share);
-  rings->block = hooke_new(members * numbers, sizeof(double));
+  rings->share = hk_new(members, sizeof *rings->share);
+  rings->block = hk_new(members * numbers, sizeof(double));
   rings->memory = (int64_t)sizeof *rings + members * (int64_t)sizeof *rings->share +
                   members * numbers * (int64_t)sizeof(double);
   if (rings->share == NULL || rings->block == NULL) {
-    hooke_rings_destroy(rings);
+    hk_rings_destroy(rings);
     return NULL;
   }
   double *next = rings->block;
@@ -100,23 +100,23 @@ struct hooke_rings *hooke_rings_create(const struct hooke_lanes *lanes, int32_t 
   return rings;
 }
 
-void hooke_rings_destroy(struct hooke_rings *rings) {
+void hk_rings_destroy(struct hk_rings *rings) {
   if (rings == NULL) return;
-  hooke_free(rings->share);
-  hooke_free(rings->block);
-  hooke_free(rings);
+  hk_free(rings->share);
+  hk_free(rings->block);
+  hk_free(rings);
 }
 
-int64_t hooke_rings_memory(const struct hooke_rings *rings) {
+int64_t hk_rings_memory(const struct hk_rings *rings) {
   return rings ? rings->memory : 0;
 }
 
 /* No springs below particle `from`, as far as the ring is read from there on. */
-static void clear_below(const struct hooke_lane_view *lane, int64_t from) {
+static void clear_below(const struct hk_lane_view *lane, int64_t from) {
   const int64_t room = lane->mask + 1, first = (from - lane->offset) & lane->mask,
                 before_end = lesser(lane->offset, room - first), wrapped = lane->offset - before_end;
   for (int a = 0; a < 3; a++) {
-    double *x = lane->ring + a * hooke_ring_stride(lane->mask);
+    double *x = lane->ring + a * hk_ring_stride(lane->mask);
     memset(x + first, 0, (size_t)before_end * sizeof(double));
     memset(x, 0, (size_t)wrapped * sizeof(double));
     memset(x + room, 0, (size_t)lesser(wrapped, HOOKE_LANE_UNIT) * sizeof(double));
@@ -125,10 +125,10 @@ static void clear_below(const struct hooke_lane_view *lane, int64_t from) {
 
 /* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the particle up to
  * which these are all, `to` at most. */
-static int64_t set_lanes(const struct hooke_lanes *lanes, struct share *share, int64_t from, int64_t to) {
+static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int64_t from, int64_t to) {
   share->pass.count = 0;
   for (int32_t k = 0; k < lanes->count; k++) {
-    const struct hooke_lane *lane = &lanes->lane[k];
+    const struct hk_lane *lane = &lanes->lane[k];
     const int64_t begin = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT,
                   end = whole_units(lane->last + lane->offset + 1);
     if (from < begin) to = lesser(to, begin);
@@ -145,7 +145,7 @@ static void advance(const struct task *task, struct share *share, int32_t kind, 
   share->pass.move.kind = kind;
   for (int64_t from = share->at; from < to; from = share->at) {
     share->at = set_lanes(&task->system->lanes, share, from, to);
-    share->lost += hooke_spring_set(0)->lanes(&share->pass, from, share->at);
+    share->lost += hk_spring_set(0)->lanes(&share->pass, from, share->at);
   }
 }
 
@@ -180,9 +180,9 @@ static void copy(double *const q, double *const v, ptrdiff_t stride, double *con
 }
 
 static void begin(const struct task *task, struct share *share, int32_t member, int32_t members) {
-  const struct hooke_motion *m = task->motion;
-  share->from = hooke_crew_share(m->n, HOOKE_TILE, member, members);
-  share->to = whole_units(hooke_crew_share(m->n, HOOKE_TILE, member + 1, members));
+  const struct hk_motion *m = task->motion;
+  share->from = hk_crew_share(m->n, HOOKE_TILE, member, members);
+  share->to = whole_units(hk_crew_share(m->n, HOOKE_TILE, member + 1, members));
   share->pass.stride = m->q[1] - m->q[0];
   share->pass.q = m->q[0];
   share->pass.v = m->v[0];
@@ -197,7 +197,7 @@ static void begin(const struct task *task, struct share *share, int32_t member, 
 
 /* What has to be read before anyone moves. */
 static void prepare(const struct task *task, struct share *share) {
-  const struct hooke_motion *m = task->motion;
+  const struct hk_motion *m = task->motion;
   const int64_t stride = m->rings->border_stride, reach = m->rings->reach;
   go_on(task, share, HOOKE_MOVE_NOTHING, share->from);
   share->lost = 0; /* others count these springs */
@@ -210,7 +210,7 @@ static void prepare(const struct task *task, struct share *share) {
 
 /* The last particles of the range, together with those that others move meanwhile. */
 static void finish(const struct task *task, struct share *share) {
-  const struct hooke_motion *m = task->motion;
+  const struct hk_motion *m = task->motion;
   const int64_t stride = m->rings->border_stride, from = larger(share->from, share->to - m->rings->reach),
                 count = share->to - from;
   double *q = share->border + m->rings->reach - count, *v = q + 3 * stride;
@@ -224,12 +224,12 @@ static void finish(const struct task *task, struct share *share) {
 
 static void go_over(int32_t member, int32_t members, void *ctx) {
   const struct task *task = ctx;
-  const struct hooke_motion *m = task->motion;
+  const struct hk_motion *m = task->motion;
   struct share *share = &m->rings->share[member];
   begin(task, share, member, members);
   if (members > 1) {
     prepare(task, share);
-    hooke_crew_meet(m->crew);
+    hk_crew_meet(m->crew);
   }
   if (share->to >= m->n || task->move->kind == HOOKE_MOVE_KEEP) {
     go_on(task, share, task->move->kind, share->to);
@@ -240,12 +240,11 @@ static void go_over(int32_t member, int32_t members, void *ctx) {
   finish(task, share);
 }
 
-int64_t hooke_lanes_pass(const hooke_system *system, struct hooke_motion *motion,
-                         const struct hooke_move *move) {
+int64_t hk_lanes_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct task task = {system, motion, move};
   int64_t lost = 0;
-  hooke_crew_run(motion->crew, go_over, &task);
-  for (int32_t m = 0; m < hooke_crew_members(motion->crew); m++)
+  hk_crew_run(motion->crew, go_over, &task);
+  for (int32_t m = 0; m < hk_crew_members(motion->crew); m++)
     lost += motion->rings->share[m].lost;
   return lost;
 }

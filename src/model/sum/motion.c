@@ -10,14 +10,14 @@
  * what all members do at their borders. */
 enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
-int32_t hooke_motion_members(const hooke_system *system, int32_t most) {
+int32_t hk_motion_members(const hooke_system *system, int32_t most) {
   const int64_t border =
       system->net.particles > 0 ? system->net.ring : system->lanes.count * system->lanes.reach;
   int64_t members = 1;
   if (system->net.particles > 0 || system->lanes.count > 0)
     members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
   if (members > most) members = most;
-  if (members > hooke_crew_processors()) members = hooke_crew_processors();
+  if (members > hk_crew_processors()) members = hk_crew_processors();
   return members > 1 ? (int32_t)members : 1;
 }
 
@@ -28,11 +28,11 @@ static int64_t driven_count(const hooke_system *system) {
   return count;
 }
 
-int32_t hooke_goes_by_tiles(const hooke_system *system) {
+int32_t hk_goes_by_tiles(const hooke_system *system) {
   int by_tiles = system->lanes.count > 0 || system->net.particles > 0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hooke_force_row *row = system->force_row[k];
-    by_tiles &= row->add == NULL || row == &hooke_force_springs || row == &hooke_force_drag;
+    const struct hk_force_row *row = system->force_row[k];
+    by_tiles &= row->add == NULL || row == &hk_force_springs || row == &hk_force_drag;
   }
   return by_tiles;
 }
@@ -46,15 +46,15 @@ struct arrays {
 static void clear(int32_t member, int32_t members, void *ctx) {
   const struct arrays *arrays = ctx;
   const int last = member + 1 == members;
-  const int64_t from = hooke_crew_share(arrays->n, HOOKE_TILE, member, members),
-                to = last ? arrays->stride : hooke_crew_share(arrays->n, HOOKE_TILE, member + 1, members);
+  const int64_t from = hk_crew_share(arrays->n, HOOKE_TILE, member, members),
+                to = last ? arrays->stride : hk_crew_share(arrays->n, HOOKE_TILE, member + 1, members);
   for (int64_t k = 0; k < arrays->count; k++)
     memset(arrays->block + k * arrays->stride + from, 0, (size_t)(to - from) * sizeof(double));
   if (last) memset(arrays->block + arrays->count * arrays->stride, 0, (size_t)arrays->rest * sizeof(double));
 }
 
 /* Arrays of n numbers each, and what else goes with them. */
-static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hooke_motion *motion) {
+static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hk_motion *motion) {
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
    * sets. Loops over lanes look beyond the last particle. */
@@ -63,10 +63,10 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
   const int64_t numbers = components + rows + still + driven;
-  double *block = hooke_reserve(numbers, sizeof(double));
+  double *block = hk_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   struct arrays cleared = {block, n, arrays, stride, numbers - components};
-  hooke_crew_run(motion->crew, clear, &cleared);
+  hk_crew_run(motion->crew, clear, &cleared);
   motion->n = n;
   motion->memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
@@ -81,7 +81,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
 }
 
 /* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
-static void number_held(const hooke_system *system, const int32_t *place, struct hooke_motion *motion) {
+static void number_held(const hooke_system *system, const int32_t *place, struct hk_motion *motion) {
   int32_t *moved = motion->moved;
   for (int64_t k = 0; k < system->anchor_count; k++)
     motion->anchor[k] = place ? place[system->anchor[k]] : system->anchor[k];
@@ -93,40 +93,40 @@ static void number_held(const hooke_system *system, const int32_t *place, struct
   }
 }
 
-static int32_t new_numbers(const hooke_system *system, struct hooke_motion *motion) {
+static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion) {
   const int64_t count = system->anchor_count + driven_count(system);
-  motion->anchor = hooke_new(count, sizeof *motion->anchor);
+  motion->anchor = hk_new(count, sizeof *motion->anchor);
   if (motion->anchor == NULL) return HOOKE_NO_MEMORY;
   motion->moved = motion->anchor + system->anchor_count;
   motion->memory += count * (int64_t)sizeof *motion->anchor;
   int32_t *place = NULL;
   if (motion->order && count > 0) {
-    place = hooke_new(motion->n, sizeof *place);
+    place = hk_new(motion->n, sizeof *place);
     if (place == NULL) return HOOKE_NO_MEMORY;
     for (int64_t p = 0; p < motion->n; p++)
       place[motion->order[p]] = (int32_t)p;
   }
   number_held(system, place, motion);
-  hooke_free(place);
+  hk_free(place);
   return HOOKE_OK;
 }
 
-static int32_t new_scratch(const hooke_system *system, struct hooke_motion *motion) {
+static int32_t new_scratch(const hooke_system *system, struct hk_motion *motion) {
   if (system->lanes.count > 0) {
-    motion->rings = hooke_rings_create(&system->lanes, hooke_crew_members(motion->crew));
+    motion->rings = hk_rings_create(&system->lanes, hk_crew_members(motion->crew));
     if (motion->rings == NULL) return HOOKE_NO_MEMORY;
   }
   if (system->net.particles > 0) {
-    motion->net = hooke_net_scratch_create(&system->net, hooke_crew_members(motion->crew));
+    motion->net = hk_net_scratch_create(&system->net, hk_crew_members(motion->crew));
     if (motion->net == NULL) return HOOKE_NO_MEMORY;
   }
-  motion->memory += hooke_rings_memory(motion->rings) + hooke_net_scratch_memory(motion->net);
+  motion->memory += hk_rings_memory(motion->rings) + hk_net_scratch_memory(motion->net);
   return HOOKE_OK;
 }
 
-int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct hooke_crew *crew,
-                            struct hooke_motion **out) {
-  struct hooke_motion *motion = hooke_new(1, sizeof *motion);
+int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_crew *crew,
+                         struct hk_motion **out) {
+  struct hk_motion *motion = hk_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
   motion->crew = crew;
   motion->order = by_tiles ? system->net.order : NULL;
@@ -137,20 +137,20 @@ int32_t hooke_motion_create(const hooke_system *system, int32_t by_tiles, struct
   if (status == HOOKE_OK)
     *out = motion;
   else
-    hooke_motion_destroy(motion);
+    hk_motion_destroy(motion);
   return status;
 }
 
-void hooke_motion_destroy(struct hooke_motion *motion) {
+void hk_motion_destroy(struct hk_motion *motion) {
   if (motion == NULL) return;
-  hooke_rings_destroy(motion->rings);
-  hooke_net_scratch_destroy(motion->net);
-  hooke_free(motion->anchor);
-  hooke_free(motion->q[0]);
-  hooke_free(motion);
+  hk_rings_destroy(motion->rings);
+  hk_net_scratch_destroy(motion->net);
+  hk_free(motion->anchor);
+  hk_free(motion->q[0]);
+  hk_free(motion);
 }
 
-void hooke_rows_from_components(int64_t n, double *const component[3], double *rows) {
+void hk_rows_from_components(int64_t n, double *const component[3], double *rows) {
   const double *x = component[0], *y = component[1], *z = component[2];
   for (int64_t p = 0; p < n; p++) {
     rows[3 * p] = x[p];
@@ -159,7 +159,7 @@ void hooke_rows_from_components(int64_t n, double *const component[3], double *r
   }
 }
 
-void hooke_components_from_rows(int64_t n, const double *rows, double *const component[3]) {
+void hk_components_from_rows(int64_t n, const double *rows, double *const component[3]) {
   double *x = component[0], *y = component[1], *z = component[2];
   for (int64_t p = 0; p < n; p++) {
     x[p] = rows[3 * p];
@@ -169,9 +169,9 @@ void hooke_components_from_rows(int64_t n, const double *rows, double *const com
 }
 
 /* Rows in the caller's numbers. */
-static void load_rows(const struct hooke_motion *motion, const double *rows, double *const component[3]) {
+static void load_rows(const struct hk_motion *motion, const double *rows, double *const component[3]) {
   if (motion->order == NULL) {
-    hooke_components_from_rows(motion->n, rows, component);
+    hk_components_from_rows(motion->n, rows, component);
     return;
   }
   for (int64_t p = 0; p < motion->n; p++) {
@@ -181,9 +181,9 @@ static void load_rows(const struct hooke_motion *motion, const double *rows, dou
   }
 }
 
-static void store_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+static void store_rows(const struct hk_motion *motion, double *const component[3], double *rows) {
   if (motion->order == NULL) {
-    hooke_rows_from_components(motion->n, component, rows);
+    hk_rows_from_components(motion->n, component, rows);
     return;
   }
   for (int64_t p = 0; p < motion->n; p++) {
@@ -193,8 +193,7 @@ static void store_rows(const struct hooke_motion *motion, double *const componen
   }
 }
 
-void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, const double *q,
-                       const double *v) {
+void hk_motion_load(const hooke_system *system, struct hk_motion *motion, const double *q, const double *v) {
   load_rows(motion, q, motion->q);
   load_rows(motion, v, motion->v);
   for (int64_t k = 0; k < system->anchor_count; k++)
@@ -202,12 +201,12 @@ void hooke_motion_load(const hooke_system *system, struct hooke_motion *motion, 
   motion->stop_value = 0;
 }
 
-void hooke_motion_store(const struct hooke_motion *motion, double *q, double *v) {
+void hk_motion_store(const struct hk_motion *motion, double *q, double *v) {
   store_rows(motion, motion->q, q);
   store_rows(motion, motion->v, v);
 }
 
-static void exchange_rows(const struct hooke_motion *motion, double *const component[3], double *rows) {
+static void exchange_rows(const struct hk_motion *motion, double *const component[3], double *rows) {
   for (int64_t p = 0; p < motion->n; p++) {
     double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
     for (int a = 0; a < 3; a++) {
@@ -218,12 +217,12 @@ static void exchange_rows(const struct hooke_motion *motion, double *const compo
   }
 }
 
-void hooke_motion_exchange(struct hooke_motion *motion, double *q, double *v) {
+void hk_motion_exchange(struct hk_motion *motion, double *q, double *v) {
   exchange_rows(motion, motion->q, q);
   exchange_rows(motion, motion->v, v);
 }
 
-static int same_rows(const struct hooke_motion *motion, double *const component[3], const double *rows) {
+static int same_rows(const struct hk_motion *motion, double *const component[3], const double *rows) {
   for (int64_t p = 0; p < motion->n; p++) {
     const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
     for (int a = 0; a < 3; a++) {
@@ -233,52 +232,52 @@ static int same_rows(const struct hooke_motion *motion, double *const component[
   return 1;
 }
 
-int32_t hooke_motion_is_at(const struct hooke_motion *motion, const double *q, const double *v) {
+int32_t hk_motion_is_at(const struct hk_motion *motion, const double *q, const double *v) {
   return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
 }
 
 struct copying {
-  const struct hooke_motion *motion;
+  const struct hk_motion *motion;
   double *place;
   int32_t back;
 };
 
 static void copy_share(int32_t member, int32_t members, void *ctx) {
   const struct copying *copying = ctx;
-  const struct hooke_motion *m = copying->motion;
-  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
-                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  const struct hk_motion *m = copying->motion;
+  const int64_t from = hk_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hk_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
   for (int a = 0; a < 6; a++) {
     double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->place + a * m->n + from;
     memcpy(copying->back ? here : there, copying->back ? there : here, (size_t)count * sizeof(double));
   }
 }
 
-void hooke_motion_save(const struct hooke_motion *motion, double *place) {
-  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 0});
+void hk_motion_save(const struct hk_motion *motion, double *place) {
+  hk_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 0});
 }
 
-void hooke_motion_restore(struct hooke_motion *motion, double *place) {
-  hooke_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 1});
+void hk_motion_restore(struct hk_motion *motion, double *place) {
+  hk_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 1});
 }
 
 static void clear_forces(int32_t member, int32_t members, void *ctx) {
-  const struct hooke_motion *m = ctx;
-  const int64_t from = hooke_crew_share(m->n, HOOKE_TILE, member, members),
-                count = hooke_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  const struct hk_motion *m = ctx;
+  const int64_t from = hk_crew_share(m->n, HOOKE_TILE, member, members),
+                count = hk_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
   for (int a = 0; a < 3; a++)
     memset(m->f[a] + from, 0, (size_t)count * sizeof(double));
 }
 
-int32_t hooke_motion_forces(const hooke_system *system, struct hooke_motion *motion, double t) {
-  return hooke_motion_forces_without(system, motion, t, NULL);
+int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, double t) {
+  return hk_motion_forces_without(system, motion, t, NULL);
 }
 
-int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_motion *motion, double t,
-                                    const struct hooke_force_row *left_out) {
-  hooke_crew_run(motion->crew, clear_forces, motion);
+int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
+                                 const struct hk_force_row *left_out) {
+  hk_crew_run(motion->crew, clear_forces, motion);
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hooke_force_row *row = system->force_row[k];
+    const struct hk_force_row *row = system->force_row[k];
     if (row->add == NULL || row == left_out) continue;
     const int32_t status = row->add(system, motion, t);
     if (status != HOOKE_OK) return status;
@@ -286,14 +285,14 @@ int32_t hooke_motion_forces_without(const hooke_system *system, struct hooke_mot
   return HOOKE_OK;
 }
 
-int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *motion, double t) {
+int32_t hk_motion_drive(const hooke_system *system, struct hk_motion *motion, double t) {
   double *q = motion->driven;
   for (int64_t k = 0; k < system->drive_count; k++) {
-    const struct hooke_drive_group *drive = &system->drive[k];
-    const int32_t value = hooke_drive_evaluate(drive, t, q, q + 3 * drive->count);
+    const struct hk_drive_group *drive = &system->drive[k];
+    const int32_t value = hk_drive_evaluate(drive, t, q, q + 3 * drive->count);
     if (value != 0) {
       motion->stop_value = value;
-      return hooke_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.6g s", (int)value, t);
+      return hk_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.6g s", (int)value, t);
     }
     q += 6 * drive->count;
   }
@@ -301,7 +300,7 @@ int32_t hooke_motion_drive(const hooke_system *system, struct hooke_motion *moti
 }
 
 /* `count` particles with the numbers `moved`. */
-static void hold_driven(int64_t count, const int32_t *moved, const double *q, struct hooke_motion *motion) {
+static void hold_driven(int64_t count, const int32_t *moved, const double *q, struct hk_motion *motion) {
   const double *v = q + 3 * count;
   for (int64_t k = 0; k < count; k++) {
     const int32_t p = moved[k];
@@ -312,7 +311,7 @@ static void hold_driven(int64_t count, const int32_t *moved, const double *q, st
   }
 }
 
-void hooke_motion_hold(const hooke_system *system, struct hooke_motion *motion) {
+void hk_motion_hold(const hooke_system *system, struct hk_motion *motion) {
   for (int64_t k = 0; k < system->anchor_count; k++) {
     const int32_t p = motion->anchor[k];
     for (int a = 0; a < 3; a++) {

@@ -5,8 +5,8 @@
 
 struct tile_move {
   const struct hooke_system *system;
-  struct hooke_motion *motion;
-  const struct hooke_move *move;
+  struct hk_motion *motion;
+  const struct hk_move *move;
 };
 
 /* Forces are zero before springs are added, so sums are the forces. */
@@ -22,8 +22,7 @@ static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx
 }
 
 /* Drag on a tile, as its row in the table of forces adds it; held particles are put back after a step. */
-static void brake(double drag, int64_t from, int64_t count, const struct hooke_motion *m,
-                  double *const f[3]) {
+static void brake(double drag, int64_t from, int64_t count, const struct hk_motion *m, double *const f[3]) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < count; k++)
       f[a][k] -= drag * m->v[a][from + k];
@@ -32,9 +31,9 @@ static void brake(double drag, int64_t from, int64_t count, const struct hooke_m
 
 static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
   const struct tile_move *to = ctx;
-  const struct hooke_motion *m = to->motion;
-  const struct hooke_move *move = to->move;
-  hooke_step_loop *loop = hooke_step_loop_of(move->kind);
+  const struct hk_motion *m = to->motion;
+  const struct hk_move *move = to->move;
+  hk_step_loop *loop = hk_step_loop_of(move->kind);
   if (move->drag > 0.0) brake(move->drag, from, count, m, f);
   for (int a = 0; a < 3; a++) {
     loop(count, move->step, m->w + from, f[a], move->heavy ? &move->gravity[a] : NULL, m->q[a] + from,
@@ -42,12 +41,11 @@ static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   }
 }
 
-void hooke_motion_pass(const hooke_system *system, struct hooke_motion *motion,
-                       const struct hooke_move *move) {
+void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
   if (system->lanes.count > 0)
-    motion->coincident = hooke_lanes_pass(system, motion, move);
+    motion->coincident = hk_lanes_pass(system, motion, move);
   else
     motion->coincident =
-        hooke_net_pass(&system->net, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+        hk_net_pass(&system->net, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
 }

@@ -20,8 +20,8 @@ static const double WORTH_NUMBERING = 0.6;
 
 /* What is needed on the way. */
 struct maker {
-  struct hooke_net *net;
-  struct hooke_springs *springs;
+  struct hk_net *net;
+  struct hk_springs *springs;
   int32_t *lower, *upper; /* ends of all springs, by number in `place` */
   int32_t *order, *place; /* of particles */
   int32_t *class_of;      /* of runs */
@@ -29,15 +29,15 @@ struct maker {
   int64_t *next;          /* counters */
 };
 
-static int32_t maker_create(struct hooke_springs *springs, struct hooke_net *net, struct maker *maker) {
+static int32_t maker_create(struct hk_springs *springs, struct hk_net *net, struct maker *maker) {
   const int64_t n = net->particles, m = springs->count, bins = net->tiles * HOOKE_NET_CLASSES;
   *maker = (struct maker){.net = net,
                           .springs = springs,
-                          .lower = hooke_new(2 * m, sizeof(int32_t)),
-                          .order = hooke_new(2 * n, sizeof(int32_t)),
-                          .class_of = hooke_new(springs->run_count, sizeof(int32_t)),
-                          .at = hooke_new(m, sizeof(int32_t)),
-                          .next = hooke_new(n > bins ? n : bins, sizeof(int64_t))};
+                          .lower = hk_new(2 * m, sizeof(int32_t)),
+                          .order = hk_new(2 * n, sizeof(int32_t)),
+                          .class_of = hk_new(springs->run_count, sizeof(int32_t)),
+                          .at = hk_new(m, sizeof(int32_t)),
+                          .next = hk_new(n > bins ? n : bins, sizeof(int64_t))};
   if (!maker->lower || !maker->order || !maker->class_of || !maker->at || !maker->next)
     return HOOKE_NO_MEMORY;
   maker->upper = maker->lower + m;
@@ -46,11 +46,11 @@ static int32_t maker_create(struct hooke_springs *springs, struct hooke_net *net
 }
 
 static void maker_release(struct maker *maker) {
-  hooke_free(maker->lower);
-  hooke_free(maker->order);
-  hooke_free(maker->class_of);
-  hooke_free(maker->at);
-  hooke_free(maker->next);
+  hk_free(maker->lower);
+  hk_free(maker->order);
+  hk_free(maker->class_of);
+  hk_free(maker->at);
+  hk_free(maker->next);
 }
 
 /* Springs are in no order, and what they lead to comes late unless it is asked for so many springs early. */
@@ -68,11 +68,11 @@ static void number_as_given(const struct maker *maker) {
 }
 
 static void number_ends(const struct maker *maker) {
-  const struct hooke_springs *springs = maker->springs;
+  const struct hk_springs *springs = maker->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
+    const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       const int32_t i = maker->place[spring.head], j = maker->place[spring.tail];
       maker->lower[run->first + k] = i < j ? i : j;
       maker->upper[run->first + k] = i < j ? j : i;
@@ -88,12 +88,12 @@ static double sum_of_reaches(const struct maker *maker) {
 }
 
 static int32_t number(struct maker *maker, const double *inverse_mass) {
-  struct hooke_net *net = maker->net;
+  struct hk_net *net = maker->net;
   number_as_given(maker);
   number_ends(maker);
   const double given = sum_of_reaches(maker);
-  const int32_t status = hooke_net_number(net->particles, maker->springs->count, maker->lower, maker->upper,
-                                          maker->order, maker->place);
+  const int32_t status = hk_net_number(net->particles, maker->springs->count, maker->lower, maker->upper,
+                                       maker->order, maker->place);
   if (status != HOOKE_OK) return status;
   number_ends(maker);
   if (sum_of_reaches(maker) >= WORTH_NUMBERING * given) {
@@ -101,8 +101,8 @@ static int32_t number(struct maker *maker, const double *inverse_mass) {
     number_ends(maker);
     return HOOKE_OK;
   }
-  net->order = hooke_new(net->particles, sizeof(int32_t));
-  net->inverse_mass = hooke_new(net->particles, sizeof(double));
+  net->order = hk_new(net->particles, sizeof(int32_t));
+  net->inverse_mass = hk_new(net->particles, sizeof(double));
   if (net->order == NULL || net->inverse_mass == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < net->particles; p++) {
     net->order[p] = maker->order[p];
@@ -134,8 +134,8 @@ static void sort_bin(struct maker *maker, const int32_t *sorted, int64_t from, i
 
 /* By tile and class, then by lower end. `sorted` is `springs` long. */
 static void sort(struct maker *maker, int32_t *sorted) {
-  struct hooke_net *net = maker->net;
-  const struct hooke_springs *springs = maker->springs;
+  struct hk_net *net = maker->net;
+  const struct hk_springs *springs = maker->springs;
   const int64_t bins = net->tiles * net->classes;
   int64_t *next = maker->next;
   for (int64_t r = 0; r < springs->run_count; r++) {
@@ -159,7 +159,7 @@ static void sort(struct maker *maker, int32_t *sorted) {
 
 /* How far tiles look ahead and back, and what a window and a ring have to hold for that. */
 static void measure(struct maker *maker) {
-  struct hooke_net *net = maker->net;
+  struct hk_net *net = maker->net;
   for (int64_t t = 0; t < net->tiles; t++) {
     const int64_t end = (t + 1) * HOOKE_TILE;
     net->tile[t].reach = (int32_t)(end < net->particles ? end : net->particles);
@@ -167,8 +167,8 @@ static void measure(struct maker *maker) {
   }
   for (int64_t s = 0; s < net->springs; s++) {
     const int32_t upper = maker->upper[s];
-    struct hooke_net_tile *from = &net->tile[maker->lower[s] / HOOKE_TILE];
-    struct hooke_net_tile *to = &net->tile[upper / HOOKE_TILE];
+    struct hk_net_tile *from = &net->tile[maker->lower[s] / HOOKE_TILE];
+    struct hk_net_tile *to = &net->tile[upper / HOOKE_TILE];
     if (from->reach <= upper) from->reach = upper + 1;
     if (to->before > maker->at[s]) to->before = maker->at[s];
   }
@@ -193,12 +193,12 @@ static void put(void *index, int64_t at, int64_t value, int32_t wide) {
     ((uint16_t *)index)[at] = (uint16_t)value;
 }
 
-int64_t hooke_net_numbers(const struct hooke_net *net) {
+int64_t hk_net_numbers(const struct hk_net *net) {
   return HOOKE_NET_ROW * net->rows + HOOKE_NET_FORCE * (net->list + net->ring);
 }
 
 static int count_degrees(struct maker *maker) {
-  struct hooke_net *net = maker->net;
+  struct hk_net *net = maker->net;
   for (int64_t s = 0; s < net->springs; s++) {
     uint16_t *i = &net->degree[maker->lower[s]], *j = &net->degree[maker->upper[s]];
     if (*i == MOST_DEGREE || *j == MOST_DEGREE) return 0;
@@ -209,7 +209,7 @@ static int count_degrees(struct maker *maker) {
 }
 
 static void ask_for_places(const struct maker *maker, int64_t s) {
-  const struct hooke_net *net = maker->net;
+  const struct hk_net *net = maker->net;
   const int64_t width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t), at = maker->at[s];
   __builtin_prefetch(net->lower + at, 1);
   __builtin_prefetch((char *)net->upper + at * width, 1);
@@ -218,11 +218,11 @@ static void ask_for_places(const struct maker *maker, int64_t s) {
 }
 
 static int32_t fill_ends(struct maker *maker) {
-  struct hooke_net *net = maker->net;
+  struct hk_net *net = maker->net;
   const int64_t m = net->springs, width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t);
-  net->lower = hooke_new(m, 1);
-  net->upper = hooke_new(m, (size_t)width);
-  net->force = hooke_new(2 * m, (size_t)width);
+  net->lower = hk_new(m, 1);
+  net->upper = hk_new(m, (size_t)width);
+  net->force = hk_new(2 * m, (size_t)width);
   if (!net->lower || !net->upper || !net->force) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < net->particles; p++)
     maker->next[p] = net->degree[p];
@@ -241,17 +241,16 @@ static int32_t fill_ends(struct maker *maker) {
 
 /* ---- material ---- */
 
-static int32_t new_material(struct hooke_net *net, int32_t mixed) {
-  net->rest_length = hooke_new(net->springs, sizeof(double));
-  net->place = hooke_new(net->springs, sizeof(int32_t));
-  if (mixed) net->kappa = hooke_new(net->springs, sizeof(double));
-  if (mixed) net->gamma = hooke_new(net->springs, sizeof(double));
+static int32_t new_material(struct hk_net *net, int32_t mixed) {
+  net->rest_length = hk_new(net->springs, sizeof(double));
+  net->place = hk_new(net->springs, sizeof(int32_t));
+  if (mixed) net->kappa = hk_new(net->springs, sizeof(double));
+  if (mixed) net->gamma = hk_new(net->springs, sizeof(double));
   const int there = net->rest_length && net->place && (!mixed || (net->kappa && net->gamma));
   return there ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-static void point_to_net(const struct hooke_net *net, const struct hooke_net_class *class,
-                         struct hooke_run *run) {
+static void point_to_net(const struct hk_net *net, const struct hk_net_class *class, struct hk_run *run) {
   run->place = net->place + run->first;
   run->kappas = net->kappa;
   run->gammas = net->gamma;
@@ -263,17 +262,17 @@ static void point_to_net(const struct hooke_net *net, const struct hooke_net_cla
 
 /* Materials go to their places in the net, and runs look them up there. */
 static int32_t move_material(struct maker *maker) {
-  struct hooke_net *net = maker->net;
-  struct hooke_springs *springs = maker->springs;
+  struct hk_net *net = maker->net;
+  struct hk_springs *springs = maker->springs;
   const int32_t material = net->class[0].shape & HOOKE_NET_MIXED;
   if (material == 0) return HOOKE_OK;
   const int32_t status = new_material(net, material == HOOKE_NET_MIXED);
   if (status != HOOKE_OK) return status;
   memcpy(net->place, maker->at, (size_t)net->springs * sizeof *net->place);
   for (int64_t r = 0; r < springs->run_count; r++) {
-    struct hooke_run *run = &springs->run[r];
+    struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hooke_material own = hooke_run_material(run, k);
+      const struct hk_material own = hk_run_material(run, k);
       const int32_t at = maker->at[run->first + k];
       net->rest_length[at] = own.rest_length;
       if (net->kappa) net->kappa[at] = own.kappa;
@@ -281,45 +280,45 @@ static int32_t move_material(struct maker *maker) {
     }
     if (run->shape & HOOKE_RUN_MIXED) point_to_net(net, &net->class[maker->class_of[r]], run);
   }
-  hooke_springs_drop_material(springs);
+  hk_springs_drop_material(springs);
   return HOOKE_OK;
 }
 
 /* ---- all of it ---- */
 
-static int may_pay(const struct hooke_springs *springs) {
+static int may_pay(const struct hk_springs *springs) {
   return springs->count >= LEAST_SPRINGS &&
          (double)(springs->count - springs->indexed_count) <= MOST_IN_RUNS * (double)springs->count;
 }
 
 static int32_t make(struct maker *maker, const double *inverse_mass) {
-  struct hooke_net *net = maker->net;
+  struct hk_net *net = maker->net;
   int32_t status = number(maker, inverse_mass);
   if (status != HOOKE_OK) return status;
-  hooke_net_classify(maker->springs, net, maker->class_of);
-  net->tile = hooke_new(net->tiles, sizeof *net->tile);
-  net->batch = hooke_new(net->tiles * net->classes, sizeof *net->batch);
-  net->degree = hooke_new(net->particles, sizeof *net->degree);
-  int32_t *sorted = hooke_new(net->springs, sizeof *sorted);
+  hk_net_classify(maker->springs, net, maker->class_of);
+  net->tile = hk_new(net->tiles, sizeof *net->tile);
+  net->batch = hk_new(net->tiles * net->classes, sizeof *net->batch);
+  net->degree = hk_new(net->particles, sizeof *net->degree);
+  int32_t *sorted = hk_new(net->springs, sizeof *sorted);
   if (net->tile && net->batch && net->degree && sorted)
     sort(maker, sorted);
   else
     status = HOOKE_NO_MEMORY;
-  hooke_free(sorted);
+  hk_free(sorted);
   if (status != HOOKE_OK) return status;
   measure(maker);
-  const double bytes = (double)(hooke_net_numbers(net) * (int64_t)sizeof(double));
+  const double bytes = (double)(hk_net_numbers(net) * (int64_t)sizeof(double));
   if (!count_degrees(maker) || bytes > fmax(MOST_BYTES, MOST_BYTES_A_PARTICLE * (double)net->particles)) {
-    hooke_net_release(net);
+    hk_net_release(net);
     return HOOKE_OK;
   }
   status = fill_ends(maker);
   return status == HOOKE_OK ? move_material(maker) : status;
 }
 
-int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, const double *inverse_mass,
-                         struct hooke_net *net) {
-  *net = (struct hooke_net){0};
+int32_t hk_net_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
+                      struct hk_net *net) {
+  *net = (struct hk_net){0};
   if (!may_pay(springs)) return HOOKE_OK;
   net->particles = particle_count;
   net->springs = springs->count;
@@ -328,19 +327,19 @@ int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, 
   int32_t status = maker_create(springs, net, &maker);
   if (status == HOOKE_OK) status = make(&maker, inverse_mass);
   maker_release(&maker);
-  if (status != HOOKE_OK) hooke_net_release(net);
+  if (status != HOOKE_OK) hk_net_release(net);
   return status;
 }
 
-void hooke_net_release(struct hooke_net *net) {
+void hk_net_release(struct hk_net *net) {
   void *const block[] = {net->tile,  net->order, net->inverse_mass, net->batch, net->lower,  net->upper,
                          net->kappa, net->gamma, net->rest_length,  net->place, net->degree, net->force};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
-    hooke_free(block[k]);
+    hk_free(block[k]);
   memset(net, 0, sizeof *net);
 }
 
-int64_t hooke_net_spring_memory(const struct hooke_net *net) {
+int64_t hk_net_spring_memory(const struct hk_net *net) {
   const int64_t width = net->wide ? sizeof(uint32_t) : sizeof(uint16_t), number = sizeof(double);
   int64_t a_spring = 1 + 3 * width;
   if (net->rest_length) a_spring += number + (int64_t)sizeof(int32_t);
@@ -348,9 +347,9 @@ int64_t hooke_net_spring_memory(const struct hooke_net *net) {
   return a_spring * net->springs;
 }
 
-int64_t hooke_net_memory(const struct hooke_net *net) {
+int64_t hk_net_memory(const struct hk_net *net) {
   int64_t a_particle = (int64_t)sizeof(uint16_t);
   if (net->order) a_particle += (int64_t)(sizeof(double) + sizeof(int32_t));
   const int64_t a_tile = (int64_t)sizeof *net->tile + net->classes * (int64_t)sizeof *net->batch;
-  return hooke_net_spring_memory(net) + a_particle * net->particles + a_tile * net->tiles;
+  return hk_net_spring_memory(net) + a_particle * net->particles + a_tile * net->tiles;
 }

@@ -16,24 +16,24 @@
 enum { HOOKE_NET_CLASSES = 8 };
 
 /* Springs that one loop can do. */
-struct hooke_net_class {
+struct hk_net_class {
   int32_t shape;   /* HOOKE_NET_* */
   int32_t uniform; /* one rest length */
   double kappa, gamma, rest_length;
 };
 
-struct hooke_net_tile {
+struct hk_net_tile {
   int64_t end;    /* of its springs; they begin where those of the tile before end */
   int64_t before; /* the first spring that ends in this tile or begins there */
   int32_t reach;  /* particle after the last that springs of this tile and those before it end at */
 };
 
 /* `particles` 0: there is no net. */
-struct hooke_net {
+struct hk_net {
   int64_t particles, springs, tiles;
   int32_t classes, wide;
-  struct hooke_net_class class[HOOKE_NET_CLASSES];
-  struct hooke_net_tile *tile;
+  struct hk_net_class class[HOOKE_NET_CLASSES];
+  struct hk_net_tile *tile;
   int32_t *order;       /* particle that has a working number; NULL: its own */
   double *inverse_mass; /* by working number; NULL without `order` */
   int32_t *batch;       /* springs of each tile, by class */
@@ -53,37 +53,37 @@ struct hooke_net {
 };
 
 /* HOOKE_NO_MEMORY. Material goes from the springs to the net. Without a net if runs or lanes do as well. */
-int32_t hooke_net_create(struct hooke_springs *springs, int64_t particle_count, const double *inverse_mass,
-                         struct hooke_net *net);
-void hooke_net_release(struct hooke_net *net);
-int64_t hooke_net_memory(const struct hooke_net *net);
+int32_t hk_net_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
+                      struct hk_net *net);
+void hk_net_release(struct hk_net *net);
+int64_t hk_net_memory(const struct hk_net *net);
 /* The part of it that goes with the number of springs. */
-int64_t hooke_net_spring_memory(const struct hooke_net *net);
+int64_t hk_net_spring_memory(const struct hk_net *net);
 
 /* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number k, place[p]
  * the number of p. HOOKE_NO_MEMORY. */
-int32_t hooke_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                         int32_t *order, int32_t *place);
+int32_t hk_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
+                      int32_t *order, int32_t *place);
 
 /* Classes of the springs of all runs, in net->class; class_of has one for each run. */
-void hooke_net_classify(const struct hooke_springs *springs, struct hooke_net *net, int32_t *class_of);
+void hk_net_classify(const struct hk_springs *springs, struct hk_net *net, int32_t *class_of);
 
 /* Numbers in window, list and ring. */
-int64_t hooke_net_numbers(const struct hooke_net *net);
+int64_t hk_net_numbers(const struct hk_net *net);
 
 /* Windows and rings of one pass at a time by so many members of a crew. NULL without memory. */
-struct hooke_net_scratch;
-struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net, int32_t members);
-void hooke_net_scratch_destroy(struct hooke_net_scratch *scratch);
-int64_t hooke_net_scratch_memory(const struct hooke_net_scratch *scratch);
+struct hk_net_scratch;
+struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t members);
+void hk_net_scratch_destroy(struct hk_net_scratch *scratch);
+int64_t hk_net_scratch_memory(const struct hk_net_scratch *scratch);
 
 /* Sums over `count` particles from `from` on are in f; may move these particles. */
-typedef void hooke_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
+typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
 
-struct hooke_motion;
+struct hk_motion;
 
 /* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a rest length
  * but no direction. Members of its crew go over tiles of their own at the same time, each in ascending order. */
-int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *motion, hooke_tile *tile, void *ctx);
+int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx);
 
 #endif

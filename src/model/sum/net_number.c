@@ -15,8 +15,8 @@ struct graph {
 
 static int32_t graph_create(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
                             struct graph *graph) {
-  graph->first = hooke_new(particles + 2, sizeof(int64_t));
-  graph->neighbour = hooke_new(2 * springs, sizeof(int32_t));
+  graph->first = hk_new(particles + 2, sizeof(int64_t));
+  graph->neighbour = hk_new(2 * springs, sizeof(int32_t));
   if (graph->first == NULL || graph->neighbour == NULL) return HOOKE_NO_MEMORY;
   int64_t *next = graph->first + 2; /* moves to first + 1 as the lists fill up */
   for (int64_t s = 0; s < springs; s++) {
@@ -75,12 +75,12 @@ static void number_pieces(const struct graph *graph, int64_t particles, int32_t 
   }
 }
 
-int32_t hooke_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                         int32_t *order, int32_t *place) {
+int32_t hk_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
+                      int32_t *order, int32_t *place) {
   struct graph graph = {NULL, NULL};
   const int32_t status = graph_create(particles, springs, head, tail, &graph);
   if (status == HOOKE_OK) number_pieces(&graph, particles, order, place);
-  hooke_free(graph.first);
-  hooke_free(graph.neighbour);
+  hk_free(graph.first);
+  hk_free(graph.neighbour);
   return status;
 }

@@ -6,9 +6,9 @@
 #include <string.h>
 
 struct pass {
-  const struct hooke_net *net;
-  struct hooke_motion *motion;
-  hooke_tile *tile;
+  const struct hk_net *net;
+  struct hk_motion *motion;
+  hk_tile *tile;
   void *ctx;
 };
 
@@ -18,7 +18,7 @@ static int64_t least(int64_t a, int64_t b) {
 
 /* Rows of particles `from` .. `to` - 1, as they are now. */
 static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double *rows) {
-  const struct hooke_motion *m = pass->motion;
+  const struct hk_motion *m = pass->motion;
   const int32_t *order = m->order ? NULL : pass->net->order;
   const double *q[3], *v[3];
   for (int a = 0; a < 3; a++) {
@@ -30,8 +30,8 @@ static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double 
 }
 
 /* The window reaches to particle `to` - 1; those from `saved` on are taken from what was saved. */
-static void fill_rows(const struct pass *pass, struct hooke_net_share *share, int64_t to, int64_t saved) {
-  const struct hooke_net *net = pass->net;
+static void fill_rows(const struct pass *pass, struct hk_net_share *share, int64_t to, int64_t saved) {
+  const struct hk_net *net = pass->net;
   while (share->seen < to) {
     const int64_t from = share->seen, at = from % net->rows, end = least(to, from + net->rows - at);
     double *rows = share->rows + HOOKE_NET_ROW * at;
@@ -45,14 +45,14 @@ static void fill_rows(const struct pass *pass, struct hooke_net_share *share, in
   }
 }
 
-static struct hooke_net_springs springs_at(const struct hooke_net *net, const struct hooke_net_class *class,
-                                           int64_t at) {
+static struct hk_net_springs springs_at(const struct hk_net *net, const struct hk_net_class *class,
+                                        int64_t at) {
   const char *upper = net->upper;
-  struct hooke_net_springs springs = {.lower = net->lower + at,
-                                      .upper = upper + at * (int64_t)(net->wide ? 4 : 2),
-                                      .kappa = class->kappa,
-                                      .gamma = class->gamma,
-                                      .rest_length = class->rest_length};
+  struct hk_net_springs springs = {.lower = net->lower + at,
+                                   .upper = upper + at * (int64_t)(net->wide ? 4 : 2),
+                                   .kappa = class->kappa,
+                                   .gamma = class->gamma,
+                                   .rest_length = class->rest_length};
   if (net->rest_length) springs.rest_lengths = net->rest_length + at;
   if (net->kappa) springs.kappas = net->kappa + at;
   if (net->gamma) springs.gammas = net->gamma + at;
@@ -60,17 +60,17 @@ static struct hooke_net_springs springs_at(const struct hooke_net *net, const st
 }
 
 /* The next `count` springs, of one class and of one tile, into the ring. */
-static void fill_class(const struct pass *pass, struct hooke_net_share *share, int64_t tile, int32_t c,
+static void fill_class(const struct pass *pass, struct hk_net_share *share, int64_t tile, int32_t c,
                        int64_t count) {
-  const struct hooke_net *net = pass->net;
-  const struct hooke_net_class *class = &net->class[c];
+  const struct hk_net *net = pass->net;
+  const struct hk_net_class *class = &net->class[c];
   const double *low = share->rows + HOOKE_NET_ROW * (tile * HOOKE_TILE % net->rows);
-  hooke_net_fill *fill = pass->motion->net->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
+  hk_net_fill *fill = pass->motion->net->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
   const int64_t first = tile > 0 ? net->tile[tile - 1].end : 0, end = share->done + count;
   while (share->done < end) {
     const int64_t at = share->done % net->ring,
                   some = least(least(end - share->done, net->ring - at), HOOKE_NET_BATCH);
-    const struct hooke_net_springs springs = springs_at(net, class, share->done);
+    const struct hk_net_springs springs = springs_at(net, class, share->done);
     share->lost += fill(&springs, (ptrdiff_t)some, low, share->rows,
                         share->forces + HOOKE_NET_FORCE * (share->done - first),
                         share->forces + HOOKE_NET_FORCE * (net->list + at));
@@ -78,16 +78,16 @@ static void fill_class(const struct pass *pass, struct hooke_net_share *share, i
   }
 }
 
-static void fill_tile(const struct pass *pass, struct hooke_net_share *share, int64_t tile, int64_t saved) {
-  const struct hooke_net *net = pass->net;
+static void fill_tile(const struct pass *pass, struct hk_net_share *share, int64_t tile, int64_t saved) {
+  const struct hk_net *net = pass->net;
   fill_rows(pass, share, net->tile[tile].reach, saved);
   for (int32_t c = 0; c < net->classes; c++)
     fill_class(pass, share, tile, c, net->batch[tile * net->classes + c]);
 }
 
 /* What has to be read before anyone moves. */
-static void prepare(const struct pass *pass, struct hooke_net_share *share) {
-  const struct hooke_net *net = pass->net;
+static void prepare(const struct pass *pass, struct hk_net_share *share) {
+  const struct hk_net *net = pass->net;
   share->seen = share->begin * HOOKE_TILE;
   share->done = share->begin > 0 ? net->tile[share->begin - 1].end : 0;
   for (int64_t t = share->begin; t < share->first; t++)
@@ -100,12 +100,12 @@ static void prepare(const struct pass *pass, struct hooke_net_share *share) {
 static void go_over(int32_t member, int32_t members, void *ctx) {
   (void)members;
   const struct pass *pass = ctx;
-  const struct hooke_net *net = pass->net;
-  struct hooke_motion *m = pass->motion;
-  struct hooke_net_share *share = &m->net->share[member];
+  const struct hk_net *net = pass->net;
+  struct hk_motion *m = pass->motion;
+  struct hk_net_share *share = &m->net->share[member];
   const void *place = share->place;
   prepare(pass, share);
-  hooke_crew_meet(m->crew);
+  hk_crew_meet(m->crew);
   for (int64_t t = share->first; t < share->end; t++) {
     const int64_t from = t * HOOKE_TILE, end = least(from + HOOKE_TILE, net->particles);
     fill_tile(pass, share, t, share->end * HOOKE_TILE);
@@ -114,11 +114,10 @@ static void go_over(int32_t member, int32_t members, void *ctx) {
   }
 }
 
-int64_t hooke_net_pass(const struct hooke_net *net, struct hooke_motion *motion, hooke_tile *tile,
-                       void *ctx) {
+int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx) {
   struct pass pass = {net, motion, tile, ctx};
   int64_t lost = 0;
-  hooke_crew_run(motion->crew, go_over, &pass);
+  hk_crew_run(motion->crew, go_over, &pass);
   for (int32_t m = 0; m < motion->net->members; m++)
     lost += motion->net->share[m].lost;
   return lost;

@@ -6,12 +6,12 @@
 /* What it takes to move a particle, in springs. */
 enum { WORK_OF_PARTICLE = 2 };
 
-static int64_t work_before(const struct hooke_net *net, int64_t tile) {
+static int64_t work_before(const struct hk_net *net, int64_t tile) {
   return tile == 0 ? 0 : net->tile[tile - 1].end + (int64_t)WORK_OF_PARTICLE * HOOKE_TILE * tile;
 }
 
 /* The first tile with at least this much work before it. */
-static int64_t tile_at(const struct hooke_net *net, int64_t work) {
+static int64_t tile_at(const struct hk_net *net, int64_t work) {
   int64_t low = 0, high = net->tiles;
   while (low < high) {
     const int64_t middle = (low + high) / 2;
@@ -24,7 +24,7 @@ static int64_t tile_at(const struct hooke_net *net, int64_t work) {
 }
 
 /* The first tile whose springs, or those of a tile after it, end in `first` .. `end` - 1. */
-static int64_t begin_of(const struct hooke_net *net, int64_t first, int64_t end) {
+static int64_t begin_of(const struct hk_net *net, int64_t first, int64_t end) {
   int64_t before = net->springs, tile = first;
   for (int64_t t = first; t < end; t++) {
     if (net->tile[t].before < before) before = net->tile[t].before;
@@ -34,7 +34,7 @@ static int64_t begin_of(const struct hooke_net *net, int64_t first, int64_t end)
   return tile;
 }
 
-static const void *place_of(const struct hooke_net *net, int64_t particle) {
+static const void *place_of(const struct hk_net *net, int64_t particle) {
   int64_t at = 0;
   for (int64_t p = 0; p < particle; p++)
     at += net->degree[p];
@@ -42,8 +42,7 @@ static const void *place_of(const struct hooke_net *net, int64_t particle) {
                    : (const void *)((const uint16_t *)net->force + at);
 }
 
-static void place(const struct hooke_net *net, int32_t member, int32_t members,
-                  struct hooke_net_share *share) {
+static void place(const struct hk_net *net, int32_t member, int32_t members, struct hk_net_share *share) {
   const int64_t work = work_before(net, net->tiles);
   share->first = tile_at(net, work * member / members);
   share->end = tile_at(net, work * (member + 1) / members);
@@ -53,16 +52,15 @@ static void place(const struct hooke_net *net, int32_t member, int32_t members,
   share->saved_end = share->end > share->first ? net->tile[share->end - 1].reach : 0;
 }
 
-static int64_t saved_rows(const struct hooke_net_share *share) {
+static int64_t saved_rows(const struct hk_net_share *share) {
   const int64_t rows = share->saved_end - share->end * HOOKE_TILE;
   return rows > 0 ? rows : 0;
 }
 
 /* A block of its own for each member, so that no two write to one page. */
-static int32_t new_block(const struct hooke_net *net, struct hooke_net_share *share, int64_t *memory) {
-  const int64_t numbers =
-      hooke_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + (int64_t)3 * HOOKE_TILE;
-  double *block = hooke_new(numbers, sizeof(double));
+static int32_t new_block(const struct hk_net *net, struct hk_net_share *share, int64_t *memory) {
+  const int64_t numbers = hk_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + (int64_t)3 * HOOKE_TILE;
+  double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return 0;
   *memory += numbers * (int64_t)sizeof(double);
   share->rows = block;
@@ -73,14 +71,14 @@ static int32_t new_block(const struct hooke_net *net, struct hooke_net_share *sh
   return 1;
 }
 
-struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net, int32_t members) {
-  struct hooke_net_scratch *scratch = hooke_new(1, sizeof *scratch);
+struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t members) {
+  struct hk_net_scratch *scratch = hk_new(1, sizeof *scratch);
   if (scratch == NULL) return NULL;
   scratch->members = members;
-  scratch->loops = hooke_spring_set(0)->net;
+  scratch->loops = hk_spring_set(0)->net;
   for (int32_t c = 0; c < net->classes; c++)
     scratch->damped |= net->class[c].shape & HOOKE_NET_DAMPED;
-  scratch->share = hooke_new(members, sizeof *scratch->share);
+  scratch->share = hk_new(members, sizeof *scratch->share);
   scratch->memory = (int64_t)sizeof *scratch + members * (int64_t)sizeof *scratch->share;
   int there = scratch->share != NULL;
   for (int32_t m = 0; m < members && there; m++) {
@@ -88,18 +86,18 @@ struct hooke_net_scratch *hooke_net_scratch_create(const struct hooke_net *net, 
     there = new_block(net, &scratch->share[m], &scratch->memory);
   }
   if (there) return scratch;
-  hooke_net_scratch_destroy(scratch);
+  hk_net_scratch_destroy(scratch);
   return NULL;
 }
 
-void hooke_net_scratch_destroy(struct hooke_net_scratch *scratch) {
+void hk_net_scratch_destroy(struct hk_net_scratch *scratch) {
   if (scratch == NULL) return;
   for (int32_t m = 0; m < scratch->members && scratch->share; m++)
-    hooke_free(scratch->share[m].rows);
-  hooke_free(scratch->share);
-  hooke_free(scratch);
+    hk_free(scratch->share[m].rows);
+  hk_free(scratch->share);
+  hk_free(scratch);
 }
 
-int64_t hooke_net_scratch_memory(const struct hooke_net_scratch *scratch) {
+int64_t hk_net_scratch_memory(const struct hk_net_scratch *scratch) {
   return scratch ? scratch->memory : 0;
 }

@@ -6,7 +6,7 @@
 
 /* A member has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles from `begin` on,
  * which end in its own, and saves the rows of the particles from its last one to `saved_end` - 1, which others move. */
-struct hooke_net_share {
+struct hk_net_share {
   int64_t begin, first, end, saved_end;
   const void *place;                    /* of the first force on the first particle */
   double *rows, *forces, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
@@ -14,10 +14,10 @@ struct hooke_net_share {
   int64_t lost;
 };
 
-struct hooke_net_scratch {
+struct hk_net_scratch {
   int32_t members, damped;
-  struct hooke_net_share *share;
-  const struct hooke_net_loops *loops;
+  struct hk_net_share *share;
+  const struct hk_net_loops *loops;
   int64_t memory;
 };
 

@@ -13,10 +13,9 @@ static int compare_columns(const void *a, const void *b) {
 }
 
 /* Both directions of every pair of a triple, as below. */
-static void visit_triples(const struct hooke_bending *bending, int64_t *count, int64_t *column,
-                          int64_t *next) {
-  struct hooke_triple triple;
-  for (struct hooke_triples at = {bending, 0, 0}; hooke_next_triple(&at, &triple);) {
+static void visit_triples(const struct hk_bending *bending, int64_t *count, int64_t *column, int64_t *next) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {bending, 0, 0}; hk_next_triple(&at, &triple);) {
     for (int e = 0; e < 6; e++) {
       const int64_t row = triple.particle[e % 3], other = triple.particle[(e + 1 + e / 3) % 3];
       if (column)
@@ -28,7 +27,7 @@ static void visit_triples(const struct hooke_bending *bending, int64_t *count, i
 }
 
 /* And of every pair of a tetrahedron. */
-static void visit_tetrahedra(const struct hooke_altitudes *altitudes, int64_t *count, int64_t *column,
+static void visit_tetrahedra(const struct hk_altitudes *altitudes, int64_t *count, int64_t *column,
                              int64_t *next) {
   for (int64_t k = 0; k < altitudes->count; k++) {
     const int32_t *p = altitudes->tetrahedron[k].particle;
@@ -44,10 +43,10 @@ static void visit_tetrahedra(const struct hooke_altitudes *altitudes, int64_t *c
 
 /* Calls for both directions of every spring; `next` is where the row's next column goes (NULL: count only).
  */
-static void visit_pairs(const struct hooke_springs *springs, int64_t *count, int64_t *column, int64_t *next) {
+static void visit_pairs(const struct hk_springs *springs, int64_t *count, int64_t *column, int64_t *next) {
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hooke_spring s = hooke_run_spring(&springs->run[r], k);
+      const struct hk_spring s = hk_run_spring(&springs->run[r], k);
       if (column) {
         column[next[s.head]++] = s.tail;
         column[next[s.tail]++] = s.head;
@@ -60,7 +59,7 @@ static void visit_pairs(const struct hooke_springs *springs, int64_t *count, int
 }
 
 /* Sorts every row and drops what stands twice (two springs between the same particles). */
-static void sort_rows(struct hooke_pattern *pattern) {
+static void sort_rows(struct hk_pattern *pattern) {
   int64_t kept = 0;
   for (int64_t p = 0; p < pattern->rows; p++) {
     const int64_t from = pattern->row_start[p], to = pattern->row_start[p + 1];
@@ -75,16 +74,16 @@ static void sort_rows(struct hooke_pattern *pattern) {
   pattern->count = kept;
 }
 
-int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pattern *pattern) {
+int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *pattern) {
   const int64_t n = system->particle_count, most = n + 2 * system->springs.count + 6 * system->bending.count +
                                                    12 * system->altitudes.count;
-  *pattern = (struct hooke_pattern){.rows = n};
-  pattern->row_start = hooke_new(n + 1, sizeof(int64_t));
-  pattern->column = hooke_new(most, sizeof(int64_t));
-  int64_t *next = hooke_new(n + 1, sizeof(int64_t));
+  *pattern = (struct hk_pattern){.rows = n};
+  pattern->row_start = hk_new(n + 1, sizeof(int64_t));
+  pattern->column = hk_new(most, sizeof(int64_t));
+  int64_t *next = hk_new(n + 1, sizeof(int64_t));
   if (pattern->row_start == NULL || pattern->column == NULL || next == NULL) {
-    hooke_free(next);
-    hooke_pattern_release(pattern);
+    hk_free(next);
+    hk_pattern_release(pattern);
     return HOOKE_NO_MEMORY;
   }
   visit_pairs(&system->springs, next, NULL, NULL);
@@ -100,18 +99,18 @@ int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pat
   visit_pairs(&system->springs, NULL, pattern->column, next);
   visit_triples(&system->bending, NULL, pattern->column, next);
   visit_tetrahedra(&system->altitudes, NULL, pattern->column, next);
-  hooke_free(next);
+  hk_free(next);
   sort_rows(pattern);
   return HOOKE_OK;
 }
 
-void hooke_pattern_release(struct hooke_pattern *pattern) {
-  hooke_free(pattern->row_start);
-  hooke_free(pattern->column);
+void hk_pattern_release(struct hk_pattern *pattern) {
+  hk_free(pattern->row_start);
+  hk_free(pattern->column);
   memset(pattern, 0, sizeof *pattern);
 }
 
-int64_t hooke_pattern_block(const struct hooke_pattern *pattern, int64_t row, int64_t column) {
+int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t column) {
   const int64_t *from = pattern->column + pattern->row_start[row];
   const size_t count = (size_t)(pattern->row_start[row + 1] - pattern->row_start[row]);
   const int64_t *found = bsearch(&column, from, count, sizeof(int64_t), compare_columns);
@@ -119,21 +118,21 @@ int64_t hooke_pattern_block(const struct hooke_pattern *pattern, int64_t row, in
 }
 
 int64_t hooke_system_block_count(const hooke_system *system) {
-  struct hooke_pattern pattern;
-  if (hooke_system_require_committed(system) != HOOKE_OK) return -1;
-  if (hooke_pattern_create(system, &pattern) != HOOKE_OK) return -1;
+  struct hk_pattern pattern;
+  if (hk_system_require_committed(system) != HOOKE_OK) return -1;
+  if (hk_pattern_create(system, &pattern) != HOOKE_OK) return -1;
   const int64_t count = pattern.count;
-  hooke_pattern_release(&pattern);
+  hk_pattern_release(&pattern);
   return count;
 }
 
 int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start, int64_t *column) {
-  struct hooke_pattern pattern;
-  int32_t status = hooke_system_require_committed(system);
-  if (status == HOOKE_OK) status = hooke_pattern_create(system, &pattern);
+  struct hk_pattern pattern;
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_pattern_create(system, &pattern);
   if (status != HOOKE_OK) return status;
   memcpy(row_start, pattern.row_start, (size_t)(pattern.rows + 1) * sizeof(int64_t));
   memcpy(column, pattern.column, (size_t)pattern.count * sizeof(int64_t));
-  hooke_pattern_release(&pattern);
+  hk_pattern_release(&pattern);
   return HOOKE_OK;
 }

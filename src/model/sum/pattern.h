@@ -7,16 +7,16 @@
 
 struct hooke_system;
 
-struct hooke_pattern {
+struct hk_pattern {
   int64_t rows, count;
   int64_t *row_start; /* rows + 1 */
   int64_t *column;    /* count, ascending within a row */
 };
 
-int32_t hooke_pattern_create(const struct hooke_system *system, struct hooke_pattern *pattern);
-void hooke_pattern_release(struct hooke_pattern *pattern);
+int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *pattern);
+void hk_pattern_release(struct hk_pattern *pattern);
 
 /* Number of the block (row, column), which must be there. */
-int64_t hooke_pattern_block(const struct hooke_pattern *pattern, int64_t row, int64_t column);
+int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t column);
 
 #endif

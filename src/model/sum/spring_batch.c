@@ -8,12 +8,12 @@ static int64_t at_most(int64_t count) {
 
 /* ---- by runs ---- */
 
-static void take_run(const struct hooke_run *run, struct hooke_spring_batch *batch) {
+static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
   batch->count = at_most(run->count - batch->done);
   batch->damped = (run->shape & HOOKE_RUN_DAMPED) != 0;
   batch->pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
   for (int64_t k = 0; k < batch->count; k++) {
-    const struct hooke_spring spring = hooke_run_spring(run, batch->done + k);
+    const struct hk_spring spring = hk_run_spring(run, batch->done + k);
     batch->head[k] = (int32_t)spring.head;
     batch->tail[k] = (int32_t)spring.tail;
     batch->kappa[k] = spring.kappa;
@@ -23,7 +23,7 @@ static void take_run(const struct hooke_run *run, struct hooke_spring_batch *bat
   batch->done += batch->count;
 }
 
-static int32_t next_of_runs(const struct hooke_springs *springs, struct hooke_spring_batch *batch) {
+static int32_t next_of_runs(const struct hk_springs *springs, struct hk_spring_batch *batch) {
   while (batch->row < springs->run_count && batch->done == springs->run[batch->row].count) {
     batch->row++;
     batch->done = 0;
@@ -35,7 +35,7 @@ static int32_t next_of_runs(const struct hooke_springs *springs, struct hooke_sp
 
 /* ---- by tiles ---- */
 
-static void take_ends(const struct hooke_net *net, int64_t tile, struct hooke_spring_batch *batch) {
+static void take_ends(const struct hk_net *net, int64_t tile, struct hk_spring_batch *batch) {
   const int64_t first = tile * HOOKE_TILE, first_row = first % net->rows;
   const uint16_t *narrow = net->upper;
   const uint32_t *wide = net->upper;
@@ -49,8 +49,8 @@ static void take_ends(const struct hooke_net *net, int64_t tile, struct hooke_sp
 }
 
 /* As the loops of the net have it, to the bit. */
-static void take_material(const struct hooke_net *net, const struct hooke_net_class *class,
-                          struct hooke_spring_batch *batch) {
+static void take_material(const struct hk_net *net, const struct hk_net_class *class,
+                          struct hk_spring_batch *batch) {
   const int32_t form = class->shape & HOOKE_NET_MIXED;
   for (int64_t k = 0; k < batch->count; k++) {
     const double length = form ? net->rest_length[batch->at + k] : class->rest_length;
@@ -64,7 +64,7 @@ static void take_material(const struct hooke_net *net, const struct hooke_net_cl
   }
 }
 
-static int32_t next_of_net(const struct hooke_net *net, struct hooke_spring_batch *batch) {
+static int32_t next_of_net(const struct hk_net *net, struct hk_spring_batch *batch) {
   const int64_t rows = net->tiles * net->classes;
   while (batch->row < rows && batch->done == net->batch[batch->row]) {
     batch->row++;
@@ -73,7 +73,7 @@ static int32_t next_of_net(const struct hooke_net *net, struct hooke_spring_batc
   batch->at += batch->count;
   batch->count = 0;
   if (batch->row == rows) return 0;
-  const struct hooke_net_class *class = &net->class[batch->row % net->classes];
+  const struct hk_net_class *class = &net->class[batch->row % net->classes];
   batch->count = at_most(net->batch[batch->row] - batch->done);
   batch->damped = (class->shape & HOOKE_NET_DAMPED) != 0;
   batch->pull_only = (class->shape & HOOKE_NET_PULL_ONLY) != 0;
@@ -83,14 +83,14 @@ static int32_t next_of_net(const struct hooke_net *net, struct hooke_spring_batc
   return 1;
 }
 
-int32_t hooke_next_batch(const hooke_system *system, struct hooke_spring_batch *batch) {
+int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch) {
   if (system->net.particles > 0) return next_of_net(&system->net, batch);
   return next_of_runs(&system->springs, batch);
 }
 
-void hooke_batch_lengths(const struct hooke_spring_batch *batch, const double *q, double *length) {
+void hk_batch_lengths(const struct hk_spring_batch *batch, const double *q, double *length) {
   for (int64_t k = 0; k < batch->count; k++) {
     const double *qi = q + 3 * (int64_t)batch->head[k], *qj = q + 3 * (int64_t)batch->tail[k];
-    length[k] = hooke_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
+    length[k] = hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
   }
 }

@@ -8,7 +8,7 @@
 
 enum { HOOKE_SPRING_BATCH = 256 };
 
-struct hooke_spring_batch {
+struct hk_spring_batch {
   int64_t count;
   int32_t damped, pull_only;
   int32_t head[HOOKE_SPRING_BATCH],
@@ -20,17 +20,17 @@ struct hooke_spring_batch {
 };
 
 /* Before the first; the next ones, or 0 if there are none. */
-static inline void hooke_begin_batches(struct hooke_spring_batch *batch) {
+static inline void hk_begin_batches(struct hk_spring_batch *batch) {
   batch->count = batch->row = batch->done = batch->at = 0;
 }
-int32_t hooke_next_batch(const hooke_system *system, struct hooke_spring_batch *batch);
+int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch);
 
-static inline struct hooke_spring hooke_batch_spring(const struct hooke_spring_batch *batch, int64_t k) {
-  return (struct hooke_spring){batch->head[k],  batch->tail[k],        batch->kappa[k],
-                               batch->gamma[k], batch->rest_length[k], batch->pull_only};
+static inline struct hk_spring hk_batch_spring(const struct hk_spring_batch *batch, int64_t k) {
+  return (struct hk_spring){batch->head[k],  batch->tail[k],        batch->kappa[k],
+                            batch->gamma[k], batch->rest_length[k], batch->pull_only};
 }
 
 /* Length of each spring of a batch. */
-void hooke_batch_lengths(const struct hooke_spring_batch *batch, const double *q, double *length);
+void hk_batch_lengths(const struct hk_spring_batch *batch, const double *q, double *length);
 
 #endif

@@ -12,7 +12,7 @@ enum { SHORTEST_RUN = 8 };
 
 /* What is counted in the first pass and filled in the second. */
 struct sorter {
-  struct hooke_springs *springs;
+  struct hk_springs *springs;
   int64_t runs, indexed, mixed;
   int32_t fill;
 };
@@ -22,14 +22,14 @@ static int same_bits(double a, double b) {
 }
 
 /* Length of the stretch of constant offset that begins at spring k. */
-static int64_t stretch_at(const struct hooke_group *g, int64_t k) {
+static int64_t stretch_at(const struct hk_group *g, int64_t k) {
   int64_t end = k + 1;
   while (end < g->count && g->head[end] == g->head[end - 1] + 1 && g->tail[end] == g->tail[end - 1] + 1)
     end++;
   return end - k;
 }
 
-static int is_mixed(const struct hooke_group *g, int64_t from, int64_t count) {
+static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from + 1; k < from + count; k++) {
     if (!same_bits(g->kappa[k], g->kappa[from]) || !same_bits(g->gamma[k], g->gamma[from]) ||
         !same_bits(g->rest_length[k], g->rest_length[from])) {
@@ -39,15 +39,14 @@ static int is_mixed(const struct hooke_group *g, int64_t from, int64_t count) {
   return 0;
 }
 
-static int is_damped(const struct hooke_group *g, int64_t from, int64_t count) {
+static int is_damped(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from; k < from + count; k++) {
     if (g->gamma[k] != 0.0) return 1;
   }
   return 0;
 }
 
-static void copy_ends(struct sorter *sorter, struct hooke_run *run, const struct hooke_group *g,
-                      int64_t from) {
+static void copy_ends(struct sorter *sorter, struct hk_run *run, const struct hk_group *g, int64_t from) {
   int32_t *head = sorter->springs->head + sorter->indexed, *tail = sorter->springs->tail + sorter->indexed;
   memcpy(head, g->head + from, (size_t)run->count * sizeof *head);
   memcpy(tail, g->tail + from, (size_t)run->count * sizeof *tail);
@@ -55,9 +54,8 @@ static void copy_ends(struct sorter *sorter, struct hooke_run *run, const struct
   run->tail = tail;
 }
 
-static void copy_material(struct sorter *sorter, struct hooke_run *run, const struct hooke_group *g,
-                          int64_t from) {
-  struct hooke_springs *springs = sorter->springs;
+static void copy_material(struct sorter *sorter, struct hk_run *run, const struct hk_group *g, int64_t from) {
+  struct hk_springs *springs = sorter->springs;
   const int64_t at = sorter->mixed;
   const size_t bytes = (size_t)run->count * sizeof(double);
   run->kappas = memcpy(springs->kappa + at, g->kappa + from, bytes);
@@ -65,11 +63,11 @@ static void copy_material(struct sorter *sorter, struct hooke_run *run, const st
   run->rest_lengths = memcpy(springs->rest_length + at, g->rest_length + from, bytes);
 }
 
-static void add_run(struct sorter *sorter, const struct hooke_group *g, int64_t from, int64_t count,
+static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t from, int64_t count,
                     int indexed) {
   const int mixed = is_mixed(g, from, count);
   if (sorter->fill) {
-    struct hooke_run *run = &sorter->springs->run[sorter->runs];
+    struct hk_run *run = &sorter->springs->run[sorter->runs];
     run->first = sorter->springs->count;
     run->count = count;
     run->shape = (indexed ? HOOKE_RUN_INDEXED : 0) | (mixed ? HOOKE_RUN_MIXED : 0) |
@@ -82,7 +80,7 @@ static void add_run(struct sorter *sorter, const struct hooke_group *g, int64_t 
     run->rest_length = g->rest_length[from];
     if (indexed) copy_ends(sorter, run, g, from);
     if (mixed) copy_material(sorter, run, g, from);
-    run->loop = hooke_spring_set(0)->loop[run->shape];
+    run->loop = hk_spring_set(0)->loop[run->shape];
     sorter->springs->count += count;
   }
   sorter->runs++;
@@ -90,7 +88,7 @@ static void add_run(struct sorter *sorter, const struct hooke_group *g, int64_t 
   if (mixed) sorter->mixed += count;
 }
 
-static void sort_group(struct sorter *sorter, const struct hooke_group *g) {
+static void sort_group(struct sorter *sorter, const struct hk_group *g) {
   int64_t pending = 0; /* first spring not yet in a run */
   for (int64_t k = 0; k < g->count;) {
     const int64_t length = stretch_at(g, k);
@@ -104,29 +102,28 @@ static void sort_group(struct sorter *sorter, const struct hooke_group *g) {
   if (g->count > pending) add_run(sorter, g, pending, g->count - pending, 1);
 }
 
-static void sort_groups(struct sorter *sorter, const struct hooke_group *group, int64_t group_count) {
+static void sort_groups(struct sorter *sorter, const struct hk_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
   for (int64_t k = 0; k < group_count; k++)
     sort_group(sorter, &group[k]);
 }
 
-int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_count,
-                             struct hooke_springs *springs) {
+int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, struct hk_springs *springs) {
   memset(springs, 0, sizeof *springs);
   struct sorter sorter = {.springs = springs};
   sort_groups(&sorter, group, group_count);
   springs->run_count = sorter.runs;
   springs->indexed_count = sorter.indexed;
   springs->mixed_count = sorter.mixed;
-  springs->run = hooke_new(sorter.runs, sizeof *springs->run);
-  springs->head = hooke_new(sorter.indexed, sizeof(int32_t));
-  springs->tail = hooke_new(sorter.indexed, sizeof(int32_t));
-  springs->kappa = hooke_new(sorter.mixed, sizeof(double));
-  springs->gamma = hooke_new(sorter.mixed, sizeof(double));
-  springs->rest_length = hooke_new(sorter.mixed, sizeof(double));
+  springs->run = hk_new(sorter.runs, sizeof *springs->run);
+  springs->head = hk_new(sorter.indexed, sizeof(int32_t));
+  springs->tail = hk_new(sorter.indexed, sizeof(int32_t));
+  springs->kappa = hk_new(sorter.mixed, sizeof(double));
+  springs->gamma = hk_new(sorter.mixed, sizeof(double));
+  springs->rest_length = hk_new(sorter.mixed, sizeof(double));
   if (!springs->run || !springs->head || !springs->tail || !springs->kappa || !springs->gamma ||
       !springs->rest_length) {
-    hooke_springs_release(springs);
+    hk_springs_release(springs);
     return HOOKE_NO_MEMORY;
   }
   sorter.fill = 1;
@@ -134,30 +131,30 @@ int32_t hooke_springs_create(const struct hooke_group *group, int64_t group_coun
   return HOOKE_OK;
 }
 
-void hooke_springs_drop_material(struct hooke_springs *springs) {
-  hooke_free(springs->kappa);
-  hooke_free(springs->gamma);
-  hooke_free(springs->rest_length);
+void hk_springs_drop_material(struct hk_springs *springs) {
+  hk_free(springs->kappa);
+  hk_free(springs->gamma);
+  hk_free(springs->rest_length);
   springs->kappa = springs->gamma = springs->rest_length = NULL;
   springs->mixed_count = 0;
 }
 
-void hooke_springs_release(struct hooke_springs *springs) {
-  hooke_springs_drop_material(springs);
-  hooke_free(springs->run);
-  hooke_free(springs->head);
-  hooke_free(springs->tail);
+void hk_springs_release(struct hk_springs *springs) {
+  hk_springs_drop_material(springs);
+  hk_free(springs->run);
+  hk_free(springs->head);
+  hk_free(springs->tail);
   memset(springs, 0, sizeof *springs);
 }
 
-int32_t hooke_springs_are_damped(const struct hooke_springs *springs) {
+int32_t hk_springs_are_damped(const struct hk_springs *springs) {
   for (int64_t k = 0; k < springs->run_count; k++) {
     if (springs->run[k].shape & HOOKE_RUN_DAMPED) return 1;
   }
   return 0;
 }
 
-int64_t hooke_springs_memory(const struct hooke_springs *springs) {
+int64_t hk_springs_memory(const struct hk_springs *springs) {
   return springs->run_count * (int64_t)sizeof *springs->run +
          springs->indexed_count * (int64_t)(2 * sizeof(int32_t)) +
          springs->mixed_count * (int64_t)(3 * sizeof(double));

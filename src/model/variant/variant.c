@@ -5,29 +5,29 @@
 
 #include <string.h>
 
-void hooke_variant_release(struct hooke_variant *variant) {
-  hooke_free(variant->group);
-  hooke_free(variant->spring);
-  hooke_free(variant->bending);
-  hooke_free(variant->altitude);
-  hooke_free(variant->particle);
-  hooke_free(variant->part);
-  hooke_free(variant->scale);
+void hk_variant_release(struct hk_variant *variant) {
+  hk_free(variant->group);
+  hk_free(variant->spring);
+  hk_free(variant->bending);
+  hk_free(variant->altitude);
+  hk_free(variant->particle);
+  hk_free(variant->part);
+  hk_free(variant->scale);
   memset(variant, 0, sizeof *variant);
 }
 
-int32_t hooke_variant_create(const hooke_system *system, struct hooke_variant *variant) {
+int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant) {
   memset(variant, 0, sizeof *variant);
-  variant->group = hooke_new(system->group_count, 1);
-  variant->spring = hooke_new(system->springs.count, 1);
-  variant->bending = hooke_new(system->bending_group_count, 1);
-  variant->altitude = hooke_new(system->altitude_group_count, 1);
-  variant->particle = hooke_new(system->particle_count, 1);
-  variant->part = hooke_new(system->part_count, 1);
-  variant->scale = hooke_new(system->part_count, sizeof(double));
+  variant->group = hk_new(system->group_count, 1);
+  variant->spring = hk_new(system->springs.count, 1);
+  variant->bending = hk_new(system->bending_group_count, 1);
+  variant->altitude = hk_new(system->altitude_group_count, 1);
+  variant->particle = hk_new(system->particle_count, 1);
+  variant->part = hk_new(system->part_count, 1);
+  variant->scale = hk_new(system->part_count, sizeof(double));
   if (!variant->group || !variant->spring || !variant->bending || !variant->altitude || !variant->particle ||
       !variant->part || !variant->scale) {
-    hooke_variant_release(variant);
+    hk_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
   for (int64_t k = 0; k < system->part_count; k++)
@@ -41,8 +41,7 @@ static void join(int64_t count, uint8_t *flag, const uint8_t *other) {
     flag[k] |= other[k];
 }
 
-void hooke_variant_join(const hooke_system *system, struct hooke_variant *variant,
-                        const struct hooke_variant *other) {
+void hk_variant_join(const hooke_system *system, struct hk_variant *variant, const struct hk_variant *other) {
   variant->gravity |= other->gravity;
   variant->drag |= other->drag;
   variant->force |= other->force;
@@ -58,11 +57,11 @@ void hooke_variant_join(const hooke_system *system, struct hooke_variant *varian
     variant->scale[k] *= other->scale[k];
 }
 
-static int32_t covers_springs(const hooke_system *system, const struct hooke_variant *variant,
-                              const struct hooke_variant *other) {
+static int32_t covers_springs(const hooke_system *system, const struct hk_variant *variant,
+                              const struct hk_variant *other) {
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
-    const struct hooke_group *group = &system->group[g];
+    const struct hk_group *group = &system->group[g];
     if (variant->group[g] || (group->from_part && variant->part[group->part])) continue;
     if (other->group[g]) return 0;
     for (int64_t s = first; s < first + group->count; s++) {
@@ -72,19 +71,19 @@ static int32_t covers_springs(const hooke_system *system, const struct hooke_var
   return 1;
 }
 
-int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_variant *variant,
-                             const struct hooke_variant *other) {
+int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *variant,
+                          const struct hk_variant *other) {
   int32_t covered = other->gravity <= variant->gravity && other->drag <= variant->drag &&
                     other->force <= variant->force && other->damping <= variant->damping &&
                     other->compression <= variant->compression;
   for (int64_t k = 0; k < system->part_count && covered; k++)
     covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
   for (int64_t g = 0; g < system->bending_group_count && covered; g++) {
-    const struct hooke_bending_group *group = &system->bending_group[g];
+    const struct hk_bending_group *group = &system->bending_group[g];
     covered = other->bending[g] <= variant->bending[g] || (group->from_part && variant->part[group->part]);
   }
   for (int64_t g = 0; g < system->altitude_group_count && covered; g++) {
-    const struct hooke_altitude_group *group = &system->altitude_group[g];
+    const struct hk_altitude_group *group = &system->altitude_group[g];
     covered = other->altitude[g] <= variant->altitude[g] || (group->from_part && variant->part[group->part]);
   }
   for (int64_t p = 0; p < system->particle_count && covered; p++)
@@ -93,17 +92,16 @@ int32_t hooke_variant_covers(const hooke_system *system, const struct hooke_vari
 }
 
 /* In a part of another resolution all springs stay. */
-static int32_t is_split(const hooke_system *system, const struct hooke_variant *variant, int64_t g,
+static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
-  const struct hooke_group *group = &system->group[g];
+  const struct hk_group *group = &system->group[g];
   if (!group->from_part || variant->group[g] || variant->part[group->part]) return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
   const uint8_t *spring = variant->spring + first;
   return memchr(spring, 0, (size_t)group->count) != NULL && memchr(spring, 1, (size_t)group->count) != NULL;
 }
 
-int64_t hooke_variant_next_split(const hooke_system *system, const struct hooke_variant *variant,
-                                 int64_t group) {
+int64_t hk_variant_next_split(const hooke_system *system, const struct hk_variant *variant, int64_t group) {
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
     if (g >= group && is_split(system, variant, g, first)) return g;
@@ -112,20 +110,20 @@ int64_t hooke_variant_next_split(const hooke_system *system, const struct hooke_
 }
 
 /* A callback of the caller's knows particles by their numbers. */
-static int32_t check_callbacks(const hooke_system *from, const struct hooke_variant *variant) {
+static int32_t check_callbacks(const hooke_system *from, const struct hk_variant *variant) {
   int32_t renumbered = 0;
   for (int64_t k = 0; k < from->particle_count; k++)
     renumbered |= variant->particle[k];
   for (int64_t k = 0; k < from->part_count; k++)
     renumbered |= variant->part[k] || variant->scale[k] != 1.0;
   if (!renumbered || !from->force || variant->force) return HOOKE_OK;
-  return hooke_fail(HOOKE_UNSUITED, NULL,
-                    "a force callback knows particles by their numbers, which would change");
+  return hk_fail(HOOKE_UNSUITED, NULL,
+                 "a force callback knows particles by their numbers, which would change");
 }
 
-static int32_t add_forces(const struct hooke_variant_maker *maker) {
+static int32_t add_forces(const struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
-  const struct hooke_variant *variant = maker->variant;
+  const struct hk_variant *variant = maker->variant;
   int32_t status = HOOKE_OK;
   if (from->has_gravity && !variant->gravity) status = hooke_system_set_gravity(maker->made, from->gravity);
   if (status == HOOKE_OK && !variant->drag) status = hooke_system_set_drag(maker->made, from->drag);
@@ -156,20 +154,20 @@ static void add_velocity(hooke_system *made, const double velocity[3]) {
     if (!made->held[i / 3]) made->velocity[i] += velocity[i % 3];
 }
 
-int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant *variant, hooke_system **made,
-                           struct hooke_variant_map *map) {
-  struct hooke_variant_maker maker = {from, variant, NULL, map};
-  *map = (struct hooke_variant_map){.from = from};
+int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
+                        struct hk_variant_map *map) {
+  struct hk_variant_maker maker = {from, variant, NULL, map};
+  *map = (struct hk_variant_map){.from = from};
   *made = NULL;
-  int32_t status = hooke_system_require_committed(from);
+  int32_t status = hk_system_require_committed(from);
   if (status == HOOKE_OK) status = check_callbacks(from, variant);
   if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
-  if (status == HOOKE_OK) status = hooke_variant_add_particles(&maker);
-  if (status == HOOKE_OK) status = hooke_variant_hold(&maker);
-  if (status == HOOKE_OK) status = hooke_variant_add_springs(&maker);
-  if (status == HOOKE_OK) status = hooke_variant_add_bending(&maker);
-  if (status == HOOKE_OK) status = hooke_variant_add_altitude(&maker);
+  if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
+  if (status == HOOKE_OK) status = hk_variant_hold(&maker);
+  if (status == HOOKE_OK) status = hk_variant_add_springs(&maker);
+  if (status == HOOKE_OK) status = hk_variant_add_bending(&maker);
+  if (status == HOOKE_OK) status = hk_variant_add_altitude(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
@@ -180,7 +178,7 @@ int32_t hooke_variant_make(const hooke_system *from, const struct hooke_variant 
     *made = maker.made;
   } else {
     hooke_system_destroy(maker.made);
-    hooke_variant_map_release(map);
+    hk_variant_map_release(map);
   }
   return status;
 }

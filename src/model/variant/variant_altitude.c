@@ -4,7 +4,7 @@
 #include "core/memory.h"
 
 /* In the numbers of the variant, and as it has its springs; 0 where a corner is not there, or two have become one. */
-static int32_t take_over(const struct hooke_variant_maker *maker, struct hooke_tetrahedron *t) {
+static int32_t take_over(const struct hk_variant_maker *maker, struct hk_tetrahedron *t) {
   for (int e = 0; e < 4; e++) {
     const int64_t to = maker->map->to[t->particle[e]];
     if (to < 0) return 0;
@@ -18,9 +18,9 @@ static int32_t take_over(const struct hooke_variant_maker *maker, struct hooke_t
   return 1;
 }
 
-static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_altitude_group *group,
-                         const struct hooke_tetrahedron *from) {
-  struct hooke_tetrahedron *tetrahedron = hooke_new(group->count, sizeof *tetrahedron);
+static int32_t add_group(struct hk_variant_maker *maker, const struct hk_altitude_group *group,
+                         const struct hk_tetrahedron *from) {
+  struct hk_tetrahedron *tetrahedron = hk_new(group->count, sizeof *tetrahedron);
   if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
   int64_t count = 0;
   for (int64_t k = 0; k < group->count; k++) {
@@ -28,12 +28,12 @@ static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_a
     count += take_over(maker, &tetrahedron[count]);
   }
   int32_t status = HOOKE_OK;
-  if (count > 0) status = hooke_system_add_tetrahedra(maker->made, group->name, 0, count, tetrahedron);
-  hooke_free(tetrahedron);
+  if (count > 0) status = hk_system_add_tetrahedra(maker->made, group->name, 0, count, tetrahedron);
+  hk_free(tetrahedron);
   return status;
 }
 
-int32_t hooke_variant_add_altitude(struct hooke_variant_maker *maker) {
+int32_t hk_variant_add_altitude(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;
   int64_t first = 0;

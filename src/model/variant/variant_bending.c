@@ -4,12 +4,12 @@
 #include "core/memory.h"
 
 /* The triples from `first` to before `end` whose particles are all there, in the numbers of the variant; how many. */
-static int64_t collect(const struct hooke_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
+static int64_t collect(const struct hk_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
                        double *coefficient) {
-  struct hooke_triples at = {.bending = &maker->from->bending};
-  struct hooke_triple triple;
+  struct hk_triples at = {.bending = &maker->from->bending};
+  struct hk_triple triple;
   int64_t count = 0;
-  for (int64_t k = 0; k < end && hooke_next_triple(&at, &triple); k++) {
+  for (int64_t k = 0; k < end && hk_next_triple(&at, &triple); k++) {
     int32_t there = k >= first;
     for (int e = 0; e < 3 && there; e++) {
       ends[3 * count + e] = maker->map->to[triple.particle[e]];
@@ -22,22 +22,22 @@ static int64_t collect(const struct hooke_variant_maker *maker, int64_t first, i
   return count;
 }
 
-static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_bending_group *group,
+static int32_t add_group(struct hk_variant_maker *maker, const struct hk_bending_group *group,
                          int64_t first) {
-  int64_t *ends = hooke_new(3 * group->count + 3, sizeof *ends);
-  double *coefficient = hooke_new(group->count, sizeof *coefficient);
+  int64_t *ends = hk_new(3 * group->count + 3, sizeof *ends);
+  double *coefficient = hk_new(group->count, sizeof *coefficient);
   int32_t status = ends && coefficient ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
     const int64_t count = collect(maker, first, first + group->count, ends, coefficient);
     if (count > 0)
       status = hooke_system_add_bending(maker->made, group->name, count, ends, count, coefficient);
   }
-  hooke_free(ends);
-  hooke_free(coefficient);
+  hk_free(ends);
+  hk_free(coefficient);
   return status;
 }
 
-int32_t hooke_variant_add_bending(struct hooke_variant_maker *maker) {
+int32_t hk_variant_add_bending(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;
   int64_t first = 0;

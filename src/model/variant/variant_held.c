@@ -10,7 +10,7 @@ enum { FREE = 0, PINNED = 1, DRIVEN = 2 }; /* DRIVEN + k: by drive k */
 
 /* How each particle of the system is held; NULL without memory. */
 static int64_t *how_held(const hooke_system *system) {
-  int64_t *how = hooke_new(system->particle_count, sizeof *how);
+  int64_t *how = hk_new(system->particle_count, sizeof *how);
   if (how == NULL) return NULL;
   for (int64_t k = 0; k < system->held_count; k++)
     how[system->held_particle[k]] = PINNED;
@@ -22,23 +22,23 @@ static int64_t *how_held(const hooke_system *system) {
 }
 
 /* What all the particles have in common that one of a part at another resolution lies between. */
-static int64_t held_between(const struct hooke_variant_part *part, const int64_t *how, int64_t offset) {
-  struct hooke_variant_part back = *part;
+static int64_t held_between(const struct hk_variant_part *part, const int64_t *how, int64_t offset) {
+  struct hk_variant_part back = *part;
   int64_t corner[8];
   double weight[8];
   memcpy(back.cells, part->made, sizeof back.cells);
   memcpy(back.made, part->cells, sizeof back.made);
-  const int32_t count = hooke_variant_corners(&back, offset, corner, weight);
+  const int32_t count = hk_variant_corners(&back, offset, corner, weight);
   for (int32_t c = 1; c < count; c++) {
     if (how[corner[c]] != how[corner[0]]) return FREE;
   }
   return how[corner[0]];
 }
 
-static void carry_over(const struct hooke_variant_maker *maker, const int64_t *how, int64_t *made) {
+static void carry_over(const struct hk_variant_maker *maker, const int64_t *how, int64_t *made) {
   const hooke_system *from = maker->from;
   for (int64_t k = 0; k < from->part_count; k++) {
-    const struct hooke_variant_part *part = &maker->map->part[k];
+    const struct hk_variant_part *part = &maker->map->part[k];
     if (part->first < 0 || part->axes == 0) continue;
     for (int64_t p = 0; p < part->count; p++)
       made[part->first + p] = held_between(part, how + from->part[k].first, p);
@@ -48,7 +48,7 @@ static void carry_over(const struct hooke_variant_maker *maker, const int64_t *h
   }
 }
 
-static int32_t add_drive(hooke_system *made, const struct hooke_drive_group *drive, int64_t count,
+static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive, int64_t count,
                          const int64_t *particle) {
   switch (drive->kind) {
   case HOOKE_DRIVE_HARMONIC:
@@ -60,16 +60,16 @@ static int32_t add_drive(hooke_system *made, const struct hooke_drive_group *dri
     break;
   }
   if (count != drive->count) {
-    return hooke_fail(HOOKE_UNSUITED, NULL, "a drive callback moves %lld particles, which would become %lld",
-                      (long long)drive->count, (long long)count);
+    return hk_fail(HOOKE_UNSUITED, NULL, "a drive callback moves %lld particles, which would become %lld",
+                   (long long)drive->count, (long long)count);
   }
   return hooke_system_drive_callback(made, count, particle, drive->callback, drive->ctx);
 }
 
 /* In the order of the drive where particles are the same, which its callback knows. */
-static int64_t list_driven(const struct hooke_variant_maker *maker, int64_t d, const int64_t *how,
+static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, const int64_t *how,
                            int64_t *list) {
-  const struct hooke_drive_group *drive = &maker->from->drive[d];
+  const struct hk_drive_group *drive = &maker->from->drive[d];
   int64_t count = 0;
   if (drive->kind == HOOKE_DRIVE_CALLBACK) {
     for (int64_t k = 0; k < drive->count; k++) {
@@ -84,13 +84,12 @@ static int64_t list_driven(const struct hooke_variant_maker *maker, int64_t d, c
   return count;
 }
 
-int32_t hooke_variant_hold(struct hooke_variant_maker *maker) {
+int32_t hk_variant_hold(struct hk_variant_maker *maker) {
   const int64_t n = maker->made->particle_count;
   int64_t most = n;
   for (int64_t d = 0; d < maker->from->drive_count; d++)
     most = maker->from->drive[d].count > most ? maker->from->drive[d].count : most;
-  int64_t *how = how_held(maker->from), *made = hooke_new(n, sizeof *made),
-          *list = hooke_new(most, sizeof *list);
+  int64_t *how = how_held(maker->from), *made = hk_new(n, sizeof *made), *list = hk_new(most, sizeof *list);
   int32_t status = how && made && list ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) {
     carry_over(maker, how, made);
@@ -104,8 +103,8 @@ int32_t hooke_variant_hold(struct hooke_variant_maker *maker) {
     const int64_t count = list_driven(maker, d, made, list);
     if (count > 0) status = add_drive(maker->made, &maker->from->drive[d], count, list);
   }
-  hooke_free(how);
-  hooke_free(made);
-  hooke_free(list);
+  hk_free(how);
+  hk_free(made);
+  hk_free(list);
   return status;
 }

@@ -6,14 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-void hooke_variant_map_release(struct hooke_variant_map *map) {
-  hooke_free(map->to);
-  hooke_free(map->part);
+void hk_variant_map_release(struct hk_variant_map *map) {
+  hk_free(map->to);
+  hk_free(map->part);
   memset(map, 0, sizeof *map);
 }
 
-int32_t hooke_variant_cells(const struct hooke_part_record *part, double scale, int64_t cells[3],
-                            int64_t made[3]) {
+int32_t hk_variant_cells(const struct hk_part_record *part, double scale, int64_t cells[3], int64_t made[3]) {
   const int32_t axes = part->grid ? part->grid->cells(part->options, cells) : 0;
   for (int32_t a = 0; a < axes; a++)
     made[a] = (int64_t)fmax(1.0, round((double)cells[a] * scale));
@@ -31,11 +30,11 @@ static int64_t part_of(const hooke_system *system, int64_t particle) {
       high = middle - 1;
   }
   if (high < 0) return -1;
-  const struct hooke_part_record *part = &system->part[low];
+  const struct hk_part_record *part = &system->part[low];
   return particle >= part->first && particle < part->first + part->count ? low : -1;
 }
 
-int64_t hooke_variant_nearest(const struct hooke_variant_part *part, int64_t offset) {
+int64_t hk_variant_nearest(const struct hk_variant_part *part, int64_t offset) {
   int64_t nearest = 0, stride = 1;
   for (int32_t a = 0; a < part->axes; a++) {
     const int64_t index = offset % (part->cells[a] + 1);
@@ -46,8 +45,8 @@ int64_t hooke_variant_nearest(const struct hooke_variant_part *part, int64_t off
   return nearest;
 }
 
-int32_t hooke_variant_corners(const struct hooke_variant_part *part, int64_t offset, int64_t corner[8],
-                              double weight[8]) {
+int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, int64_t corner[8],
+                           double weight[8]) {
   int32_t count = 1;
   int64_t stride = 1;
   corner[0] = 0;
@@ -71,18 +70,18 @@ int32_t hooke_variant_corners(const struct hooke_variant_part *part, int64_t off
   return count;
 }
 
-int32_t hooke_variant_is_same(const struct hooke_variant_map *map, int64_t particle) {
+int32_t hk_variant_is_same(const struct hk_variant_map *map, int64_t particle) {
   const int64_t of = part_of(map->from, particle);
   return map->to[particle] >= 0 && (of < 0 || map->part[of].axes == 0);
 }
 
-void hooke_variant_place(const struct hooke_variant_map *map, int64_t particle, const double *q,
-                         double position[3]) {
+void hk_variant_place(const struct hk_variant_map *map, int64_t particle, const double *q,
+                      double position[3]) {
   if (map->to[particle] < 0) {
     position[0] = position[1] = position[2] = NAN;
     return;
   }
-  if (hooke_variant_is_same(map, particle)) {
+  if (hk_variant_is_same(map, particle)) {
     memcpy(position, q + 3 * map->to[particle], 3 * sizeof(double));
     return;
   }
@@ -90,7 +89,7 @@ void hooke_variant_place(const struct hooke_variant_map *map, int64_t particle, 
   int64_t corner[8];
   double weight[8];
   const int32_t count =
-      hooke_variant_corners(&map->part[of], particle - map->from->part[of].first, corner, weight);
+      hk_variant_corners(&map->part[of], particle - map->from->part[of].first, corner, weight);
   position[0] = position[1] = position[2] = 0.0;
   for (int32_t k = 0; k < count; k++) {
     const double *at = q + 3 * (map->part[of].first + corner[k]);

@@ -15,38 +15,37 @@ static const char *family_of(const char *group) {
 }
 
 /* Families of which groups or single springs are left out; what is left of them is added later, as groups. */
-static int32_t leave_families_out(const struct hooke_variant_maker *maker, int64_t part,
+static int32_t leave_families_out(const struct hk_variant_maker *maker, int64_t part,
                                   hooke_options *options) {
   const hooke_system *from = maker->from;
   int64_t first = 0;
   for (int64_t g = 0; g < from->group_count; first += from->group[g++].count) {
-    const struct hooke_group *group = &from->group[g];
+    const struct hk_group *group = &from->group[g];
     if (!group->from_part || group->part != part) continue;
-    const int32_t out = maker->variant->group[g] || hooke_variant_breaks_up(maker, group, first);
+    const int32_t out = maker->variant->group[g] || hk_variant_breaks_up(maker, group, first);
     const int32_t status = out ? hooke_options_unset(options, family_of(group->name)) : HOOKE_OK;
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
 }
 
-static int32_t leave_bending_out(const struct hooke_variant_maker *maker, int64_t part,
-                                 hooke_options *options) {
+static int32_t leave_bending_out(const struct hk_variant_maker *maker, int64_t part, hooke_options *options) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < from->bending_group_count && status == HOOKE_OK; g++) {
-    const struct hooke_bending_group *group = &from->bending_group[g];
+    const struct hk_bending_group *group = &from->bending_group[g];
     if (group->from_part && group->part == part && maker->variant->bending[g])
       status = hooke_options_unset(options, family_of(group->name));
   }
   return status;
 }
 
-static int32_t leave_altitude_out(const struct hooke_variant_maker *maker, int64_t part,
+static int32_t leave_altitude_out(const struct hk_variant_maker *maker, int64_t part,
                                   hooke_options *options) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < from->altitude_group_count && status == HOOKE_OK; g++) {
-    const struct hooke_altitude_group *group = &from->altitude_group[g];
+    const struct hk_altitude_group *group = &from->altitude_group[g];
     if (group->from_part && group->part == part && maker->variant->altitude[g])
       status = hooke_options_unset(options, family_of(group->name));
   }
@@ -59,13 +58,13 @@ static int ends_in(const char *name, const char *ending) {
 }
 
 /* Damping and compression of all families that are there. */
-static int32_t change_families(const struct hooke_variant *variant, hooke_options *options) {
+static int32_t change_families(const struct hk_variant *variant, hooke_options *options) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
     const char *name = hooke_options_row(options, k, "name");
     char family[64];
     snprintf(family, sizeof family, "%.*s", (int)strcspn(name, "."), name);
-    if (!hooke_options_has_family(options, family)) continue;
+    if (!hk_options_has_family(options, family)) continue;
     if (variant->damping && (ends_in(name, ".damping") || ends_in(name, ".damping_ratio"))) {
       status = hooke_options_unset(options, name);
     } else if (variant->compression && ends_in(name, ".compression")) {
@@ -75,9 +74,9 @@ static int32_t change_families(const struct hooke_variant *variant, hooke_option
   return status;
 }
 
-/* Held particles by number are held again by what they stand for; see hooke_variant_hold(). */
-static int32_t change_resolution(const struct hooke_part_record *record,
-                                 const struct hooke_variant_part *part, hooke_options *options) {
+/* Held particles by number are held again by what they stand for; see hk_variant_hold(). */
+static int32_t change_resolution(const struct hk_part_record *record, const struct hk_variant_part *part,
+                                 hooke_options *options) {
   int32_t status = record->grid->set_cells(options, part->made);
   if (status == HOOKE_OK && hooke_options_number_count(options, "pinned") > 0) {
     status = hooke_options_unset(options, "pinned");
@@ -85,12 +84,12 @@ static int32_t change_resolution(const struct hooke_part_record *record,
   return status;
 }
 
-static int32_t add_part(struct hooke_variant_maker *maker, int64_t k) {
-  const struct hooke_part_record *record = &maker->from->part[k];
-  struct hooke_variant_part *part = &maker->map->part[k];
+static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
+  const struct hk_part_record *record = &maker->from->part[k];
+  struct hk_variant_part *part = &maker->map->part[k];
   const double scale = maker->variant->scale[k];
   hooke_options *options = NULL;
-  part->axes = scale != 1.0 ? hooke_variant_cells(record, scale, part->cells, part->made) : 0;
+  part->axes = scale != 1.0 ? hk_variant_cells(record, scale, part->cells, part->made) : 0;
   int32_t status = hooke_options_copy(record->options, &options);
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
@@ -102,13 +101,13 @@ static int32_t add_part(struct hooke_variant_maker *maker, int64_t k) {
   }
   hooke_options_destroy(options);
   for (int64_t p = 0; p < record->count && status == HOOKE_OK; p++) {
-    maker->map->to[record->first + p] = part->first + (part->axes > 0 ? hooke_variant_nearest(part, p) : p);
+    maker->map->to[record->first + p] = part->first + (part->axes > 0 ? hk_variant_nearest(part, p) : p);
   }
   return status;
 }
 
 /* Those from `first` to before `end`, which are of no part. */
-static int32_t add_alone(struct hooke_variant_maker *maker, int64_t first, int64_t end) {
+static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t end) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;
   while (first < end && status == HOOKE_OK) {
@@ -129,15 +128,15 @@ static int32_t add_alone(struct hooke_variant_maker *maker, int64_t first, int64
   return status;
 }
 
-int32_t hooke_variant_add_particles(struct hooke_variant_maker *maker) {
+int32_t hk_variant_add_particles(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
-  maker->map->to = hooke_new(from->particle_count, sizeof *maker->map->to);
-  maker->map->part = hooke_new(from->part_count, sizeof *maker->map->part);
+  maker->map->to = hk_new(from->particle_count, sizeof *maker->map->to);
+  maker->map->part = hk_new(from->part_count, sizeof *maker->map->part);
   if (!maker->map->to || !maker->map->part) return HOOKE_NO_MEMORY;
   int64_t next = 0;
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < from->part_count && status == HOOKE_OK; k++) {
-    const struct hooke_part_record *record = &from->part[k];
+    const struct hk_part_record *record = &from->part[k];
     status = add_alone(maker, next, record->first);
     next = record->first + record->count;
     if (!maker->variant->part[k]) {

@@ -14,30 +14,30 @@ struct staying {
 };
 
 static void release(struct staying *staying) {
-  hooke_free(staying->ends);
-  hooke_free(staying->kappa);
-  hooke_free(staying->gamma);
-  hooke_free(staying->rest_length);
+  hk_free(staying->ends);
+  hk_free(staying->kappa);
+  hk_free(staying->gamma);
+  hk_free(staying->rest_length);
 }
 
 static int32_t room(int64_t count, struct staying *staying) {
-  staying->ends = hooke_new(2 * count, sizeof(int64_t));
-  staying->kappa = hooke_new(count, sizeof(double));
-  staying->gamma = hooke_new(count, sizeof(double));
-  staying->rest_length = hooke_new(count, sizeof(double));
+  staying->ends = hk_new(2 * count, sizeof(int64_t));
+  staying->kappa = hk_new(count, sizeof(double));
+  staying->gamma = hk_new(count, sizeof(double));
+  staying->rest_length = hk_new(count, sizeof(double));
   return staying->ends && staying->kappa && staying->gamma && staying->rest_length ? HOOKE_OK
                                                                                    : HOOKE_NO_MEMORY;
 }
 
-static void collect(const struct hooke_variant_maker *maker, int64_t first, int64_t end,
+static void collect(const struct hk_variant_maker *maker, int64_t first, int64_t end,
                     struct staying *staying) {
-  const struct hooke_springs *springs = &maker->from->springs;
+  const struct hk_springs *springs = &maker->from->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hooke_run *run = &springs->run[r];
+    const struct hk_run *run = &springs->run[r];
     if (run->first + run->count <= first || run->first >= end) continue;
     for (int64_t k = 0; k < run->count; k++) {
       if (maker->variant->spring[run->first + k]) continue; /* a run is of one group */
-      const struct hooke_spring spring = hooke_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring(run, k);
       const int64_t head = maker->map->to[spring.head], tail = maker->map->to[spring.tail];
       if (head < 0 || tail < 0 || head == tail) continue;
       const int64_t at = staying->count++;
@@ -71,8 +71,7 @@ static int32_t material(const struct staying *staying, hooke_options **options) 
   return status;
 }
 
-static int32_t given(const struct hooke_variant *variant, const hooke_options *from,
-                     hooke_options **options) {
+static int32_t given(const struct hk_variant *variant, const hooke_options *from, hooke_options **options) {
   int32_t status = hooke_options_copy(from, options);
   if (status == HOOKE_OK && variant->damping) status = hooke_options_unset(*options, "damping");
   if (status == HOOKE_OK && variant->compression) {
@@ -81,7 +80,7 @@ static int32_t given(const struct hooke_variant *variant, const hooke_options *f
   return status;
 }
 
-static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_group *group, int64_t first) {
+static int32_t add_group(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
   struct staying staying = {.count = 0};
   hooke_options *options = NULL;
   int32_t status = room(group->count, &staying);
@@ -101,7 +100,7 @@ static int32_t add_group(struct hooke_variant_maker *maker, const struct hooke_g
 }
 
 /* A group that had nothing but springs of no strength keeps its place. */
-static int32_t add_empty_group(struct hooke_variant_maker *maker, const struct hooke_group *group) {
+static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_group *group) {
   hooke_options *options = NULL;
   int32_t status = hooke_spring_options_create(&options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", 0.0);
@@ -110,8 +109,8 @@ static int32_t add_empty_group(struct hooke_variant_maker *maker, const struct h
   return status;
 }
 
-int32_t hooke_variant_breaks_up(const struct hooke_variant_maker *maker, const struct hooke_group *group,
-                                int64_t first) {
+int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
+                             int64_t first) {
   if (maker->map->part[group->part].axes > 0) return 0;
   for (int64_t k = 0; k < group->count; k++) {
     if (maker->variant->spring[first + k]) return 1;
@@ -119,12 +118,12 @@ int32_t hooke_variant_breaks_up(const struct hooke_variant_maker *maker, const s
   return 0;
 }
 
-int32_t hooke_variant_add_springs(struct hooke_variant_maker *maker) {
+int32_t hk_variant_add_springs(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   int64_t first = 0;
   for (int64_t g = 0; g < from->group_count; first += from->group[g++].count) {
-    const struct hooke_group *group = &from->group[g];
-    if (maker->variant->group[g] || (group->from_part && !hooke_variant_breaks_up(maker, group, first)))
+    const struct hk_group *group = &from->group[g];
+    if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
       continue;
     const int32_t status = group->count == 0 ? add_empty_group(maker, group) : add_group(maker, group, first);
     if (status != HOOKE_OK) return status;
