@@ -9,8 +9,8 @@ struct baseline;
 /* 1 if there is such a loop: for forward-euler, symplectic-euler, rk4, and without damping verlet. */
 int baseline_has(const char *method, int is_damped);
 
-/* Steps of `method` under springs, their damping, and gravity, from a copy of `state` on; NULL without memory. A system
- * without damping has loops that read no velocity. */
+/* Steps of `method` under springs, their damping, and gravity, from a copy of `state` on; NULL without
+ * memory. A system without damping has loops that read no velocity. */
 struct baseline *baseline_create(const hooke_system *system, const hooke_state *state, const char *method);
 void baseline_destroy(struct baseline *baseline);
 

@@ -1,5 +1,6 @@
-/* What subnormal numbers cost: the time for one spring in one step of a cloth whose motion has decayed into them, against
- * that of the same cloth at ordinary speeds. Prints nanoseconds for a spring-step, the least of several turns.
+/* What subnormal numbers cost: the time for one spring in one step of a cloth whose motion has decayed into
+ * them, against that of the same cloth at ordinary speeds. Prints nanoseconds for a spring-step, the least of
+ * several turns.
  *
  *   denormals [side [turns]] */
 #include "hooke.h"

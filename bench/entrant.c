@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of a turn, that loading and storing a state should not show, unless they take longer than a few turns. */
+/* Steps of a turn, that loading and storing a state should not show, unless they take longer than a few
+ * turns. */
 enum { LEAST_STEPS = 5, ENOUGH_STEPS = 50, FEW = 10 };
 
 struct entrant {

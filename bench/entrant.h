@@ -8,7 +8,8 @@ enum { MOST_TURNS = 400 };
 
 struct entrant;
 
-/* A status; *entrant is for the caller to destroy even if it failed. `system` must outlive it, `start` is copied. */
+/* A status; *entrant is for the caller to destroy even if it failed. `system` must outlive it, `start` is
+ * copied. */
 int32_t entrant_create(const hooke_system *system, const hooke_state *start, const char *method,
                        int32_t threads, double step, struct entrant **entrant);
 int32_t entrant_create_plain(const hooke_system *system, const hooke_state *start, const char *method,

@@ -82,7 +82,8 @@ static double together(struct worker *worker, int32_t threads, void *(*work)(voi
   return started + 1 == threads ? bench_seconds() - begun : 0.0;
 }
 
-/* The least time of a turn, over the `count` things that all threads do in it; 0 if threads could not be started. */
+/* The least time of a turn, over the `count` things that all threads do in it; 0 if threads could not be
+ * started. */
 static double least(struct worker *worker, int32_t threads, void *(*work)(void *), double count) {
   double best = INFINITY;
   for (int turn = 0; turn < TURNS; turn++)

@@ -37,8 +37,8 @@ static int32_t read_springs(struct race *race, double *shortest) {
   return status;
 }
 
-/* Scenes are built at their rest lengths, where motions agree whatever the springs do. So free particles are moved by up
- * to a hundredth of the shortest. */
+/* Scenes are built at their rest lengths, where motions agree whatever the springs do. So free particles are
+ * moved by up to a hundredth of the shortest. */
 static int32_t shake(struct race *race) {
   double shortest;
   const int32_t status = read_springs(race, &shortest);
@@ -52,8 +52,8 @@ static int32_t shake(struct race *race) {
   return HOOKE_OK;
 }
 
-/* Half of what is certain to be stable; where nothing limits the method, as much as symplectic Euler takes. 0: no step is
- * stable. */
+/* Half of what is certain to be stable; where nothing limits the method, as much as symplectic Euler takes.
+ * 0: no step is stable. */
 static int32_t choose_step(const struct race *race, const char *method, double *step) {
   const double *q = hooke_state_position(race->start);
   double bound = 0.0;
@@ -116,8 +116,8 @@ static double largest_distance(const struct race *race, const double *a, const d
   return most;
 }
 
-/* A stable step adds some units in the last place of a coordinate, to positions and, in units of what a step moves, to
- * velocities, which the next steps add up. */
+/* A stable step adds some units in the last place of a coordinate, to positions and, in units of what a step
+ * moves, to velocities, which the next steps add up. */
 static double rounding(const struct race *race, const double *q) {
   double largest = 0.0;
   for (int64_t k = 0; k < hooke_state_size(race->start); k++)

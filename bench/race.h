@@ -31,8 +31,8 @@ struct race_row {
   double allowed; /* what rounding explains of it [m] */
 };
 
-/* A row for each number of threads and each method that has a stable step on the scene; `row` has room for MOST_ROWS. A
- * status; HOOKE_DIVERGED where what was timed did not stay finite. */
+/* A row for each number of threads and each method that has a stable step on the scene; `row` has room for
+ * MOST_ROWS. A status; HOOKE_DIVERGED where what was timed did not stay finite. */
 int32_t race_run(const struct bench_scene *scene, const struct race_request *request, struct race_row *row,
                  int *count);
 

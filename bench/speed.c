@@ -1,10 +1,10 @@
-/* Cost of a step, for each spring of a scene, against a plain loop over an array of springs and against what the machine
- * can do; docs/performance.md says how to read it.
+/* Cost of a step, for each spring of a scene, against a plain loop over an array of springs and against what
+ * the machine can do; docs/performance.md says how to read it.
  *
  *   speed [--seconds S] [--methods M,...] [--threads N,...] [--csv | --markdown] [SCENE ...]
  *
- * S seconds (2) are the time for the turns of each row. By itself: all scenes with symplectic Euler, and some of them with
- * other explicit methods. Ends with 1 if the library and the plain loop do not move alike. */
+ * S seconds (2) are the time for the turns of each row. By itself: all scenes with symplectic Euler, and some
+ * of them with other explicit methods. Ends with 1 if the library and the plain loop do not move alike. */
 #include "table.h"
 
 #include <stdio.h>
@@ -20,7 +20,8 @@ struct arguments {
   const char *name[MOST_NAMES];
 };
 
-/* Without damping; with it, steps of verlet are solved for. Forward Euler is stable at no step of these scenes. */
+/* Without damping; with it, steps of verlet are solved for. Forward Euler is stable at no step of these
+ * scenes. */
 static const char *const explicit_methods[] = {"symplectic-euler", "rk4", "verlet"};
 
 static int read_methods(char *list, struct race_request *request) {

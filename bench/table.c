@@ -8,7 +8,8 @@
 /* Additions and multiplications of one spring, those with which its force is added to both ends included. */
 static const double OPERATIONS = 20.0, OPERATIONS_OF_DAMPING = 11.0;
 
-/* What a step has to move where nothing stays in a cache: positions and velocities in and out, inverse masses in. */
+/* What a step has to move where nothing stays in a cache: positions and velocities in and out, inverse masses
+ * in. */
 static const double BYTES_OF_PARTICLE = 13.0 * sizeof(double);
 
 enum {

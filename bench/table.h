@@ -8,8 +8,8 @@
 
 enum table_form { TABLE_TEXT, TABLE_CSV, TABLE_MARKDOWN };
 
-/* The head of the table; of machine and limits the CSV has more in every row. `limits`: one for each number of threads of
- * the request. */
+/* The head of the table; of machine and limits the CSV has more in every row. `limits`: one for each number
+ * of threads of the request. */
 void table_begin(enum table_form form, const struct machine *machine, const struct race_request *request,
                  const struct limits *limits);
 /* `limits`: of as many threads as the row has. */

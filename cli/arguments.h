@@ -1,5 +1,5 @@
-/* The words of the command line: parsed by getopt_long, with the long options of a run, and of what else a verb
- * configures, taken from the library's own option tables. */
+/* The words of the command line: parsed by getopt_long, with the long options of a run, and of what else a
+ * verb configures, taken from the library's own option tables. */
 #ifndef HOOKE_CLI_ARGUMENTS_H
 #define HOOKE_CLI_ARGUMENTS_H
 
@@ -30,8 +30,8 @@ struct cli_arguments {
   int32_t count;
 };
 
-/* Fills `arguments`, which is zeros, with every option that the verb takes (with this `kind`, NULL: none): those of the kind,
- * those of its own table, its own, those of all verbs, those of a run. */
+/* Fills `arguments`, which is zeros, with every option that the verb takes (with this `kind`, NULL: none):
+ * those of the kind, those of its own table, its own, those of all verbs, those of a run. */
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments);
 
 /* Parses what follows the verb (argv[0] is the verb); wrong usage is reported and gives HOOKE_EXIT_USAGE. The

@@ -1,4 +1,5 @@
-/* Files that a verb is to write, looked at before any work, so that a long one is not lost to a wrong name. */
+/* Files that a verb is to write, looked at before any work, so that a long one is not lost to a wrong
+ * name. */
 #ifndef HOOKE_CLI_OUTPUT_FILE_H
 #define HOOKE_CLI_OUTPUT_FILE_H
 

@@ -43,8 +43,8 @@ static int32_t utf8_length(const unsigned char *text) {
   return length;
 }
 
-/* The character at `text`, of `length` bytes, if it commands a terminal, ends a line or turns the direction of writing; 0 if
- * not. */
+/* The character at `text`, of `length` bytes, if it commands a terminal, ends a line or turns the direction
+ * of writing; 0 if not. */
 static uint32_t control(const unsigned char *text, int32_t length) {
   static const struct {
     uint32_t first, last;
@@ -58,7 +58,8 @@ static uint32_t control(const unsigned char *text, int32_t length) {
   return 0;
 }
 
-/* Prints what `text` begins with, one character or a byte that is of none, '?' in place of what may not be; its length. */
+/* Prints what `text` begins with, one character or a byte that is of none, '?' in place of what may not be;
+ * its length. */
 static int32_t print_character(FILE *file, const char *text) {
   const int32_t length = utf8_length((const unsigned char *)text);
   const int plain = length > 0 && control((const unsigned char *)text, length) == 0;

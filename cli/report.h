@@ -9,7 +9,8 @@
 /* Exit code of a status of the library. */
 int cli_exit_code(int32_t status);
 
-/* Exit code of a value of an option that is refused: wrong usage, or, where the values make up a scene, bad input. */
+/* Exit code of a value of an option that is refused: wrong usage, or, where the values make up a scene, bad
+ * input. */
 int cli_refusal(const struct cli_arguments *arguments);
 
 /* Prints "hooke VERB: message" on standard error and, with --json, {"error": {"exit", "message"}} on standard
@@ -32,8 +33,8 @@ struct cli_setting {
   const char *name, *text; /* text NULL: not wanted after all */
 };
 
-/* Prints the command again as one of `verb`, with `settings`, whose end is a NULL name, in place of its own; for another
- * verb than its own, of what was given only the options of a run. */
+/* Prints the command again as one of `verb`, with `settings`, whose end is a NULL name, in place of its own;
+ * for another verb than its own, of what was given only the options of a run. */
 void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
                         const struct cli_setting *settings);
 

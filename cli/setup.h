@@ -16,8 +16,8 @@ struct cli_setup {
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
 
-/* Reports what a run by `method` lacks: a duration, a step, the method itself in this build; the first function a
- * duration alone. */
+/* Reports what a run by `method` lacks: a duration, a step, the method itself in this build; the first
+ * function a duration alone. */
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup);
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method);
@@ -25,8 +25,8 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
 /* `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output);
-/* Before any work: FILE of -o (NULL: none) is not the scene itself, no run is writing it, and for the second function this
- * build can write it as HDF5. */
+/* Before any work: FILE of -o (NULL: none) is not the scene itself, no run is writing it, and for the second
+ * function this build can write it as HDF5. */
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output);
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 

@@ -4,18 +4,20 @@
 
 #include "arguments.h"
 
-/* 1 if giving the option again adds to what was given before: rows of numbers, and lists of words and numbers. */
+/* 1 if giving the option again adds to what was given before: rows of numbers, and lists of words and
+ * numbers. */
 int32_t cli_value_adds_up(const struct cli_argument *argument);
 
-/* Puts `argument->text` into `argument->value`: units of length and time made SI, "64x64" for whole numbers as "64,64", rows
- * "1,0,0;0,0,1" as one list. A failure is reported and gives the exit code. */
+/* Puts `argument->text` into `argument->value`: units of length and time made SI, "64x64" for whole numbers
+ * as "64,64", rows "1,0,0;0,0,1" as one list. A failure is reported and gives the exit code. */
 int cli_value_read(const struct cli_arguments *arguments, struct cli_argument *argument);
 
 /* Gives `argument->value` to its table. */
 int cli_value_set(const struct cli_arguments *arguments, const struct cli_argument *argument);
 
-/* The number in `base` ("m" or "s") given as --`name`, an option of studies, whose table knows what is allowed, where the verb has
- * it as words; `value` stays as it is where it is not given. A failure is reported and gives the exit code. */
+/* The number in `base` ("m" or "s") given as --`name`, an option of studies, whose table knows what is
+ * allowed, where the verb has it as words; `value` stays as it is where it is not given. A failure is
+ * reported and gives the exit code. */
 int cli_value_of_study(const struct cli_arguments *arguments, const char *name, const char *base,
                        double *value);
 

@@ -5,8 +5,8 @@
 #include "print.h"
 #include "setup.h"
 
-/* Finds the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures are reported and
- * come back as exit code, HOOKE_EXIT_INTERRUPTED with the rows found so far. */
+/* Finds the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures
+ * are reported and come back as exit code, HOOKE_EXIT_INTERRUPTED with the rows found so far. */
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
                         hooke_cost **cost);
 

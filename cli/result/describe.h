@@ -28,8 +28,8 @@ const char *cli_describe_table(const struct cli_arguments *arguments, const hook
 /* A whole command that makes a part of the kind at hand, from the examples of its table. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
 
-/* The words that may follow an option, between blanks: methods, choices; "" if it takes anything. `many` is 1 if it
- * takes several, with commas between. */
+/* The words that may follow an option, between blanks: methods, choices; "" if it takes anything. `many` is 1
+ * if it takes several, with commas between. */
 const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
                                int32_t *many);
 

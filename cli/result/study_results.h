@@ -18,7 +18,8 @@ struct cli_study_results {
 /* The rows as a table. */
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results);
 
-/* 1 if there is a recommendation: one that meets the want, or the closest to it of a study that came to its end. */
+/* 1 if there is a recommendation: one that meets the want, or the closest to it of a study that came to its
+ * end. */
 int32_t cli_study_results_recommend(const struct cli_study_results *results);
 
 void cli_study_results_print(const struct cli_study_results *results);

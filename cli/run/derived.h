@@ -1,4 +1,5 @@
-/* What `hooke check` tells of bending, of altitude springs, and of the numbers that parts derived from their materials. */
+/* What `hooke check` tells of bending, of altitude springs, and of the numbers that parts derived from their
+ * materials. */
 #ifndef HOOKE_CLI_DERIVED_H
 #define HOOKE_CLI_DERIVED_H
 

@@ -5,7 +5,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Of /proc/self/status, which counts from the start of this program; getrusage() begins with what the caller had. */
+/* Of /proc/self/status, which counts from the start of this program; getrusage() begins with what the caller
+ * had. */
 struct cli_peak cli_peak_look(void) {
   struct cli_peak peak = {0, 0};
   char line[256];

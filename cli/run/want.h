@@ -4,8 +4,8 @@
 
 #include "run_results.h"
 
-/* Reads --want, refuses it beside a step or a tolerance of the command line, and picks a method and its step or tolerance,
- * with words on what was picked. Without --want nothing. */
+/* Reads --want, refuses it beside a step or a tolerance of the command line, and picks a method and its step
+ * or tolerance, with words on what was picked. Without --want nothing. */
 int cli_want_pick(struct hk_run *run);
 
 /* Has the error of the run that is over measured; without --want by --no-estimate not at all. */

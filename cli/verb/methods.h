@@ -11,8 +11,8 @@ struct cli_methods {
   int32_t count;
 };
 
-/* Those that were asked for, else every method that this build has. One that does not exist, is not in this build or is
- * named twice is reported and comes back as exit code. */
+/* Those that were asked for, else every method that this build has. One that does not exist, is not in this
+ * build or is named twice is reported and comes back as exit code. */
 int cli_methods_choose(const struct cli_arguments *arguments, struct cli_methods *methods);
 
 #endif

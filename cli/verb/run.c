@@ -56,8 +56,8 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs nothing, and a
- * hundredth of the run at most. */
+/* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs
+ * nothing, and a hundredth of the run at most. */
 static int64_t stride(const struct hk_run *run) {
   if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
   int64_t size =
@@ -102,8 +102,8 @@ static int32_t prepare(struct hk_run *run) {
   return hooke_trajectory_write_behind(run->trajectory);
 }
 
-/* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and nobody from
- * numbers that are not finite. */
+/* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and
+ * nobody from numbers that are not finite. */
 static void keep_place(struct hk_run *run) {
   if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);

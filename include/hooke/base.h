@@ -5,20 +5,21 @@
  * in words what went wrong, where, and what is allowed. The library never prints, never exits and keeps no
  * state but this message, which is one per thread.
  *
- * Threads. Any number may call at once, each with objects of its own; a committed system may be shared by all. Files need
- * no care of the caller's: one thread at a time is let into HDF5. A program that uses HDF5 in other threads itself needs
- * one that was built thread-safe.
- * What a program has set is left as it is: errno (after failures, too), rounding mode, treatment of denormals, masks of
- * floating-point exceptions, locale, signals, working folder. Exceptions raise their flags as in any arithmetic, so a program that traps them
- * masks them around its calls. In another rounding mode results are other ones. Numbers are read and written with a
- * decimal point in every locale.
- * Callbacks may leave by longjmp(): the integrator, state and system can then be destroyed or run again from a state of
- * its own, with the same results. Memory that a call had taken for itself is lost, which a run or a step has only where
- * difference quotients stand in for a missing product. An exception of C++ has to be caught inside the callback.
- * Texts are not NULL, unless it says so: HOOKE_BAD_VALUE, or by functions that return no status what they return for an
- * unknown word.
- * Handles. A Debug build (HOOKE_CHECK_HANDLES) refuses an object that was destroyed, never made, or is of another type:
- * HOOKE_BAD_CALL, or -1, NaN, NULL, 0 (no) by functions that return no status. It keeps a list of all objects for it. */
+ * Threads. Any number may call at once, each with objects of its own; a committed system may be shared by
+ * all. Files need no care of the caller's: one thread at a time is let into HDF5. A program that uses HDF5 in
+ * other threads itself needs one that was built thread-safe.
+ * What a program has set is left as it is: errno (after failures, too), rounding mode, treatment of
+ * denormals, masks of floating-point exceptions, locale, signals, working folder. Exceptions raise their
+ * flags as in any arithmetic, so a program that traps them masks them around its calls. In another rounding
+ * mode results are other ones. Numbers are read and written with a decimal point in every locale.
+ * Callbacks may leave by longjmp(): the integrator, state and system can then be destroyed or run again from
+ * a state of its own, with the same results. Memory that a call had taken for itself is lost, which a run or
+ * a step has only where difference quotients stand in for a missing product. An exception of C++ has to be
+ * caught inside the callback. Texts are not NULL, unless it says so: HOOKE_BAD_VALUE, or by functions that
+ * return no status what they return for an unknown word.
+ * Handles. A Debug build (HOOKE_CHECK_HANDLES) refuses an object that was destroyed, never made, or is of
+ * another type: HOOKE_BAD_CALL, or -1, NaN, NULL, 0 (no) by functions that return no status. It keeps a list
+ * of all objects for it. */
 #ifndef HOOKE_BASE_H
 #define HOOKE_BASE_H
 

@@ -8,14 +8,14 @@
  *          faces and the body of each cell), bend (two apart along x, y, z)
  *   mesh   particles at the vertices of a surface of triangles: structural (every edge once), bend (the two vertices
  *          opposite to each other across every edge of two triangles)
- *   strand a hair (Selle, Lentine and Fedkiw 2008) about the axis from `from` to `to`: stretch (neighbours), bend (two apart),
- *          twist (three apart), altitude (hooke_system_add_altitude() on every four consecutive particles); straight, with
- *          an extra particle in each of its `segments`, `offset` segments off the axis, or a helix of radius `curl` with
- *          `turns`
+ *   strand a hair (Selle, Lentine and Fedkiw 2008) about the axis from `from` to `to`: stretch
+ *          (neighbours), bend (two apart), twist (three apart), altitude (hooke_system_add_altitude() on
+ *          every four consecutive particles); straight, with an extra particle in each of its `segments`,
+ *          `offset` segments off the axis, or a helix of radius `curl` with `turns`
  *
- * Rope and cloth have bending along their lines of particles (option `bending`, hooke_system_add_bending()), as a group
- * "<name>.bending". All have one of the options `mass` (shared equally; in a mesh by area) and `density` (by the piece that
- * each particle stands for).
+ * Rope and cloth have bending along their lines of particles (option `bending`, hooke_system_add_bending()),
+ * as a group "<name>.bending". All have one of the options `mass` (shared equally; in a mesh by area) and
+ * `density` (by the piece that each particle stands for).
  *
  * A family that is not named has no springs. Stiffness is that of the strain law, so a finer part of the same
  * material stretches the same. Rest lengths are one per family and direction, from the edges and not from
@@ -38,17 +38,18 @@ HOOKE_API const char *hooke_part_kind_summary(int64_t kind);
 /* Options of a part of this kind, for the caller to set and destroy. HOOKE_BAD_VALUE for an unknown kind. */
 HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
 
-/* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; an unnamed part (NULL or "") is
- * called by its kind and its number among the parts. `first` and `count`, if not NULL, receive its particles.
- * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+/* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; an unnamed
+ * part (NULL or "") is called by its kind and its number among the parts. `first` and `count`, if not NULL,
+ * receive its particles. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
 
-/* Sets the options `vertices` and `triangles` of a mesh: rows of x y z, 3 vertex_count [m], and of three different vertices,
- * 3 triangle_count, from 0. Vertices at the same place become one particle, the first of them (see the option `weld`); the
- * particles are the vertices in the order of their first appearance. The mesh is checked when the part is added: triangles
- * without area, edges of more than two triangles, a triangle given twice, vertices of no triangle are refused.
- * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. Files: hooke_mesh_read() in io.h. */
+/* Sets the options `vertices` and `triangles` of a mesh: rows of x y z, 3 vertex_count [m], and of three
+ * different vertices, 3 triangle_count, from 0. Vertices at the same place become one particle, the first of
+ * them (see the option `weld`); the particles are the vertices in the order of their first appearance. The
+ * mesh is checked when the part is added: triangles without area, edges of more than two triangles, a
+ * triangle given twice, vertices of no triangle are refused. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. Files:
+ * hooke_mesh_read() in io.h. */
 HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                                  int64_t triangle_count, const int64_t *triangles);
 

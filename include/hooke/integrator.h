@@ -3,8 +3,8 @@
  * An integrator is a method with its options and its scratch, made for one system (or one first-order
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
- * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], checkpoint [s], newton, rtol, atol [m],
- * atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
+ * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], checkpoint [s],
+ * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
@@ -31,8 +31,9 @@ typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx
 typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 
 /* ---- methods ----
- * Count and name go over the methods for everyday use. Two more are there to check references with, "rk8pd" (GSL) and
- * "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a name know them too. */
+ * Count and name go over the methods for everyday use. Two more are there to check references with, "rk8pd"
+ * (GSL) and "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a name know them
+ * too. */
 
 HOOKE_API int64_t hooke_method_count(void);
 /* Name of a method, "forward-euler"; NULL past the last. */
@@ -73,15 +74,16 @@ HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_
 /* Called every `stride` >= 1 steps. */
 HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
                                            hooke_observer *observer, void *ctx);
-/* Called at the checkpoints of the option `checkpoint`, after the frame of that time: every so many steps as come nearest to
- * it, at least one; with error control at t0 + k checkpoint, where the method starts anew, whether or not anyone watches.
- * There hooke_checkpoint_write() has everything that the run can go on from. */
+/* Called at the checkpoints of the option `checkpoint`, after the frame of that time: every so many steps as
+ * come nearest to it, at least one; with error control at t0 + k checkpoint, where the method starts anew,
+ * whether or not anyone watches. There hooke_checkpoint_write() has everything that the run can go on
+ * from. */
 HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
                                                  void *ctx);
 
-/* Told between two steps, after every `seconds` >= 0 of work, of the share of `duration` that is done and the method. It costs
- * nothing that can be measured and changes no bits: for a program that has to hear whether it is to stop, or shows progress.
- * Stopping leaves the state of the last whole step. HOOKE_BAD_VALUE. */
+/* Told between two steps, after every `seconds` >= 0 of work, of the share of `duration` that is done and the
+ * method. It costs nothing that can be measured and changes no bits: for a program that has to hear whether
+ * it is to stop, or shows progress. Stopping leaves the state of the last whole step. HOOKE_BAD_VALUE. */
 HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds,
                                                hooke_progress *progress, void *ctx);
 
@@ -91,18 +93,19 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
 HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
 
 /* Runs `duration` from the state's time on, reporting frames; `state` is the final state on return.
- * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the state is
- * that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and drives,
- * the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps; the state
- * is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.
+ * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the
+ * state is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
+ * drives, the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps;
+ * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.
  * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`,
- * one that does not change the time of an error-controlled method, or a state with numbers that are not finite. */
+ * one that does not change the time of an error-controlled method, or a state with numbers that are not
+ * finite. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
-/* Goes on to the end of a run from where hooke_checkpoint_read() placed the integrator and the state, or where an observer or
- * callback stopped a run with a fixed step, as if it had never stopped: the same bits, and the same counts. Frames
- * that were reported are not reported again. Outcomes are those of hooke_integrator_run(); HOOKE_BAD_CALL if there is
- * nothing to go on with. */
+/* Goes on to the end of a run from where hooke_checkpoint_read() placed the integrator and the state, or
+ * where an observer or callback stopped a run with a fixed step, as if it had never stopped: the same bits,
+ * and the same counts. Frames that were reported are not reported again. Outcomes are those of
+ * hooke_integrator_run(); HOOKE_BAD_CALL if there is nothing to go on with. */
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 
 /* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
@@ -117,9 +120,10 @@ HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_stat
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
-/* States of this run that passed the check (see hooke_integrator_run()), for a look at how it went wrong: the last one
- * always, and those before it as far as 16 MB hold them, eight in all at most. `place` 0 is the last, 1 the one before;
- * it is copied into `state`. HOOKE_BAD_VALUE if there is none, or if the state is of another size. */
+/* States of this run that passed the check (see hooke_integrator_run()), for a look at how it went wrong: the
+ * last one always, and those before it as far as 16 MB hold them, eight in all at most. `place` 0 is the
+ * last, 1 the one before; it is copied into `state`. HOOKE_BAD_VALUE if there is none, or if the state is of
+ * another size. */
 HOOKE_API int64_t hooke_integrator_recent_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);

@@ -30,19 +30,19 @@ typedef struct hooke_scene hooke_scene;
  * still be added; the caller owns the scene. HOOKE_BAD_VALUE with "file:line:column: path: what is wrong,
  * what is allowed", also for a file that cannot be opened, the scene's or one that it names; HOOKE_IO_FAILED
  * if reading breaks off; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT.
- * A trajectory file stands for the scene that it was made from, with the options of its run; files that the scene names are
- * then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. */
+ * A trajectory file stands for the scene that it was made from, with the options of its run; files that the
+ * scene names are then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. */
 HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
 
-/* The same from `length` bytes of text; `name` stands for the file in messages (NULL: "scene"), `folder` is where files named
- * in the scene are looked up (NULL: none are allowed). */
+/* The same from `length` bytes of text; `name` stands for the file in messages (NULL: "scene"), `folder` is
+ * where files named in the scene are looked up (NULL: none are allowed). */
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                                     hooke_scene **scene);
 
 /* The same with other limits than those that hold for anybody's scene; NULL: these. `limits` are options of
- * hooke_scene_options_create("limits", ...): "memory" [GB] that the scene may need, without it what the machine has or its
- * limit on the address space; "outside", 1: the scene may name files anywhere. HOOKE_NO_MEMORY says what a scene that is too
- * large would need; it comes before anything is allocated. */
+ * hooke_scene_options_create("limits", ...): "memory" [GB] that the scene may need, without it what the
+ * machine has or its limit on the address space; "outside", 1: the scene may name files anywhere.
+ * HOOKE_NO_MEMORY says what a scene that is too large would need; it comes before anything is allocated. */
 HOOKE_API int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name,
                                            const char *folder, const hooke_options *limits,
@@ -52,22 +52,26 @@ HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, con
  */
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 
-/* Options for the keys of a scene that neither a part, nor springs, nor a run has, for the caller to set and destroy.
- * `what` is "scene" (title, gravity, drag), "particles", "driven", or "limits" of what is loaded. HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
+/* Options for the keys of a scene that neither a part, nor springs, nor a run has, for the caller to set and
+ * destroy. `what` is "scene" (title, gravity, drag), "particles", "driven", or "limits" of what is loaded.
+ * HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
 
-/* Gives the system what options of a "scene" say of it: all but the title. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit. */
+/* Gives the system what options of a "scene" say of it: all but the title. HOOKE_BAD_VALUE, HOOKE_BAD_CALL
+ * after commit. */
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
 
-/* Writes a committed system as a scene file: parts and spring groups by the options that they were made from, the rest
- * number by number, so that loading it gives the same system to the bit. Particles of parts come after the others there.
- * `title` and `run` (options of a run) may be NULL. An older file is replaced when the new one is complete. HOOKE_UNSUITED
- * for a system with callbacks, HOOKE_BAD_CALL before commit, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Writes a committed system as a scene file: parts and spring groups by the options that they were made from,
+ * the rest number by number, so that loading it gives the same system to the bit. Particles of parts come
+ * after the others there. `title` and `run` (options of a run) may be NULL. An older file is replaced when
+ * the new one is complete. HOOKE_UNSUITED for a system with callbacks, HOOKE_BAD_CALL before commit,
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
 
-/* The same as a scene of its own: its text is what would be written, its system is made from that and not committed. `name`
- * and `folder` are as in hooke_scene_parse(); the caller owns the scene. Failures are those of both, but for the file's. */
+/* The same as a scene of its own: its text is what would be written, its system is made from that and not
+ * committed. `name` and `folder` are as in hooke_scene_parse(); the caller owns the scene. Failures are those
+ * of both, but for the file's. */
 HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
                                         const hooke_options *run, const char *name, const char *folder,
                                         hooke_scene **scene);
@@ -83,11 +87,12 @@ HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
 
 /* ---- meshes ---- */
 
-/* Reads an OBJ file into the options of a mesh, as hooke_mesh_set() does: its vertices `v` and its faces `f`, those of more
- * than three corners cut into triangles from their first corner. Texture, normals, names and materials are passed over.
- * The mesh is then checked with the `transform` and `weld` that the options have, so set these before: HOOKE_BAD_VALUE says
- * what is wrong with "file:line: ", its vertices counted from 1 as in the file. Any build can; no library is needed.
- * HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. */
+/* Reads an OBJ file into the options of a mesh, as hooke_mesh_set() does: its vertices `v` and its faces `f`,
+ * those of more than three corners cut into triangles from their first corner. Texture, normals, names and
+ * materials are passed over. The mesh is then checked with the `transform` and `weld` that the options have,
+ * so set these before: HOOKE_BAD_VALUE says what is wrong with "file:line: ", its vertices counted from 1 as
+ * in the file. Any build can; no library is needed. HOOKE_IO_FAILED if reading breaks off,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_mesh_read(const char *path, hooke_options *options);
 
 /* ---- trajectories ---- */
@@ -96,11 +101,11 @@ typedef struct hooke_trajectory hooke_trajectory;
 
 /* Creates an H5MD 1.1 file for all frames that `integrator` is going to report on `system`, sized in advance
  * so that every frame written survives even if the process is killed. An existing file is replaced only when
- * the new one is ready to take frames. `scene_text` may be NULL; of a scene that names files the numbers of `system` are
- * kept in their place, so that the file needs no other (unless the system has callbacks, which no scene can hold).
- * Until it is closed no other run can have the file, here or in another process, and a process that is forked from this one can
- * only close it, which leaves the file alone: HOOKE_BAD_CALL. HOOKE_IO_FAILED, also if another run is writing `path`;
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * the new one is ready to take frames. `scene_text` may be NULL; of a scene that names files the numbers of
+ * `system` are kept in their place, so that the file needs no other (unless the system has callbacks, which
+ * no scene can hold). Until it is closed no other run can have the file, here or in another process, and a
+ * process that is forked from this one can only close it, which leaves the file alone: HOOKE_BAD_CALL.
+ * HOOKE_IO_FAILED, also if another run is writing `path`; HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);
@@ -109,75 +114,79 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 
-/* From here on hooke_trajectory_write() copies a large frame, of 1366 particles or more, and returns; a thread of the
- * trajectory writes it, which takes the memory of one state and calls nothing but the system, no HDF5. The next frame waits
- * until the one before it is there. A failed write is told by the next call; a process that is killed may lose the one frame
- * on its way; the system has to stay as long as the trajectory. Call it before the first frame or later.
- * HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
+/* From here on hooke_trajectory_write() copies a large frame, of 1366 particles or more, and returns; a
+ * thread of the trajectory writes it, which takes the memory of one state and calls nothing but the system,
+ * no HDF5. The next frame waits until the one before it is there. A failed write is told by the next call; a
+ * process that is killed may lose the one frame on its way; the system has to stay as long as the trajectory.
+ * Call it before the first frame or later. HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
-/* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power failure, too. A failure
- * marks the file bad. HOOKE_IO_FAILED. */
+/* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power
+ * failure, too. A failure marks the file bad. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 
-/* Which run the file is of: 32 hexadecimal digits that no other run has, also in the file. Valid as long as the trajectory. */
+/* Which run the file is of: 32 hexadecimal digits that no other run has, also in the file. Valid as long as
+ * the trajectory. */
 HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 
-/* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), shortens the file to the frames it has, and releases
- * it on every path. HOOKE_IO_FAILED. NULL is allowed. */
+/* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), shortens the file to the
+ * frames it has, and releases it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 
-/* Adds what is known of the error of a run to the trajectory file that it wrote, which is closed already: /hooke/error and its
- * texts, see docs/trajectory.md. The file is whole before, and whatever comes between. HOOKE_BAD_VALUE for a file without room
- * for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Adds what is known of the error of a run to the trajectory file that it wrote, which is closed already:
+ * /hooke/error and its texts, see docs/trajectory.md. The file is whole before, and whatever comes between.
+ * HOOKE_BAD_VALUE for a file without room for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 
 /* ---- trajectories read back ---- */
 
 typedef struct hooke_record hooke_record;
 
-/* Opens a trajectory file, finished or not. HOOKE_IO_FAILED, HOOKE_BAD_VALUE if it is none of ours, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY. */
+/* Opens a trajectory file, finished or not. HOOKE_IO_FAILED, HOOKE_BAD_VALUE if it is none of ours,
+ * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
 
-/* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped", "diverged",
- * "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run() says, "" if an earlier version
- * wrote it; "error_by" and "error_note": as hooke_estimate_text() has them, "" where nothing is known of the error; "version", "sundials", "cholmod", "instructions", "machine": what made the file, as hooke_build_fact() has it, "" where
- * it does not say. NULL for another word. */
+/* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped",
+ * "diverged", "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run()
+ * says, "" if an earlier version wrote it; "error_by" and "error_note": as hooke_estimate_text() has them, ""
+ * where nothing is known of the error; "version", "sundials", "cholmod", "instructions", "machine": what made
+ * the file, as hooke_build_fact() has it, "" where it does not say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, as it ran; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 
 /* Frames that are there. */
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
-/* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last. HOOKE_BAD_VALUE if there is
- * none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. The state is then as it was. */
+/* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last.
+ * HOOKE_BAD_VALUE if there is none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY. The state is then as it was. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 
-/* HOOKE_BAD_VALUE for a frame that is damaged: whose numbers are not those that were written, by the check value beside them.
- * Frames without one, of files that are older than check values are, pass. hooke_record_read() looks, too; arrays that are read
- * as a whole, and what reads the file by itself, do not. */
+/* HOOKE_BAD_VALUE for a frame that is damaged: whose numbers are not those that were written, by the check
+ * value beside them. Frames without one, of files that are older than check values are, pass.
+ * hooke_record_read() looks, too; arrays that are read as a whole, and what reads the file by itself, do
+ * not. */
 HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 
-/* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies rows x columns
- * numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of docs/trajectory.md, of all
- * frames that the file was made for (the first hooke_record_frame_count() are there); one a spring: "springs", its two ends;
- * one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2 driven). "error": the error of the run, NaN as far as it is not
- * known, in the order of docs/trajectory.md. HOOKE_BAD_VALUE for another word, or if the file has
- * no such array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies
+ * rows x columns numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of
+ * docs/trajectory.md, of all frames that the file was made for (the first hooke_record_frame_count() are
+ * there); one a spring: "springs", its two ends; one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2
+ * driven). "error": the error of the run, NaN as far as it is not known, in the order of docs/trajectory.md.
+ * HOOKE_BAD_VALUE for another word, or if the file has no such array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 
-/* Where in the file "position" or "velocity" begins [bytes], for a program that maps the file into memory: frames of n rows
- * of x y z, doubles of this machine, one after the other. -1 where they are not stored so, or for another word; then
- * hooke_record_read() reads them. */
+/* Where in the file "position" or "velocity" begins [bytes], for a program that maps the file into memory:
+ * frames of n rows of x y z, doubles of this machine, one after the other. -1 where they are not stored so,
+ * or for another word; then hooke_record_read() reads them. */
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 
 /* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
  * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
- * /comparison. The comparison must have its rows added; its frame observer is taken over by the file. `scene_text` is as for
- * hooke_trajectory_create(). */
+ * /comparison. The comparison must have its rows added; its frame observer is taken over by the file.
+ * `scene_text` is as for hooke_trajectory_create(). */
 typedef struct hooke_comparison_file hooke_comparison_file;
 HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
                                                hooke_comparison *comparison, const char *scene_text,
@@ -186,69 +195,74 @@ HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 
 /* ---- trajectories shown ---- */
 
-/* Writes a trajectory as one HTML page that plays it, readable offline: springs coloured by strain, what is pinned and what
- * is driven, energies over time. A view is what of the file the page shows; the record has to stay as long as it does. */
+/* Writes a trajectory as one HTML page that plays it, readable offline: springs coloured by strain, what is
+ * pinned and what is driven, energies over time. A view is what of the file the page shows; the record has to
+ * stay as long as it does. */
 typedef struct hooke_view hooke_view;
 
 /* Options of a view: frames and springs at most, size of the page [MB]. */
 HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
-/* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow, evenly, the
- * last one always. `options` are copied; NULL: defaults. HOOKE_BAD_VALUE for a file of several runs, one without frames, or
- * a size that is too small; HOOKE_NOT_BUILT in a build without three.js and Chart.js, or where files of share/hooke are
- * missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow,
+ * evenly, the last one always. `options` are copied; NULL: defaults. HOOKE_BAD_VALUE for a file of several
+ * runs, one without frames, or a size that is too small; HOOKE_NOT_BUILT in a build without three.js and
+ * Chart.js, or where files of share/hooke are missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_view **view);
-/* Writes the page. `title` stands over it; NULL: the scene's, or the name of the file. An older file is replaced when the
- * new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Writes the page. `title` stands over it; NULL: the scene's, or the name of the file. An older file is
+ * replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
 /* "frames", "springs", "particles" that are shown, and "frames_there", "springs_there", "particles_there";
- * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the ends of the
- * scale of colours, "strain_low", "strain_high": those met; "bytes" of the page that was written. NaN if it does not apply,
- * and for another word. */
+ * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the
+ * ends of the scale of colours, "strain_low", "strain_high": those met; "bytes" of the page that was written.
+ * NaN if it does not apply, and for another word. */
 HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
 /* NULL is allowed. */
 HOOKE_API void hooke_view_destroy(hooke_view *view);
 
-/* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame that is there, which
- * refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in place of its .h5; a file of
- * this name that is no XDMF is then not replaced. Springs are lines, with rest_length; particles have velocity, mass and
- * species. HOOKE_BAD_VALUE if there are no frames, and for a name of the trajectory that ParaView's reader cannot take: it
- * wants ASCII without colons; HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame that
+ * is there, which refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in
+ * place of its .h5; a file of this name that is no XDMF is then not replaced. Springs are lines, with
+ * rest_length; particles have velocity, mass and species. HOOKE_BAD_VALUE if there are no frames, and for a
+ * name of the trajectory that ParaView's reader cannot take: it wants ASCII without colons; HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 
 /* ---- studies ---- */
 
-/* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time, orders,
- * reference, recommendation (layout: docs/study.md). `scene_text` is as for hooke_trajectory_create(); `outcome` is what
- * hooke_study_run() returned. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY. */
+/* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time,
+ * orders, reference, recommendation (layout: docs/study.md). `scene_text` is as for
+ * hooke_trajectory_create(); `outcome` is what hooke_study_run() returned. An older file is replaced when the
+ * new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
                                        int32_t outcome);
 
 /* ---- tables ---- */
 
-/* Writes the rows that a study has so far as CSV: a line of names, then one line a row with "method", the numbers of
- * hooke_study_number() and "status". Numbers read back to the same bits in every locale, those that do not apply are
- * left empty. An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Writes the rows that a study has so far as CSV: a line of names, then one line a row with "method", the
+ * numbers of hooke_study_number() and "status". Numbers read back to the same bits in every locale, those
+ * that do not apply are left empty. An older file is replaced when the new one is complete. HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);
 
 /* ---- reports ---- */
 
-/* Writes one HTML page, readable offline, with all that a study has so far: diagrams, table, recommendation, reference,
- * machine and versions. `scene` is the name over it, `command` the line to type for what is recommended; both may be NULL.
- * An older file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY; HOOKE_NOT_BUILT in a build
- * without Chart.js, or where the files that are installed with the library, in share/hooke, are missing. */
+/* Writes one HTML page, readable offline, with all that a study has so far: diagrams, table, recommendation,
+ * reference, machine and versions. `scene` is the name over it, `command` the line to type for what is
+ * recommended; both may be NULL. An older file is replaced when the new one is complete. HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY; HOOKE_NOT_BUILT in a build without Chart.js, or where the files that are installed with
+ * the library, in share/hooke, are missing. */
 HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
                                            const char *command);
 
-/* The same of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on the scene at
- * `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found, HOOKE_BAD_VALUE for a state of
- * another system, and the failures above. */
+/* The same of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on
+ * the scene at `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found,
+ * HOOKE_BAD_VALUE for a state of another system, and the failures above. */
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
                                            const char *path, const char *scene);
 
-/* The same of what a scene needs: the table, what each ingredient changes and costs, the lean system laid over the full one,
- * and the resolutions if they were looked at. `command`, the line to type for the lean scene, may be NULL. */
+/* The same of what a scene needs: the table, what each ingredient changes and costs, the lean system laid
+ * over the full one, and the resolutions if they were looked at. `command`, the line to type for the lean
+ * scene, may be NULL. */
 HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
                                            const char *command);
 

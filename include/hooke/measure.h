@@ -17,8 +17,8 @@ extern "C" {
  * docs/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
-/* The same of every method at once, hooke_method_count() numbers in the order of hooke_method_name(), for one pass over the
- * springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* The same of every method at once, hooke_method_count() numbers in the order of hooke_method_name(), for one
+ * pass over the springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 
 /* ---- comparison ----

@@ -56,8 +56,8 @@ HOOKE_API const char *hooke_options_text(const hooke_options *options, const cha
 /* The table itself. Rows of nested tables follow their family, with dotted names. */
 HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
 
-/* One property of row `row` as text, "" where it has none, NULL if there is no such row or property, or no memory to put
- * "allowed" into words. Lives as long as `options`.
+/* One property of row `row` as text, "" where it has none, NULL if there is no such row or property, or no
+ * memory to put "allowed" into words. Lives as long as `options`.
  *   "name", "unit", "default", "doc"
  *   "type"     "number", "numbers", "flag", "choice", "text" or "family"
  *   "allowed"  in words: "a number >= 0"

@@ -34,8 +34,8 @@ HOOKE_API void hooke_state_set_time(hooke_state *state, double t);
 /* Numbers in q: 3n, or the size of a first-order problem. */
 HOOKE_API int64_t hooke_state_size(const hooke_state *state);
 
-/* Where q and v are, for reading and, except in an observer, for writing; they stay there as long as the state lives.
- * The velocity of a first-order problem is NULL. */
+/* Where q and v are, for reading and, except in an observer, for writing; they stay there as long as the
+ * state lives. The velocity of a first-order problem is NULL. */
 HOOKE_API double *hooke_state_position(const hooke_state *state);
 HOOKE_API double *hooke_state_velocity(const hooke_state *state);
 

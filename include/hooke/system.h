@@ -13,26 +13,27 @@
  * hooke_system_coincident_springs() counts such springs. A spring with `compression` false only pulls: its
  * force is zero where r <= l0, and where damping would make it push.
  *
- * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with the fourth power
- * of the curvature) acts on triples of particles a, b, c:
+ * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with the
+ * fourth power of the curvature) acts on triples of particles a, b, c:
  *   U = c/2 |q_a - 2 q_b + q_c|^2               c [N/m]
- * A beam of bending stiffness B [N m^2] in pieces of length l has c = B/l^3. Three particles in a line at equal distances
- * have no such force, wherever they are.
+ * A beam of bending stiffness B [N m^2] in pieces of length l has c = B/l^3. Three particles in a line at
+ * equal distances have no such force, wherever they are.
  *
- * Altitude springs (Selle, Lentine and Fedkiw 2008) act on tetrahedra of particles 0, 1, 2, 3: of its seven altitudes (from
- * particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03 and 12) the one that is shortest
- * now is a spring, between a particle and the point of the face below it or the nearest points of the two edges:
+ * Altitude springs (Selle, Lentine and Fedkiw 2008) act on tetrahedra of particles 0, 1, 2, 3: of its seven
+ * altitudes (from particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03 and
+ * 12) the one that is shortest now is a spring, between a particle and the point of the face below it or the
+ * nearest points of the two edges:
  *   U = ks/(2 l) (h - l)^2                      ks [N], h the altitude, l its rest length
- * and damping kd/l dh/dt along it. Altitudes are negative in a tetrahedron that has turned inside out: the force
- * turns it back. Where another altitude comes to be the shortest, U and the force jump. A tetrahedron whose particles are in
- * one line has no such force.
+ * and damping kd/l dh/dt along it. Altitudes are negative in a tetrahedron that has turned inside out: the
+ * force turns it back. Where another altitude comes to be the shortest, U and the force jump. A tetrahedron
+ * whose particles are in one line has no such force.
  *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
- * springs of parts; and so are triples and tetrahedra. Commit drops springs that have neither stiffness nor damping, as if they had never been
- * added: numbers, ends and sizes of groups are then those of the springs that act; a group that is left without any keeps its
- * name and place, and has size 0. Likewise gravity, drag and damping of 0 are not there. All sums are taken in that order,
- * springs first, so results do not depend on threads or
- * instruction sets. */
+ * springs of parts; and so are triples and tetrahedra. Commit drops springs that have neither stiffness nor
+ * damping, as if they had never been added: numbers, ends and sizes of groups are then those of the springs
+ * that act; a group that is left without any keeps its name and place, and has size 0. Likewise gravity, drag
+ * and damping of 0 are not there. All sums are taken in that order, springs first, so results do not depend
+ * on threads or instruction sets. */
 #ifndef HOOKE_SYSTEM_H
 #define HOOKE_SYSTEM_H
 
@@ -64,9 +65,10 @@ HOOKE_API int32_t hooke_system_create(hooke_system **system);
 /* Releases a system; nothing that was made from it may be used afterwards. NULL is allowed. */
 HOOKE_API void hooke_system_destroy(hooke_system *system);
 
-/* What the system may need of memory [bytes], with what an explicit method takes; 0: as much as the machine has, or its limit
- * on the address space if that is less. What is added from here on is refused as HOOKE_NO_MEMORY where it would need more,
- * before anything is allocated. HOOKE_BAD_VALUE for a negative number and NaN. */
+/* What the system may need of memory [bytes], with what an explicit method takes; 0: as much as the machine
+ * has, or its limit on the address space if that is less. What is added from here on is refused as
+ * HOOKE_NO_MEMORY where it would need more, before anything is allocated. HOOKE_BAD_VALUE for a negative
+ * number and NaN. */
 HOOKE_API int32_t hooke_system_limit_memory(hooke_system *system, double bytes);
 
 /* Adds `count` particles: `position` (3 count) [m], `velocity` (3 count) [m/s] or NULL for rest, and `mass` >
@@ -87,9 +89,9 @@ HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *ends, const hooke_options *options);
 
-/* Adds a group of `count` triples, 3 count particle numbers (different within a triple), for bending with coefficients >= 0
- * [N/m], `coefficient_count` being 1 (shared) or `count`. `name` may be NULL. HOOKE_BAD_VALUE names the triple;
- * HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* Adds a group of `count` triples, 3 count particle numbers (different within a triple), for bending with
+ * coefficients >= 0 [N/m], `coefficient_count` being 1 (shared) or `count`. `name` may be NULL.
+ * HOOKE_BAD_VALUE names the triple; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *triples, int64_t coefficient_count,
                                            const double *coefficient);
@@ -97,9 +99,9 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
 /* Options of altitude springs: stiffness, damping, rest_scale, compression. */
 HOOKE_API int32_t hooke_altitude_options_create(hooke_options **options);
 
-/* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs. Rest lengths
- * are the seven altitudes at the positions that the particles were added with. `name` may be NULL. HOOKE_BAD_VALUE names the
- * tetrahedron, also one that is flat; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs.
+ * Rest lengths are the seven altitudes at the positions that the particles were added with. `name` may be
+ * NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
 
@@ -119,8 +121,9 @@ HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *forc
  *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase), amplitude 3 numbers [m], frequency [Hz],
  *             phase [rad]
  *   table     q = q0 + d(t), d piecewise cubic through `samples` >= 2 rows of `displacement` (3 samples) [m] at
- *             ascending `time` [s], its slope at a sample that of the parabola through three neighbouring ones, so
- *             that velocity is continuous from the first sample to the last; at rest before and after
+ *             ascending `time` [s], its slope at a sample that of the parabola through three neighbouring
+ *             ones, so that velocity is continuous from the first sample to the last; at rest before and
+ *             after
  *   callback  q and v as `drive` says
  * A particle is driven once at most, and not pinned as well.
  * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
@@ -145,8 +148,9 @@ HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
 /* Springs that commit has dropped, since they have neither stiffness nor damping; 0 before. */
 HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
-/* Pinned particles that no spring, no bending, no altitude spring and no callback force touches; 0 before commit. Steps leave out blocks of 256
- * particles that hold nothing else, but where springs in no order have their particles numbered anew. */
+/* Pinned particles that no spring, no bending, no altitude spring and no callback force touches; 0 before
+ * commit. Steps leave out blocks of 256 particles that hold nothing else, but where springs in no order have
+ * their particles numbered anew. */
 HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
 /* Name of group `group`, "" if it has none, NULL if there is no such group. */
@@ -166,7 +170,8 @@ HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, doubl
                                                double *rest_length);
 
 /* The same of bending: triples, their groups, a b c of every triple (3 bending_count), coefficients [N/m]
- * (bending_count). Triples of coefficient 0 have no force: commit drops them, and they are not counted any more. */
+ * (bending_count). Triples of coefficient 0 have no force: commit drops them, and they are not counted any
+ * more. */
 HOOKE_API int64_t hooke_system_bending_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_bending_group_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group);
@@ -174,9 +179,10 @@ HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, in
 HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
 HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
 
-/* The same of altitude springs: tetrahedra, their groups, the four particles of each (4 altitude_count), and stiffness [N],
- * damping [N s] (altitude_count each) and rest lengths [m] in the order above (7 altitude_count, negative for a tetrahedron
- * whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is), or NULL. Commit drops those that have neither stiffness nor damping. */
+/* The same of altitude springs: tetrahedra, their groups, the four particles of each (4 altitude_count), and
+ * stiffness [N], damping [N s] (altitude_count each) and rest lengths [m] in the order above (7
+ * altitude_count, negative for a tetrahedron whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is), or
+ * NULL. Commit drops those that have neither stiffness nor damping. */
 HOOKE_API int64_t hooke_system_altitude_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_altitude_group_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group);
@@ -184,21 +190,24 @@ HOOKE_API int64_t hooke_system_altitude_group_size(const hooke_system *system, i
 HOOKE_API int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra);
 HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness,
                                                  double *damping, double *rest_length);
-/* The altitude of each that acts at q [m] (altitude_count), negative where it is inside out; 0 where none does. */
+/* The altitude of each that acts at q [m] (altitude_count), negative where it is inside out; 0 where none
+ * does. */
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 
-/* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part", "family" (NULL:
- * of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not there. */
+/* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part",
+ * "family" (NULL: of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not
+ * there. */
 HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
-/* The forces that this system computes ("springs", "bending", "altitude", "drag", "callback", "gravity"); nothing else
- * costs anything. */
+/* The forces that this system computes ("springs", "bending", "altitude", "drag", "callback", "gravity");
+ * nothing else costs anything. */
 HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
-/* Memory that the committed system holds [bytes]; and how much of that goes with the number of its springs. */
+/* Memory that the committed system holds [bytes]; and how much of that goes with the number of its
+ * springs. */
 HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
 HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
 
@@ -206,7 +215,8 @@ HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, bending, altitude springs, drag on free particles, callback, m g on free particles. */
+/* Force on every particle [N], 3n: springs, bending, altitude springs, drag on free particles, callback, m g
+ * on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
 /* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
@@ -223,15 +233,17 @@ HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, do
 
 /* df/dq and df/dv as sparse 3x3 blocks, callbacks left out, in compressed rows: row_start (n + 1), column
  * (count, ascending within a row, the diagonal always there), and blocks of 9 in row order, `count` being
- * hooke_system_block_count(), which is -1 before commit and without memory. Either block array may be NULL. */
+ * hooke_system_block_count(), which is -1 before commit and without memory. Either block array may be
+ * NULL. */
 HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
 HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
                                                   int64_t *column);
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
 
-/* Energies [J] of the springs, of bending, of altitude springs and of the free particles; gravity's is the sum of -m g.q. A callback has none. Sums keep
- * what each addition rounds off (Neumaier 1974). Beyond the largest number they are infinite. */
+/* Energies [J] of the springs, of bending, of altitude springs and of the free particles; gravity's is the
+ * sum of -m g.q. A callback has none. Sums keep what each addition rounds off (Neumaier 1974). Beyond the
+ * largest number they are infinite. */
 HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
 HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
 HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);

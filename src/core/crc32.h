@@ -1,5 +1,5 @@
-/* The check value of a file or a frame: CRC-32 as zlib, gzip and PNG have it (polynomial 0xEDB88320, reflected). It finds every
- * change of up to 32 bits in a row. */
+/* The check value of a file or a frame: CRC-32 as zlib, gzip and PNG have it (polynomial 0xEDB88320,
+ * reflected). It finds every change of up to 32 bits in a row. */
 #ifndef HOOKE_CORE_CRC32_H
 #define HOOKE_CORE_CRC32_H
 

@@ -1,6 +1,6 @@
-/* Members meet at a barrier before and after each piece of work: the first meeting starts it, the second ends it. Threads
- * have the rounding mode and the treatment of denormals that the thread had that made the crew; where it changes them
- * later, they do not follow. */
+/* Members meet at a barrier before and after each piece of work: the first meeting starts it, the second ends
+ * it. Threads have the rounding mode and the treatment of denormals that the thread had that made the crew;
+ * where it changes them later, they do not follow. */
 #if defined(__linux__)
 #define _GNU_SOURCE /* sched_getaffinity() */
 #endif
@@ -15,8 +15,8 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
-/* How often a member that waits looks again before it gives up its processor, some tens of microseconds, and then before
- * it sleeps. */
+/* How often a member that waits looks again before it gives up its processor, some tens of microseconds, and
+ * then before it sleeps. */
 enum { SPINS = 1000, YIELDS = 4 };
 
 struct seat {
@@ -64,7 +64,8 @@ static int has_passed(struct hk_crew *crew, unsigned round) {
 
 static void sleep_until_passed(struct hk_crew *crew, unsigned round) {
   pthread_mutex_lock(&crew->mutex);
-  /* either this is seen by who ends the round, or the end of the round is seen here: both are sequentially consistent */
+  /* either this is seen by who ends the round, or the end of the round is seen here: both are sequentially
+   * consistent */
   atomic_fetch_add(&crew->sleepers, 1);
   while (atomic_load(&crew->round) == round)
     pthread_cond_wait(&crew->woken, &crew->mutex);
@@ -114,8 +115,8 @@ static void *serve(void *arg) {
   }
 }
 
-/* Starts threads with all signals blocked, so that handlers run in the threads of the caller; fewer than asked for if
- * there are no more. */
+/* Starts threads with all signals blocked, so that handlers run in the threads of the caller; fewer than
+ * asked for if there are no more. */
 static void start(struct hk_crew *crew, int32_t members) {
   sigset_t all, kept;
   sigfillset(&all);

@@ -1,5 +1,6 @@
-/* Handles: the opaque objects that callers hold. A build with HOOKE_CHECK_HANDLES keeps a list of those that are alive, and
- * the guard (src/guard) looks every handle up in it; in other builds nothing of this is there. */
+/* Handles: the opaque objects that callers hold. A build with HOOKE_CHECK_HANDLES keeps a list of those that
+ * are alive, and the guard (src/guard) looks every handle up in it; in other builds nothing of this is
+ * there. */
 #ifndef HOOKE_CORE_HANDLE_H
 #define HOOKE_CORE_HANDLE_H
 
@@ -11,8 +12,8 @@
 void *hk_handle_new(const char *type, size_t size);
 void hk_handle_free(void *object);
 
-/* 1 if `object`, which may be any address, is alive and of that type; else 0, with the message that `function` cannot take
- * it as `argument`. */
+/* 1 if `object`, which may be any address, is alive and of that type; else 0, with the message that
+ * `function` cannot take it as `argument`. */
 int32_t hk_handle_is(const void *object, const char *type, const char *function, const char *argument);
 
 #else

@@ -23,7 +23,8 @@ void *hk_reserve(int64_t count, size_t size);
  * leaves it. */
 int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size);
 
-/* A copy of a string, "" of NULL, aligned as malloc() does; NULL, with the message recorded, if there is no memory. */
+/* A copy of a string, "" of NULL, aligned as malloc() does; NULL, with the message recorded, if there is no
+ * memory. */
 char *hk_copy_text(const char *text);
 
 void hk_free(void *block);

@@ -10,7 +10,8 @@ int hk_print(char *text, size_t size, const char *format, ...) __attribute__((fo
 int hk_print_list(char *text, size_t size, const char *format, va_list args)
     __attribute__((format(printf, 3, 0)));
 
-/* Writes what a value of errno means into `text`, which has room for HOOKE_ERROR_SIZE characters, and returns it. */
+/* Writes what a value of errno means into `text`, which has room for HOOKE_ERROR_SIZE characters, and returns
+ * it. */
 enum { HOOKE_ERROR_SIZE = 128 };
 const char *hk_print_error(int error, char *text);
 

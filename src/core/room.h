@@ -4,11 +4,12 @@
 
 #include "hooke/base.h"
 
-/* What there is [bytes]: the physical memory, or what is left of the address space if a limit on that leaves less; `which`
- * (may be NULL) says which of the two. INFINITY where the system does not tell. */
+/* What there is [bytes]: the physical memory, or what is left of the address space if a limit on that leaves
+ * less; `which` (may be NULL) says which of the two. INFINITY where the system does not tell. */
 double hk_room(const char **which);
 
-/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` are more than `limit` (0: hk_room()). */
+/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` are more than `limit` (0:
+ * hk_room()). */
 int32_t hk_room_require(double limit, double bytes, const char *what);
 
 enum { HOOKE_BYTES_SHOWN = 32 };

@@ -23,7 +23,8 @@ int32_t hk_fail_before(int32_t status, const char *format, ...) __attribute__((f
 #define hk_fail_before(status, ...) (hk_fail_before(status, __VA_ARGS__), (status))
 #endif
 
-/* How many failures this thread has met, and the status of the last: for who has only learned that something failed. */
+/* How many failures this thread has met, and the status of the last: for who has only learned that something
+ * failed. */
 int64_t hk_fail_count(void);
 int32_t hk_fail_status(void);
 

@@ -1,5 +1,5 @@
-/* Sums that keep what each addition rounds off (Neumaier 1974): their error does not grow with their length. A million
- * equal numbers added up plainly lose five digits. */
+/* Sums that keep what each addition rounds off (Neumaier 1974): their error does not grow with their length.
+ * A million equal numbers added up plainly lose five digits. */
 #ifndef HOOKE_CORE_SUM_H
 #define HOOKE_CORE_SUM_H
 

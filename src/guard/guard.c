@@ -1,9 +1,11 @@
-/* Every public function stands here: it looks at the texts that it is given, in a build with HOOKE_CHECK_HANDLES at the handles,
- * too, and goes on to the one in the library, which names.h calls hooke_unchecked_<name>. calls.inc lists them all.
+/* Every public function stands here: it looks at the texts that it is given, in a build with
+ * HOOKE_CHECK_HANDLES at the handles, too, and goes on to the one in the library, which names.h calls
+ * hooke_unchecked_<name>. calls.inc lists them all.
  *
- * A text that is NULL is refused with HOOKE_BAD_VALUE; where no status is returned it is a word that the function does not
- * know. A handle that is no more, never was, or is of another type is refused with HOOKE_BAD_CALL, or where no status is
- * returned with -1, NaN or NULL, and with 0 of a function that answers yes or no. */
+ * A text that is NULL is refused with HOOKE_BAD_VALUE; where no status is returned it is a word that the
+ * function does not know. A handle that is no more, never was, or is of another type is refused with
+ * HOOKE_BAD_CALL, or where no status is returned with -1, NaN or NULL, and with 0 of a function that answers
+ * yes or no. */
 #include "core/handle.h"
 #include "core/status.h"
 #include "hooke/build.h"

@@ -46,8 +46,8 @@ struct hk_watch {
   int64_t stride;
 };
 
-/* Who is told of progress between two steps, after every so many seconds. `left` steps to the next look at the clock, of
- * `stride`, which follows the time that steps take. */
+/* Who is told of progress between two steps, after every so many seconds. `left` steps to the next look at
+ * the clock, of `stride`, which follows the time that steps take. */
 struct hk_teller {
   hooke_progress *progress;
   void *ctx;
@@ -120,14 +120,15 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
                                      const struct hk_force_row *left_out);
-/* Forces at the present time, and every particle moved under them in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or
- * HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
+/* Forces at the present time, and every particle moved under them in one of Euler's ways,
+ * HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
 int32_t hk_integrator_move(hooke_integrator *integrator, int32_t kind);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* For all particles that are stepped. */
 void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, void *ctx);
-/* Asks the drives where their particles are at time t; the second also puts driven and pinned particles there. */
+/* Asks the drives where their particles are at time t; the second also puts driven and pinned particles
+ * there. */
 int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
 /* Time at the end of the step that a fixed-step method is about to take. */
@@ -139,22 +140,23 @@ int32_t hk_integrator_rate(hooke_integrator *integrator, double t, const double 
 int32_t hk_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hk_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
 
-/* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself; what it knows of its first
- * state stays. The failures of a run's beginning. */
+/* Where the integrator stands now, and putting it there, at `state`, as if it had come by itself; what it
+ * knows of its first state stays. The failures of a run's beginning. */
 struct hk_standing hk_integrator_standing(const hooke_integrator *integrator);
 int32_t hk_integrator_stand(hooke_integrator *integrator, const struct hk_standing *standing,
                             hooke_state *state);
 
 /* The same at a frame of a run that began at `first`: for hk_run_begin() and hk_divergence_follow() to come
- * before, at the first frame and at each one since. What it counted but steps is not known. An error-controlled method
- * stands at frame 0 alone. HOOKE_BAD_VALUE for a time that is not the frame's. */
+ * before, at the first frame and at each one since. What it counted but steps is not known. An
+ * error-controlled method stands at frame 0 alone. HOOKE_BAD_VALUE for a time that is not the frame's. */
 int32_t hk_integrator_stand_at_frame(hooke_integrator *integrator, int64_t frame, const hooke_state *first,
                                      hooke_state *state);
 
-/* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that run did from
- * there, to the bit. An error-controlled method starts anew. */
+/* Goes on from `state` to the end of the schedule of a run that began at `first`: with fixed steps what that
+ * run did from there, to the bit. An error-controlled method starts anew. */
 int32_t hk_integrator_run_on(hooke_integrator *integrator, const hooke_state *first, hooke_state *state);
-/* Makes `to` stand at `state`, the one after `step` steps of the run of `from`; both of one method and step. */
+/* Makes `to` stand at `state`, the one after `step` steps of the run of `from`; both of one method and
+ * step. */
 int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
                             hooke_state *state);
 /* Hands the integrator a checker, which it releases; an older one is released first. */

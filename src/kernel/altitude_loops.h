@@ -1,8 +1,9 @@
-/* Altitude springs of tetrahedra, on raw arrays (Selle, Lentine and Fedkiw 2008). A tetrahedron of particles 0 to 3 has seven
- * altitudes: 0 to 3 from that particle to the face of the others, 4 to 6 between the edges 01 and 23, 02 and 13, 03 and 12.
- * All of them have the volume over the size of a cross product, so the shortest is that of the largest cross product;
- * it alone acts, as a spring between a particle and a point of the face, or between points of the edges. Lengths have a sign,
- * which turns where the tetrahedron does inside out: the force pushes it back.
+/* Altitude springs of tetrahedra, on raw arrays (Selle, Lentine and Fedkiw 2008). A tetrahedron of particles
+ * 0 to 3 has seven altitudes: 0 to 3 from that particle to the face of the others, 4 to 6 between the edges
+ * 01 and 23, 02 and 13, 03 and 12. All of them have the volume over the size of a cross product, so the
+ * shortest is that of the largest cross product; it alone acts, as a spring between a particle and a point of
+ * the face, or between points of the edges. Lengths have a sign, which turns where the tetrahedron does
+ * inside out: the force pushes it back.
  *
  * To the parenthesis, with the particles i0 .. i3 of altitude k from hk_altitude_role[k]:
  *   e = x_i1 - x_i0     r = x_i3 - x_i0 (k < 4) or x_i2 - x_i0     f = x_i2 - x_i0 (k < 4) or x_i3 - x_i2
@@ -12,8 +13,9 @@
  *   weights  k < 4: (a - b) - 1, -a, b, 1      else: a - 1, -a, 1 - b, b      of i0 .. i3
  *   w = ((g0*v_0 + g1*v_1) + g2*v_2) + g3*v_3 with the weights g of particles 0 .. 3
  *   T = (stiffness*(h - l) + damping*(u.w))/l          f_j -= (T*g_j) u          l the rest length of altitude k
- * and T = 0 for a spring that only pulls where h <= l or T < 0. At the shortest altitude weights are from -1 to 1: its ends lie
- * in the tetrahedron. The weighted sum of positions is h u, so h is differentiated by (dh) = u.(sum of g_j dx_j) exactly. */
+ * and T = 0 for a spring that only pulls where h <= l or T < 0. At the shortest altitude weights are from -1
+ * to 1: its ends lie in the tetrahedron. The weighted sum of positions is h u, so h is differentiated by (dh)
+ * = u.(sum of g_j dx_j) exactly. */
 #ifndef HOOKE_KERNEL_ALTITUDE_LOOPS_H
 #define HOOKE_KERNEL_ALTITUDE_LOOPS_H
 

@@ -1,6 +1,6 @@
-/* The loops that add bending forces, on raw arrays. Triples (a, b, c) come in runs as springs do: in a run of constant
- * offset triple k joins particles start + k, start + k + offset and start + k + 2 offset, in any other the particles are
- * looked up. One triple, of each component, to the parenthesis:
+/* The loops that add bending forces, on raw arrays. Triples (a, b, c) come in runs as springs do: in a run of
+ * constant offset triple k joins particles start + k, start + k + offset and start + k + 2 offset, in any
+ * other the particles are looked up. One triple, of each component, to the parenthesis:
  *   d = (x_a - 2 x_b) + x_c      F = (factor c) d      f_a -= F      f_b += 2 F      f_c -= F */
 #ifndef HOOKE_KERNEL_BENDING_LOOPS_H
 #define HOOKE_KERNEL_BENDING_LOOPS_H
@@ -16,7 +16,8 @@ enum {
 
 struct hk_bending_run;
 
-/* Adds `factor` times the forces at x to f; x, y and z apart. Forces are linear in x, so this is their derivative too. */
+/* Adds `factor` times the forces at x to f; x, y and z apart. Forces are linear in x, so this is their
+ * derivative too. */
 typedef void hk_bending_loop(const struct hk_bending_run *run, double factor, const double *const x[3],
                              double *const f[3]);
 

@@ -1,5 +1,6 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two lanes are computed side by side, and
- * sums are some vectors behind, so that the processor always finds operations whose operands are there. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two lanes are computed side
+ * by side, and sums are some vectors behind, so that the processor always finds operations whose operands are
+ * there. */
 #include "kernel/lane_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -51,8 +52,8 @@ HOOKE_INLINE void add(const struct hk_lane_view *lane, const int lanes, ptrdiff_
   }
 }
 
-/* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length. Whatever is
- * stored may be anything to the compiler, so that views are read before. */
+/* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
+ * Whatever is stored may be anything to the compiler, so that views are read before. */
 HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const struct place *at,
                        const int damped, const int mixed, const int pull, vec *shortest, vec sum[3]) {
   vec d[2][3], r[2], ir[2], along[2], tension[2];
@@ -94,7 +95,8 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const s
   EACH store_forces(l[i].ring, l[i].mask, at->p, d[i]);
 }
 
-/* Springs of the vector at p once more, one by one: some ends are at one place. Counts those that have a rest length. */
+/* Springs of the vector at p once more, one by one: some ends are at one place. Counts those that have a rest
+ * length. */
 static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
@@ -151,7 +153,8 @@ HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how
   }
 }
 
-/* Forces of all lanes at a vector, and sums behind it: two lanes at a time where all have one shape, that is known here. */
+/* Forces of all lanes at a vector, and sums behind it: two lanes at a time where all have one shape, that is
+ * known here. */
 HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
   const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;

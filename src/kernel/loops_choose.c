@@ -1,4 +1,5 @@
-/* The functions of loops that are compiled for each instruction set: those of the best that this machine has. */
+/* The functions of loops that are compiled for each instruction set: those of the best that this machine
+ * has. */
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
 #include "kernel/triangle_loops.h"

@@ -1,5 +1,5 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into vectors of one
- * component each; strengths are computed on those, and forces written some groups behind. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into
+ * vectors of one component each; strengths are computed on those, and forces written some groups behind. */
 #include "kernel/net_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -86,7 +86,8 @@ HOOKE_INLINE __m512d subtract_rows(const struct ends *ends, ptrdiff_t k, const i
 /* Couples of numbers: two of a, two of b. */
 #define COUPLES(a, b, a0, a1, b0, b1) _mm512_shuffle_f64x2(a, b, (a0) | (a1) << 2 | (b0) << 4 | (b1) << 6)
 
-/* Rows are x y z vz vx vy: of each two, those in even places lie couple by couple in `even`, the others in `odd`. */
+/* Rows are x y z vz vx vy: of each two, those in even places lie couple by couple in `even`, the others in
+ * `odd`. */
 HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
                                  const int wide) {
 #define TWO(n)                                                                                               \
@@ -222,7 +223,8 @@ HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_
   }
 }
 
-/* Forces are written so many springs after their strengths were begun, or groups would wait for roots and quotients. */
+/* Forces are written so many springs after their strengths were begun, or groups would wait for roots and
+ * quotients. */
 enum { BEHIND = 3 * GROUP };
 
 HOOKE_INLINE int64_t fill(const struct hk_net_springs *springs, ptrdiff_t count, const double *low,

@@ -1,6 +1,6 @@
-/* The loops of nets: springs whose ends are looked up, summed in one pass over tiles of particles. Positions and
- * velocities of the particles near a tile are in rows; what a spring does to its two ends is in rows of forces, so that the
- * sum at a particle is a sum of rows that are looked up. */
+/* The loops of nets: springs whose ends are looked up, summed in one pass over tiles of particles. Positions
+ * and velocities of the particles near a tile are in rows; what a spring does to its two ends is in rows of
+ * forces, so that the sum at a particle is a sum of rows that are looked up. */
 #ifndef HOOKE_KERNEL_NET_LOOPS_H
 #define HOOKE_KERNEL_NET_LOOPS_H
 
@@ -31,11 +31,13 @@ struct hk_net_springs {
   const double *kappas, *gammas, *rest_lengths;
 };
 
-/* Forces of `count` springs on their lower and upper ends; returns how many had a rest length but no direction. */
+/* Forces of `count` springs on their lower and upper ends; returns how many had a rest length but no
+ * direction. */
 typedef int64_t hk_net_fill(const struct hk_net_springs *springs, ptrdiff_t count, const double *lower,
                             const double *upper, double *on_lower, double *on_upper);
 
-/* f = sums of the rows of forces at `place`, degree[p] of them at particle p, in this order; returns where `place` ends. */
+/* f = sums of the rows of forces at `place`, degree[p] of them at particle p, in this order; returns where
+ * `place` ends. */
 typedef const void *hk_net_sum(ptrdiff_t count, const uint16_t *degree, const void *place,
                                const double *force, double *const f[3]);
 

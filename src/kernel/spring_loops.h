@@ -64,8 +64,9 @@ static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdi
   return (struct hk_material){run->kappa, run->gamma, length};
 }
 
-/* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g. Symplectic
- * Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g is NULL, a = w f. */
+/* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g.
+ * Symplectic Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g
+ * is NULL, a = w f. */
 typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
                           double *q, double *v);
 

@@ -8,8 +8,8 @@
 /* x += h rate. */
 void hk_advance(int64_t n, double h, const double *rate, double *x);
 
-/* Halves of a Verlet step, a = w f + *g, or w f where g is NULL: v += kick a, q += drift v(new); v += kick a; and
- * v = (v + kick a)/(1 + kick drag w), which is the same with the drag at the new velocity. */
+/* Halves of a Verlet step, a = w f + *g, or w f where g is NULL: v += kick a, q += drift v(new); v += kick a;
+ * and v = (v + kick a)/(1 + kick drag w), which is the same with the drag at the new velocity. */
 void hk_kick_and_drift(int64_t n, double kick, double drift, const double *w, const double *f,
                        const double *g, double *q, double *v);
 void hk_kick(int64_t n, double kick, const double *w, const double *f, const double *g, double *v);

@@ -1,5 +1,5 @@
-/* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises whatever the ends are, sums
- * in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
+/* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises whatever the ends
+ * are, sums in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
 #include "kernel/tangent_loops.h"
 
 #include "kernel/instruction_set.h"

@@ -2,8 +2,9 @@
  *
  * A spring gives B = u e^T + b I to its two ends, in the pattern (B, -B; -B, B), with u its direction and
  *   b = alpha T/r,   e = (alpha kappa + beta gamma - b) u + alpha gamma (v - (v.u) u)/r
- * for the tension T = kappa (r - l0) + gamma v.u; nothing where it is slack or has no direction, and b = alpha kappa,
- * e = 0 where its length and rest length are 0. With alpha = 0 all of it is g g^T, g = sqrt(beta gamma) u. */
+ * for the tension T = kappa (r - l0) + gamma v.u; nothing where it is slack or has no direction, and b =
+ * alpha kappa, e = 0 where its length and rest length are 0. With alpha = 0 all of it is g g^T, g = sqrt(beta
+ * gamma) u. */
 #ifndef HOOKE_KERNEL_TANGENT_LOOPS_H
 #define HOOKE_KERNEL_TANGENT_LOOPS_H
 
@@ -14,7 +15,8 @@ struct hk_tangent {
   double *u[3], *e[3], *b;
 };
 
-/* The loops are compiled once for each instruction set; these functions take the best that the machine has. */
+/* The loops are compiled once for each instruction set; these functions take the best that the machine
+ * has. */
 
 /* At the positions and velocities of `fields`. */
 void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
@@ -24,8 +26,8 @@ void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, d
 void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
                         double *const out[3]);
 
-/* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal block of
- * either end: xx, yy, zz, xy, xz, yz. */
+/* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal
+ * block of either end: xx, yy, zz, xy, xz, yz. */
 void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tangent, double *const block[6]);
 
 /* out += what springs damp of velocities x: gamma u (u.x) of those that are not slack. */

@@ -1,5 +1,5 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Three numbers of a block are taken with one more, which
- * goes nowhere. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Three numbers of a block are taken with one
+ * more, which goes nowhere. */
 #include "kernel/triangle_loops.h"
 
 #include "kernel/instruction_set.h"

@@ -1,5 +1,5 @@
-/* Solutions with a sparse lower triangular matrix L of 3x3 blocks, kept column by column of blocks. Every number is found
- * from the same numbers in the same order whatever the instruction set. */
+/* Solutions with a sparse lower triangular matrix L of 3x3 blocks, kept column by column of blocks. Every
+ * number is found from the same numbers in the same order whatever the instruction set. */
 #ifndef HOOKE_KERNEL_TRIANGLE_LOOPS_H
 #define HOOKE_KERNEL_TRIANGLE_LOOPS_H
 

@@ -1,6 +1,6 @@
-/* Vectors of `size` numbers. Sums go in interleaved parts that are added in one order, so that their bits depend on
- * nothing but the numbers. The loops are compiled once for each instruction set; these functions take the best that the
- * machine has. */
+/* Vectors of `size` numbers. Sums go in interleaved parts that are added in one order, so that their bits
+ * depend on nothing but the numbers. The loops are compiled once for each instruction set; these functions
+ * take the best that the machine has. */
 #ifndef HOOKE_KERNEL_VECTOR_LOOPS_H
 #define HOOKE_KERNEL_VECTOR_LOOPS_H
 
@@ -21,9 +21,8 @@ double hk_lanczos_begin(int64_t n, const double *mass, const double *inverse, do
                         const double *before, const double *x, double *out);
 double hk_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out);
 
-/* Lower triangular 3x3 blocks W, one a particle: 11, 22, 33, 21, 31, 32, n numbers each; vectors are n of x, n of y, n of
- * z. y = W^T x; x = W x; y = d x
- * with n numbers d. */
+/* Lower triangular 3x3 blocks W, one a particle: 11, 22, 33, 21, 31, 32, n numbers each; vectors are n of x,
+ * n of y, n of z. y = W^T x; x = W x; y = d x with n numbers d. */
 void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y);
 void hk_apply_factor(int64_t n, const double *w, double *x);
 void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y);

@@ -1,5 +1,5 @@
-/* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, chooses the forces that
- * are there, frees what only building needed. */
+/* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, chooses
+ * the forces that are there, frees what only building needed. */
 #include "model/force/force.h"
 
 #include "core/memory.h"
@@ -55,8 +55,8 @@ static int is_at_rest(const hooke_system *system) {
   return rest;
 }
 
-/* Gives back room for particles that never came, and velocities that are all zero; as far as that takes no memory that is
- * not there. */
+/* Gives back room for particles that never came, and velocities that are all zero; as far as that takes no
+ * memory that is not there. */
 static void trim_particles(hooke_system *system) {
   const int64_t n = system->particle_count;
   if (is_at_rest(system)) {
@@ -141,7 +141,8 @@ static void add_tiles(hooke_system *system, const uint8_t *idle) {
   }
 }
 
-/* What no step has to go over: tiles of pinned particles that nothing touches. A callback force may look at any. */
+/* What no step has to go over: tiles of pinned particles that nothing touches. A callback force may look at
+ * any. */
 static int32_t find_stepped(hooke_system *system) {
   const int64_t n = system->particle_count;
   uint8_t *idle = hk_new(n, sizeof *idle);

@@ -1,4 +1,5 @@
-/* What parts worked out from their options: numbers for people, in a list that grows while a system is built. */
+/* What parts worked out from their options: numbers for people, in a list that grows while a system is
+ * built. */
 #ifndef HOOKE_MODEL_DERIVED_H
 #define HOOKE_MODEL_DERIVED_H
 

@@ -8,8 +8,8 @@
 typedef int32_t hk_part_add(hooke_system *system, const char *kind, const char *name,
                             const hooke_options *options, int64_t *first, int64_t *count);
 
-/* A kind whose particles are a grid: cells along each axis, one less than particles; the first axis is the fastest. Returns
- * the number of axes, 1 to 3. */
+/* A kind whose particles are a grid: cells along each axis, one less than particles; the first axis is the
+ * fastest. Returns the number of axes, 1 to 3. */
 struct hk_part_grid {
   int32_t (*cells)(const hooke_options *options, int64_t cells[3]);
   int32_t (*set_cells)(hooke_options *options, const int64_t cells[3]);

@@ -1,4 +1,5 @@
-/* Whether a system may grow: its numbers have 32 bits, and memory ends. Asked before anything is allocated. */
+/* Whether a system may grow: its numbers have 32 bits, and memory ends. Asked before anything is
+ * allocated. */
 #include "model/system.h"
 
 #include "core/print.h"
@@ -8,7 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes at most while a scene is built, committed and given to an explicit method; tests hold them against what is used. */
+/* Bytes at most while a scene is built, committed and given to an explicit method; tests hold them against
+ * what is used. */
 static const double PER_PARTICLE = 280.0, PER_SPRING = 50.0, PER_TRIPLE = 60.0, PER_TETRAHEDRON = 170.0,
                     PER_GROUP = 6000.0, PER_PART = 14000.0;
 

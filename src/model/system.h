@@ -87,8 +87,9 @@ int32_t hk_system_require_committed(const hooke_system *system);
 int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
                                   const int64_t *particles, int32_t refused);
 
-/* What a system needs at most with more of each [bytes], and whether there is room, in 32-bit numbers and in memory; `what` is what they are ("a cloth of 3 x 4
- * particles", NULL: the scene). HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+/* What a system needs at most with more of each [bytes], and whether there is room, in 32-bit numbers and in
+ * memory; `what` is what they are ("a cloth of 3 x 4 particles", NULL: the scene). HOOKE_BAD_VALUE,
+ * HOOKE_NO_MEMORY. */
 struct hk_more {
   double particles, springs, triples, tetrahedra; /* which cannot overflow */
 };
@@ -99,13 +100,15 @@ int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, co
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
- * the same as hooke_system_add_springs(), and so with triples. hk_system_next_part() counts parts: it returns 0, 1, ... */
+ * the same as hooke_system_add_springs(), and so with triples. hk_system_next_part() counts parts: it returns
+ * 0, 1, ... */
 int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
                                    const hooke_options *options);
 int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
                                    const int64_t *triples, int64_t coefficient_count,
                                    const double *coefficient);
-/* `family` (NULL: none), `name` and `unit` have to live as long as the library. HOOKE_NO_MEMORY, HOOKE_BAD_CALL. */
+/* `family` (NULL: none), `name` and `unit` have to live as long as the library. HOOKE_NO_MEMORY,
+ * HOOKE_BAD_CALL. */
 int32_t hk_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
                               const char *unit, double value);
 /* Drops all but the first `kept` of them. */

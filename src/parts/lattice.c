@@ -115,7 +115,8 @@ static double cell_volume(const struct lattice *lattice) {
   return fabs(volume);
 }
 
-/* Half as much for each pair of faces that a particle is on: 1/2 on a face, 1/4 on an edge, 1/8 at a corner. */
+/* Half as much for each pair of faces that a particle is on: 1/2 on a face, 1/4 on an edge, 1/8 at a
+ * corner. */
 static void share_mass(const struct lattice *lattice, double inner, double *mass) {
   const int64_t *size = lattice->size;
   for (int64_t z = 0; z < size[2]; z++) {

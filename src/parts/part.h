@@ -31,8 +31,8 @@ extern const struct hooke_part_kind hk_part_lattice;
 extern const struct hooke_part_kind hk_part_mesh;
 extern const struct hooke_part_kind hk_part_strand;
 
-/* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the density, bending
- * stiffness, held particles, a family of springs. */
+/* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the
+ * density, bending stiffness, held particles, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
@@ -91,8 +91,8 @@ struct hk_part_strip {
   enum hk_part_direction direction;
 };
 
-/* Lines of a grid as beams, side by side: triple (r, c) joins particles at = r*stride + c, at + step and at + 2 step. Those
- * in the first and the last row (or column) stand for half as much as the others. */
+/* Lines of a grid as beams, side by side: triple (r, c) joins particles at = r*stride + c, at + step and at +
+ * 2 step. Those in the first and the last row (or column) stand for half as much as the others. */
 enum hk_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
 struct hk_part_beams {
   int64_t rows, columns, step;
@@ -101,16 +101,16 @@ struct hk_part_beams {
   enum hk_part_beam_order side_by_side;
 };
 
-/* Checks that there is room for so much before anything is allocated and gives an array of 3 coordinates for each particle,
- * to be freed. The format says what is too large: "a cloth of 3 x 4 particles". */
+/* Checks that there is room for so much before anything is allocated and gives an array of 3 coordinates for
+ * each particle, to be freed. The format says what is too large: "a cloth of 3 x 4 particles". */
 int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
                               const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 /* `count` if the part has springs of the family, else 0. */
 double hk_part_if_family(const struct hk_part *part, const char *family, double count);
 
-/* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an inner one stands
- * for: its length (one row) or area. */
+/* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an
+ * inner one stands for: its length (one row) or area. */
 int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
                               const double *position);
 

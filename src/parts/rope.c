@@ -1,4 +1,5 @@
-/* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend), and bending. */
+/* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend), and
+ * bending. */
 #include "parts/part.h"
 
 #include "core/memory.h"

@@ -1,12 +1,12 @@
-/* Strand: a hair after Selle, Lentine and Fedkiw 2008, "A mass spring model for hair simulation" (ACM Transactions on Graphics
- * 27(3)). Springs between neighbours (stretch), particles two apart (bend) and three apart (twist), and the altitude springs
- * of the tetrahedra of every four consecutive particles.
+/* Strand: a hair after Selle, Lentine and Fedkiw 2008, "A mass spring model for hair simulation" (ACM
+ * Transactions on Graphics 27(3)). Springs between neighbours (stretch), particles two apart (bend) and three
+ * apart (twist), and the altitude springs of the tetrahedra of every four consecutive particles.
  *
- * Those of a straight line would be flat. So a straight strand has an extra particle for every segment, at its middle,
- * `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn to the right each. All
- * tetrahedra are then congruent, and their shortest altitude is shorter than the others by far (by a quarter turn two of
- * them would be equal, so that which one acts would hang on rounding). A curl (particles on a helix about the axis) has tetrahedra
- * of its own and needs no extra particles. */
+ * Those of a straight line would be flat. So a straight strand has an extra particle for every segment, at
+ * its middle, `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn to
+ * the right each. All tetrahedra are then congruent, and their shortest altitude is shorter than the others
+ * by far (by a quarter turn two of them would be equal, so that which one acts would hang on rounding). A
+ * curl (particles on a helix about the axis) has tetrahedra of its own and needs no extra particles. */
 #include "parts/part.h"
 
 #include "core/memory.h"
@@ -68,7 +68,8 @@ struct strand {
   int64_t segments;
 };
 
-/* The first vector across is, as nearly as can be, the axis of coordinates that the strand goes along least. */
+/* The first vector across is, as nearly as can be, the axis of coordinates that the strand goes along
+ * least. */
 static void find_axes(const double span[3], double length, double axis[3][3]) {
   int least = 0;
   for (int a = 0; a < 3; a++) {
@@ -229,8 +230,8 @@ static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
 
 /* ---- altitude springs ---- */
 
-/* Four consecutive particles, the first at k, with rest lengths from their places about an axis through the origin, so that
- * those of a strand are the same to the bit wherever it is. */
+/* Four consecutive particles, the first at k, with rest lengths from their places about an axis through the
+ * origin, so that those of a strand are the same to the bit wherever it is. */
 static int32_t find_rest(const struct hk_part *part, const struct strand *strand, int64_t k, double scale,
                          struct hk_tetrahedron *tetrahedron) {
   double x[4][3];
@@ -303,8 +304,8 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
-/* A curl is a line of points of its helix. How far the extra particles of a straight strand are off the axis depends on the
- * resolution, so that no other one is the same strand. */
+/* A curl is a line of points of its helix. How far the extra particles of a straight strand are off the axis
+ * depends on the resolution, so that no other one is the same strand. */
 static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   cells[0] = (int64_t)hooke_options_number(options, "segments");
   return hooke_options_is_set(options, "curl") ? 1 : 0;

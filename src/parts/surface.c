@@ -114,7 +114,8 @@ static void list_sides(const struct hk_surface *surface, struct side *side) {
   }
 }
 
-/* Counting sort, which keeps the order of equals; `start` has room for a number more than there are vertices. */
+/* Counting sort, which keeps the order of equals; `start` has room for a number more than there are
+ * vertices. */
 static void sort_sides(int64_t count, int64_t vertices, int by_low, const struct side *from, struct side *to,
                        int64_t *start) {
   memset(start, 0, (size_t)(vertices + 1) * sizeof *start);

@@ -4,7 +4,8 @@
 
 #include "hooke/options.h"
 
-/* One edge of one or two triangles; `across` are the vertices opposite to it, -1 where there is no second triangle. */
+/* One edge of one or two triangles; `across` are the vertices opposite to it, -1 where there is no second
+ * triangle. */
 struct hk_surface_edge {
   int32_t low, high, across[2];
 };
@@ -33,14 +34,15 @@ struct hk_surface_fault {
   int64_t vertex[3], triangle[3];
 };
 
-/* Makes the surface from options of a mesh: `vertices`, `triangles`, `transform`, `weld`. With a fault the status is
- * HOOKE_BAD_VALUE and what it is stands in `fault`; any other failure has its message. To be released in each case. */
+/* Makes the surface from options of a mesh: `vertices`, `triangles`, `transform`, `weld`. With a fault the
+ * status is HOOKE_BAD_VALUE and what it is stands in `fault`; any other failure has its message. To be
+ * released in each case. */
 int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surface,
                           struct hk_surface_fault *fault);
 void hk_surface_release(struct hk_surface *surface);
 
-/* The fault in words; vertices are counted from `base`, and triangles are called by their number, or by their line in a
- * file if `line` is not NULL. */
+/* The fault in words; vertices are counted from `base`, and triangles are called by their number, or by their
+ * line in a file if `line` is not NULL. */
 void hk_surface_describe(const struct hk_surface_fault *fault, int64_t base, const int32_t *line, char *text,
                          int64_t size);
 

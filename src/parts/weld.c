@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Kept points by the cube that they are in, whose side is the distance; without a distance, by the point itself. */
+/* Kept points by the cube that they are in, whose side is the distance; without a distance, by the point
+ * itself. */
 struct cubes {
   double distance;
   int64_t mask;

@@ -1,10 +1,12 @@
-/* Kills a process at one of its writes, to be loaded before all libraries (LD_PRELOAD). Every call that changes a regular file
- * or a name is a point; HOOKE_CRASH_AT=n kills at the n-th: before it, or with HOOKE_CRASH_TORN=1 in its midst, when half of
- * the bytes are there, and behind it where there are no bytes. With HOOKE_CRASH_ERROR=number it is not killed, but told that
- * the call has failed; with HOOKE_CRASH_FROM=1 every call from there on. HOOKE_CRASH_LOG names a file that is told what came about:
- * a line "frame <time>" when the time of a frame is in its file, and at the end "points <count>".
+/* Kills a process at one of its writes, to be loaded before all libraries (LD_PRELOAD). Every call that
+ * changes a regular file or a name is a point; HOOKE_CRASH_AT=n kills at the n-th: before it, or with
+ * HOOKE_CRASH_TORN=1 in its midst, when half of the bytes are there, and behind it where there are no bytes.
+ * With HOOKE_CRASH_ERROR=number it is not killed, but told that the call has failed; with HOOKE_CRASH_FROM=1
+ * every call from there on. HOOKE_CRASH_LOG names a file that is told what came about: a line "frame <time>"
+ * when the time of a frame is in its file, and at the end "points <count>".
  *
- * System calls are made directly. Streams write through a function of ours, since the C library's own do not pass here. */
+ * System calls are made directly. Streams write through a function of ours, since the C library's own do not
+ * pass here. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

@@ -1,5 +1,5 @@
-/* Whoever is told of progress between steps, and stops the run there, finds the state of a whole step; what goes on from it
- * ends in the bits and the counts of the run that nobody watched. */
+/* Whoever is told of progress between steps, and stops the run there, finds the state of a whole step; what
+ * goes on from it ends in the bits and the counts of the run that nobody watched. */
 #include "check.h"
 #include "run.h"
 #include "small.h"

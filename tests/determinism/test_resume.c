@@ -1,5 +1,5 @@
-/* Runs that are stopped anywhere and go on elsewhere end in the same bits, with the same frames and counts, as the run that
- * was never stopped; for every method, the references as well. */
+/* Runs that are stopped anywhere and go on elsewhere end in the same bits, with the same frames and counts,
+ * as the run that was never stopped; for every method, the references as well. */
 #include "check.h"
 #include "hash.h"
 #include "moving_scene.h"
@@ -103,7 +103,8 @@ static int64_t run_whole(const hooke_system *system, struct run run, struct trac
   return course.calls;
 }
 
-/* Frames after the checkpoint are reported again; an error-controlled run may have come past it before it was written. */
+/* Frames after the checkpoint are reported again; an error-controlled run may have come past it before it was
+ * written. */
 static void forget_after(struct trace *trace, int64_t kept, double t) {
   trace->frames = kept;
   while (trace->frames > 0 && trace->row[(trace->frames - 1) * trace->size] > t)
@@ -356,7 +357,8 @@ static void first_order_problems_go_on(void **state) {
   remove_files(path);
 }
 
-/* Restarts are part of the method: without the option there are none, and with it watching changes nothing. */
+/* Restarts are part of the method: without the option there are none, and with it watching changes
+ * nothing. */
 static void the_option_decides_and_nobody_else(void **state) {
   (void)state;
   const struct moving_scene *scene = &moving_scenes[0];

@@ -1,6 +1,7 @@
-/* A scenario is a row of calls that ends in a hash of all that came out of them. Where a call fails for a planned fault it
- * is looked at and, if the fault was a single one, made again: the same objects then have to give the same hash. If
- * everything fails from then on the scenario gives up and releases what it has, which must not fail. */
+/* A scenario is a row of calls that ends in a hash of all that came out of them. Where a call fails for a
+ * planned fault it is looked at and, if the fault was a single one, made again: the same objects then have to
+ * give the same hash. If everything fails from then on the scenario gives up and releases what it has, which
+ * must not fail. */
 #ifndef FAULT_ATTEMPT_H
 #define FAULT_ATTEMPT_H
 

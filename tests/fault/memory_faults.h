@@ -1,5 +1,6 @@
-/* Allocations of hooke and of its reader of JSON that fail by plan. The linker puts the functions here in place of those
- * of the system in what is linked statically (--wrap); jansson takes its functions from its caller. */
+/* Allocations of hooke and of its reader of JSON that fail by plan. The linker puts the functions here in
+ * place of those of the system in what is linked statically (--wrap); jansson takes its functions from its
+ * caller. */
 #ifndef FAULT_MEMORY_FAULTS_H
 #define FAULT_MEMORY_FAULTS_H
 

@@ -44,7 +44,8 @@ void places_end(void) {
   are_kept = 0;
 }
 
-/* The way by which a point was come to: the calls, from the innermost one outwards, those of other libraries left out. */
+/* The way by which a point was come to: the calls, from the innermost one outwards, those of other libraries
+ * left out. */
 static uint64_t way_here(void) {
   void *frame[DEPTH];
   fault_pause();

@@ -1,4 +1,5 @@
-/* Which of the places where the system may fail are to: counted while the plan is on, one number for all threads. */
+/* Which of the places where the system may fail are to: counted while the plan is on, one number for all
+ * threads. */
 #ifndef FAULT_PLAN_H
 #define FAULT_PLAN_H
 

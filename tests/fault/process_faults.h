@@ -1,4 +1,5 @@
-/* Allocations of the whole process that fail by plan, where the C library lets its functions be replaced: not under sanitizers. */
+/* Allocations of the whole process that fail by plan, where the C library lets its functions be replaced: not
+ * under sanitizers. */
 #ifndef FAULT_PROCESS_FAULTS_H
 #define FAULT_PROCESS_FAULTS_H
 
@@ -19,7 +20,8 @@ struct fault_trace {
 /* `trace` is kept by the first failure. */
 void process_faults_prepare(struct fault_trace *trace);
 
-/* Which library that was: "hooke", or the name of its file. What the C library was asked for is its caller's. */
+/* Which library that was: "hooke", or the name of its file. What the C library was asked for is its
+ * caller's. */
 const char *process_fault_owner(const struct fault_trace *trace, int last);
 
 #endif

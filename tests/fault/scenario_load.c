@@ -13,7 +13,8 @@ struct scene {
   const char *file, *text;
 };
 
-/* Arrays are those of a trajectory that the first one is run into; midway.h5 is what it was before the last frame. */
+/* Arrays are those of a trajectory that the first one is run into; midway.h5 is what it was before the last
+ * frame. */
 static const struct scene scenes[] = {
     {"parts.json",
      "{\"hooke\": 1, \"title\": \"parts\", \"gravity\": [0, -9.81, 0], \"drag\": 0.01,\n"

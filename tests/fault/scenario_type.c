@@ -1,5 +1,6 @@
-/* What is typed at a shell: the program itself, verb by verb, in this process. Its exit code stands for a status, and what it
- * prints for what came out. Scenarios that a build has no program for are not in its lists. */
+/* What is typed at a shell: the program itself, verb by verb, in this process. Its exit code stands for a
+ * status, and what it prints for what came out. Scenarios that a build has no program for are not in its
+ * lists. */
 #include "scenarios.h"
 
 #include "check.h"
@@ -13,7 +14,8 @@
 
 enum { MOST_WORDS = 40, WORDS_SIZE = 2048, PRINTED_SIZE = 1 << 17 };
 
-/* A word that begins with "@" is a file, in the folder of what is written if that is "out.", in that of what is read else. */
+/* A word that begins with "@" is a file, in the folder of what is written if that is "out.", in that of what
+ * is read else. */
 struct line {
   const char *words;
   int code;               /* that it ends with */

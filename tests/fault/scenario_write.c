@@ -1,4 +1,5 @@
-/* Everything that is written, and read back: trajectories, comparisons, studies, tables, reports, pages, scenes. */
+/* Everything that is written, and read back: trajectories, comparisons, studies, tables, reports, pages,
+ * scenes. */
 #include "scenarios.h"
 
 #include <stdio.h>

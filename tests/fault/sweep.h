@@ -22,13 +22,13 @@ struct attempt sweep_attempt(const struct sweep *sweep, enum fault_reach reach);
 typedef void sweep_point(const struct scenario *scenario, int64_t k, enum fault_reach reach,
                          struct attempt *a);
 
-/* All points of all scenarios of a list, or one in so many of them: each fails alone, and with all after it. A scenario
- * that no fault meets has to end in the same hash, before and after, and so has one that went on after a single fault.
- * Prints counts; fails the test at the end. */
+/* All points of all scenarios of a list, or one in so many of them: each fails alone, and with all after it.
+ * A scenario that no fault meets has to end in the same hash, before and after, and so has one that went on
+ * after a single fault. Prints counts; fails the test at the end. */
 void sweep_all(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point);
 
-/* sweep_all() of every list there is, a test of cmocka each, between `set_up` and `tear_down`, which open and close the sweep;
- * what main() returns. */
+/* sweep_all() of every list there is, a test of cmocka each, between `set_up` and `tear_down`, which open and
+ * close the sweep; what main() returns. */
 int sweep_every_list(struct sweep *sweep, sweep_point *try_point, int (*set_up)(void **),
                      int (*tear_down)(void **));
 

@@ -1,9 +1,10 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
-/* Every allocation of the process fails in turn, those of the libraries that hooke stands on, too, each in a process of its own.
- * A call ends with a failure, or with the result that it should have: no crash, no hang. What libraries do that do not bear
- * to be without memory themselves is told and not counted: HDF5 1.10.8 fails for good ("infinite loop closing library") where
- * it was without memory as it began, SUNDIALS 6.4.1 writes through the NULL of some allocations, and GSL 2.7 calls abort() by
- * its error handler, which is its user's to change. */
+/* Every allocation of the process fails in turn, those of the libraries that hooke stands on, too, each in a
+ * process of its own. A call ends with a failure, or with the result that it should have: no crash, no hang.
+ * What libraries do that do not bear to be without memory themselves is told and not counted: HDF5 1.10.8
+ * fails for good ("infinite loop closing library") where it was without memory as it began, SUNDIALS 6.4.1
+ * writes through the NULL of some allocations, and GSL 2.7 calls abort() by its error handler, which is its
+ * user's to change. */
 #include "check.h"
 #include "hash.h"
 #include "process_faults.h"

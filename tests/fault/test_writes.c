@@ -1,6 +1,6 @@
-/* Every call that writes fails in turn, once and from then on, HDF5's and hooke's own: the status, and a message with the file
- * and the reason; what was there before stays, or what comes in its place is whole; frames that were reported are there; nothing
- * is left beside. */
+/* Every call that writes fails in turn, once and from then on, HDF5's and hooke's own: the status, and a
+ * message with the file and the reason; what was there before stays, or what comes in its place is whole;
+ * frames that were reported are there; nothing is left beside. */
 #include "check.h"
 #include "file_faults.h"
 #include "hash.h"

@@ -1,5 +1,5 @@
-/* Valid HDF5 files with edits in them: a trajectory that hooke itself wrote, changed by HDF5 or in the bytes of its numbers,
- * in a file in memory. */
+/* Valid HDF5 files with edits in them: a trajectory that hooke itself wrote, changed by HDF5 or in the bytes
+ * of its numbers, in a file in memory. */
 #ifndef TESTS_FUZZ_CONTAINER_H
 #define TESTS_FUZZ_CONTAINER_H
 
@@ -7,8 +7,8 @@
 
 #include <stdint.h>
 
-/* A number and a text that are in the file beside the container alone: no reader may come to it. The text is longer than an
- * edit can be, as libFuzzer puts what is compared into its inputs. */
+/* A number and a text that are in the file beside the container alone: no reader may come to it. The text is
+ * longer than an edit can be, as libFuzzer puts what is compared into its inputs. */
 #define SECRET_NUMBER 7777.25
 #define SECRET_TEXT   "what nobody asked for and no one is told"
 
@@ -25,12 +25,12 @@ void container_begin(struct container *container);
 /* Makes the file at `path` what the edits say. */
 void container_edit(struct container *container, const struct edits *edits);
 
-/* The file as a run leaves it that was killed after so many frames of 4, for those who go on with it; as it is for more.
- * Until the next edits, who opens the path opens the file and may write into it. */
+/* The file as a run leaves it that was killed after so many frames of 4, for those who go on with it; as it
+ * is for more. Until the next edits, who opens the path opens the file and may write into it. */
 void container_kill_after(int64_t frames);
 
-/* The whole of a dataset as HDF5 reads it, without the rules of hooke's readers; the caller frees it. NULL if it cannot be
- * read, lies in another file, or is large. `size` has `rank` <= 4 numbers. */
+/* The whole of a dataset as HDF5 reads it, without the rules of hooke's readers; the caller frees it. NULL if
+ * it cannot be read, lies in another file, or is large. `size` has `rank` <= 4 numbers. */
 double *container_read(const struct container *container, const char *dataset, int32_t *rank,
                        int64_t size[4]);
 

@@ -127,8 +127,8 @@ static void set_filter(hid_t list, uint32_t layout) {
   if (layout == 10) H5Pset_scaleoffset(list, H5Z_SO_INT, 0);
 }
 
-/* `layout`: contiguous, contiguous without room, compact, chunked, deflated, chunked with one chunk, external, virtual,
- * chunked without limit, checked by Fletcher's sum, by scale and offset. */
+/* `layout`: contiguous, contiguous without room, compact, chunked, deflated, chunked with one chunk,
+ * external, virtual, chunked without limit, checked by Fletcher's sum, by scale and offset. */
 static void set_layout(const struct container *container, uint32_t layout, const char *name, hid_t list,
                        struct plan *plan) {
   char path[96];

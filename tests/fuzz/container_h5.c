@@ -1,7 +1,8 @@
 /* Containers: made once for each list of structures and kept, their numbers patched for each input.
  *
- * Opening a file takes HDF5 longer than all that hooke does with it, so images stay open: what hooke opens as the file is the
- * image, opened once more, unless its headers were patched, which HDF5 would not read again. */
+ * Opening a file takes HDF5 longer than all that hooke does with it, so images stay open: what hooke opens as
+ * the file is the image, opened once more, unless its headers were patched, which HDF5 would not read
+ * again. */
 #include "container.h"
 
 #include "container_edit_h5.h"
@@ -343,8 +344,8 @@ static void patch_value(const struct place *place, const struct edit *edit) {
          width < sizeof edit->value ? width : sizeof edit->value);
 }
 
-/* One character, of few: what any text does to those who parse it is for the targets of their own to find out, and with all
- * texts here what else is in a container would hardly ever come up. */
+/* One character, of few: what any text does to those who parse it is for the targets of their own to find
+ * out, and with all texts here what else is in a container would hardly ever come up. */
 static void patch_text(const struct place *place, const struct edit *edit) {
   static const char characters[] = "\0 \n\"{}[],:-09.e\\\xff";
   if (place->stored == 0) return;
@@ -358,8 +359,9 @@ static void replace_words(uint8_t *message, size_t size, uint64_t from, uint64_t
   }
 }
 
-/* Both the extent and the room that goes with it, so that one alone does not give it away; or one of them. Nothing else of the
- * header, which is HDF5's: HDF5 File Format Specification 3.0, IV.A.1.a, messages 0x0001 and 0x0008. */
+/* Both the extent and the room that goes with it, so that one alone does not give it away; or one of them.
+ * Nothing else of the header, which is HDF5's: HDF5 File Format Specification 3.0, IV.A.1.a, messages 0x0001
+ * and 0x0008. */
 static void patch_extent(const struct place *place, const struct edit *edit) {
   enum { PREFIX = 16, MESSAGE = 8, DATASPACE = 0x0001, LAYOUT = 0x0008 };
   const uint8_t *header = own.patched + place->header;

@@ -1,5 +1,5 @@
-/* What the bytes of an input mean to the targets that read HDF5 files: which calls to make, and a list of edits, which are
- * applied to a valid container before hooke reads it. Any bytes mean something. */
+/* What the bytes of an input mean to the targets that read HDF5 files: which calls to make, and a list of
+ * edits, which are applied to a valid container before hooke reads it. Any bytes mean something. */
 #ifndef TESTS_FUZZ_EDIT_H
 #define TESTS_FUZZ_EDIT_H
 
@@ -8,7 +8,8 @@
 
 enum { MOST_EDITS = 12, EDIT_BYTES = 12, EDIT_HEAD = 4 };
 
-/* Those that change which objects there are come first: a container without values is made once for them and kept. */
+/* Those that change which objects there are come first: a container without values is made once for them and
+ * kept. */
 enum edit_kind {
   EDIT_DELETE,    /* the link */
   EDIT_ARRAY,     /* an array of another type, shape, layout in its place */

@@ -1,5 +1,5 @@
-/* What the targets of fuzzing have in common: one function that takes an input, counts of how far inputs come, and checks
- * of what may never happen. */
+/* What the targets of fuzzing have in common: one function that takes an input, counts of how far inputs
+ * come, and checks of what may never happen. */
 #ifndef HOOKE_TESTS_FUZZ_H
 #define HOOKE_TESTS_FUZZ_H
 
@@ -9,8 +9,9 @@
 /* One input; returns 0. Called by libFuzzer and by replay.c. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, numbers of 64 bits that the driver reads: executions, those
- * past the syntax, those accepted, nanoseconds of processor. They are there whatever ends the process. To be called first of all with each input; the other two count an input once. */
+/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, numbers of 64 bits that the driver reads:
+ * executions, those past the syntax, those accepted, nanoseconds of processor. They are there whatever ends
+ * the process. To be called first of all with each input; the other two count an input once. */
 void hooke_fuzz_begin(void);
 void hooke_fuzz_is_past_syntax(void);
 void hooke_fuzz_is_accepted(void);
@@ -18,7 +19,8 @@ void hooke_fuzz_is_accepted(void);
 /* Ends the process, which is a finding, unless `holds`. */
 void hooke_fuzz_require(int holds, const char *what);
 
-/* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control characters. */
+/* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control
+ * characters. */
 void hooke_fuzz_require_message(void);
 
 /* A path to a file that holds these bytes, until the next call. */

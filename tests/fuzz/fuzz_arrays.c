@@ -1,7 +1,8 @@
-/* Arrays that a scene names in HDF5 files: whatever is in the container, the numbers that are in it or a message.
+/* Arrays that a scene names in HDF5 files: whatever is in the container, the numbers that are in it or a
+ * message.
  *
- * Lines of: src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c
- * Longest input: 148 */
+ * Lines of: src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c
+ * src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"
 

@@ -1,5 +1,5 @@
-/* Checkpoints: the file, and sometimes the one before it, are any bytes. Either the run goes on from numbers that are in the
- * file, or a message says why not and everything is as it was.
+/* Checkpoints: the file, and sometimes the one before it, are any bytes. Either the run goes on from numbers
+ * that are in the file, or a message says why not and everything is as it was.
  *
  * The first byte says what is asked, the rest is the file. Most inputs have a check value that fits.
  *
@@ -23,7 +23,8 @@
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
 
-/* Bits of the first byte. `BEFORE`: the file before is there, and whole; `ONLY_BEFORE`: there is nothing else. */
+/* Bits of the first byte. `BEFORE`: the file before is there, and whole; `ONLY_BEFORE`: there is nothing
+ * else. */
 enum { OF_ANY_RUN = 1, BEFORE = 2, ONLY_BEFORE = 4, SHORT_METHOD = 8, GO_ON = 16 };
 
 enum {

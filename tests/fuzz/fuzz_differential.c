@@ -1,11 +1,12 @@
-/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by lanes, nets and runs, as the
- * library does it, and by the plain loop of tests/support/canonical.c: the same bits. Energies and derivatives against
- * differences.
+/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by lanes, nets
+ * and runs, as the library does it, and by the plain loop of tests/support/canonical.c: the same bits.
+ * Energies and derivatives against differences.
  *
- * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c src/kernel/net_loops.c
- *           src/kernel/spring_[cl]*.c src/kernel/step_loops.c src/kernel/tangent_loops.c src/model/force/force.c
- *           src/model/force/*.c src/model/sum/*.c
- *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c src/integrate/method/rk4.c src/integrate/method/verlet.c
+ * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c
+ *           src/kernel/net_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
+ *           src/kernel/tangent_loops.c src/model/force/force.c src/model/force/*.c src/model/sum/*.c
+ *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c
+ *           src/integrate/method/rk4.c src/integrate/method/verlet.c
  * Longest input: 104 */
 #include "fuzz.h"
 #include "small_scene.h"
@@ -41,8 +42,8 @@ const struct hk_spring_set *__wrap_hk_spring_set(int32_t set) {
   return __real_hk_spring_set(first_set + set);
 }
 
-/* A number that is none has no sign that means anything. Where none is expected, or anywhere if `lost`, there may be that of
- * `left_out`, if it is not NULL: what the plain loop comes to without dampings of zero. */
+/* A number that is none has no sign that means anything. Where none is expected, or anywhere if `lost`, there
+ * may be that of `left_out`, if it is not NULL: what the plain loop comes to without dampings of zero. */
 static void require_same(int64_t count, const double *found, const double *expected, const double *left_out,
                          int lost, const char *what) {
   for (int64_t k = 0; k < count; k++) {
@@ -166,7 +167,8 @@ static void step_plainly(const struct canonical *canonical, struct stepping *by)
   hooke_fuzz_require(by->result != CANONICAL_UNKNOWN, "a step that has no definition");
 }
 
-/* A step that is solved for: one, from where it began. Where springs that only pull are damped there may be no solution. */
+/* A step that is solved for: one, from where it began. Where springs that only pull are damped there may be
+ * no solution. */
 static void check_solved(const struct small_scene *scene, const struct stepping *by, const double *q,
                          const double *v) {
   const double defect =
@@ -223,7 +225,8 @@ static void move(int64_t size, const double *from, double by, const double *alon
     to[k] = from[k] + by * along[k];
 }
 
-/* Where a spring has no length a force has no derivative; so with tetrahedra at which two altitudes are nearly as short. */
+/* Where a spring has no length a force has no derivative; so with tetrahedra at which two altitudes are
+ * nearly as short. */
 static int is_smooth(const struct small_scene *scene) {
   const struct canonical *c = &scene->canonical;
   if (scene->pulls || scene->extreme) return 0;
@@ -246,8 +249,8 @@ static int is_smooth(const struct small_scene *scene) {
   return 1;
 }
 
-/* What forces take from motion at q is what potential energy gains, and what damping takes besides is heat. The difference over
- * a step of half the size tells how far a difference is off. */
+/* What forces take from motion at q is what potential energy gains, and what damping takes besides is heat.
+ * The difference over a step of half the size tells how far a difference is off. */
 static void check_energy(const struct small_scene *scene) {
   const int64_t size = 3 * scene->particles;
   const double *q = scene->q, *v = scene->v, far = 1e-3;
@@ -390,8 +393,8 @@ static void check_momentum(const struct small_scene *scene) {
 
 static const char *const methods[] = {"symplectic-euler", "forward-euler", "verlet", "rk4"};
 
-/* Backward Euler's step takes as long as thousands of others where there is none, and a campaign keeps the inputs with the
- * longest ways to none. */
+/* Backward Euler's step takes as long as thousands of others where there is none, and a campaign keeps the
+ * inputs with the longest ways to none. */
 static struct stepping choose_steps(uint8_t code, int may_be_long) {
   struct stepping by = {.method = code % 64 == 63 && may_be_long ? "backward-euler" : methods[code % 4],
                         .steps = 1 + code / 4 % 3};
@@ -432,8 +435,8 @@ static void check_with(const uint8_t *data, size_t size, int first, int differen
   small_scene_destroy(&scene);
 }
 
-/* The first inputs go through all of it: those that are kept. The variable HOOKE_FUZZ_WHOLE says how many; a campaign has
- * thousands of its own. */
+/* The first inputs go through all of it: those that are kept. The variable HOOKE_FUZZ_WHOLE says how many; a
+ * campaign has thousands of its own. */
 static int is_whole(void) {
   static int64_t left = -1;
   if (left < 0) {

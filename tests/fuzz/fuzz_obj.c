@@ -72,7 +72,8 @@ static hooke_options *choose_options(uint8_t weld, uint8_t scale) {
   return options;
 }
 
-/* A surface that was found to be right can be built, unless masses or springs are beyond what numbers hold. */
+/* A surface that was found to be right can be built, unless masses or springs are beyond what numbers
+ * hold. */
 static void build(const hooke_options *options) {
   hooke_system *system = NULL;
   int64_t first = -1, count = -1;

@@ -1,8 +1,8 @@
 /* Options as text: tables set from words, numbers read and printed, units, and the words of a command line.
  *
- * The first byte chooses what is done, the second the table, the rest are lines. A line that begins with '=' is taken as it
- * is, "name=value" or a word of a command line; in any other the first byte stands for a row of the table and the rest is
- * its value. So most inputs come past the names.
+ * The first byte chooses what is done, the second the table, the rest are lines. A line that begins with '='
+ * is taken as it is, "name=value" or a word of a command line; in any other the first byte stands for a row
+ * of the table and the rest is its value. So most inputs come past the names.
  *
  * Lines of: src/core/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
  * Longest input: 1024, mostly 256 */
@@ -126,7 +126,8 @@ static void ask(const hooke_options *options) {
   }
 }
 
-/* A value of "!" takes the option back, one of "?" asks for its row, and "#" is followed by bytes of numbers. */
+/* A value of "!" takes the option back, one of "?" asks for its row, and "#" is followed by bytes of
+ * numbers. */
 static void set_lines(hooke_options *options, char **line, int32_t count) {
   for (int32_t k = 0; k < count; k++) {
     char *value = line[k] + 1;

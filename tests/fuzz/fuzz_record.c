@@ -1,7 +1,8 @@
 /* Trajectories read back: whatever is in the container, an answer that is in it or a message.
  *
- * Lines of: src/io/trajectory/record.c src/io/trajectory/record_h5.c src/io/trajectory/record_array_h5.c src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c src/io/trajectory/xdmf.c
- *           src/io/trajectory/trajectory_resume.c
+ * Lines of: src/io/trajectory/record.c src/io/trajectory/record_h5.c
+ *           src/io/trajectory/record_array_h5.c src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c
+ *           src/io/trajectory/frame_check_h5.c src/io/trajectory/xdmf.c src/io/trajectory/trajectory_resume.c
  * Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"
@@ -17,7 +18,8 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
 
 static struct container container;
 
-/* Bits of the second byte of an input, which says what is asked besides opening; of the first, which frame and array. */
+/* Bits of the second byte of an input, which says what is asked besides opening; of the first, which frame
+ * and array. */
 enum {
   ASK_FRAME = 1,
   ASK_ARRAY = 2,

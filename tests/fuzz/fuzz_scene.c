@@ -12,7 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A small machine, so that a scene that is too large for it is refused and not built: that is what is tested. */
+/* A small machine, so that a scene that is too large for it is refused and not built: that is what is
+ * tested. */
 enum { PAGE = 4096, PAGES = 24 };
 
 long __wrap_sysconf(int name);
@@ -31,7 +32,8 @@ int32_t __wrap_hooke_system_create(hooke_system **system) {
 
 /* ---- failures ---- */
 
-/* "scene:LINE:COLUMN: " in front of the message is a place in the text, or the one after its last character. */
+/* "scene:LINE:COLUMN: " in front of the message is a place in the text, or the one after its last
+ * character. */
 static void require_place(const char *text, size_t size) {
   const char *message = hooke_last_error();
   char *after;

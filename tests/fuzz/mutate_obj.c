@@ -1,5 +1,5 @@
-/* OBJ files changed as files of lines: lines made, doubled, dropped, moved, and their words changed. The first two bytes,
- * which choose options, are kept or changed by themselves. */
+/* OBJ files changed as files of lines: lines made, doubled, dropped, moved, and their words changed. The
+ * first two bytes, which choose options, are kept or changed by themselves. */
 #include "fuzz.h"
 
 #include <stdio.h>
@@ -197,7 +197,8 @@ static char *new_face(long long a, long long b, long long c) {
   return text;
 }
 
-/* What is left is a file without mistakes in its lines: plain vertices, then faces of three, every vertex in one. */
+/* What is left is a file without mistakes in its lines: plain vertices, then faces of three, every vertex in
+ * one. */
 static void tidy(struct lines *lines) {
   static struct lines tidied;
   static uint8_t used[MOST_LINES + 1];

@@ -29,7 +29,8 @@ static void draw_value(struct random_source *state, char value[VALUE_SIZE]) {
     snprintf(value, VALUE_SIZE, "%s", texts[random_bits(state) % (sizeof texts / sizeof texts[0])]);
 }
 
-/* Puts a line with the first byte of the old one, or another, in the place of the bytes from `begin` to `end`; 0 if it is too long. */
+/* Puts a line with the first byte of the old one, or another, in the place of the bytes from `begin` to
+ * `end`; 0 if it is too long. */
 static size_t put_line(struct random_source *state, uint8_t *data, size_t size, size_t begin, size_t end,
                        size_t most) {
   char line[VALUE_SIZE + 1];

@@ -1,5 +1,5 @@
-/* Scenes changed as scenes: parsed, a few values, keys or elements changed, printed again. What may stand where is asked of
- * the library's own option tables, so that a new option is tried by being there. */
+/* Scenes changed as scenes: parsed, a few values, keys or elements changed, printed again. What may stand
+ * where is asked of the library's own option tables, so that a new option is tried by being there. */
 #include "fuzz.h"
 
 #include "hooke/io.h"
@@ -415,7 +415,8 @@ static size_t mutate_copy(const uint8_t *a, size_t size, uint8_t *out, size_t ou
   return LLVMFuzzerCustomMutator(out, size, out_size, seed);
 }
 
-/* A key of the second scene takes its place in the first; libFuzzer asks for it as often as for a change of one scene. */
+/* A key of the second scene takes its place in the first; libFuzzer asks for it as often as for a change of
+ * one scene. */
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
                                  uint8_t *out, size_t out_size, unsigned int seed) {
   start(seed);

@@ -1,4 +1,5 @@
-/* Goes through inputs without libFuzzer: files, and all files of folders. A folder that is not there has none. */
+/* Goes through inputs without libFuzzer: files, and all files of folders. A folder that is not there has
+ * none. */
 #include "fuzz.h"
 
 #include <dirent.h>

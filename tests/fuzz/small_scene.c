@@ -106,7 +106,8 @@ static void hold_particles(const uint8_t *record, struct small_scene *scene, hoo
 
 /* ---- what joins them ---- */
 
-/* `each` particles in each of `count` rows: along a run, at a constant distance from each other, both ways; or anywhere. */
+/* `each` particles in each of `count` rows: along a run, at a constant distance from each other, both ways;
+ * or anywhere. */
 static int64_t draw_rows(const uint8_t *record, const struct small_scene *scene, int64_t each, int64_t most,
                          int64_t *row) {
   const int64_t n = scene->particles, want = 1 + record[2] % 64;

@@ -1,5 +1,5 @@
-/* Small scenes made of any bytes: a head, records of what is in the scene, and numbers that are put in the place of others.
- * What the library refuses is left out, so the scene is valid. */
+/* Small scenes made of any bytes: a head, records of what is in the scene, and numbers that are put in the
+ * place of others. What the library refuses is left out, so the scene is valid. */
 #ifndef TESTS_FUZZ_SMALL_SCENE_H
 #define TESTS_FUZZ_SMALL_SCENE_H
 

@@ -1,6 +1,6 @@
-/* In builds that check handles, every public function refuses each of its handles when it was destroyed, when it is of
- * another type, when it is no address of an object at all and, but for those that may be, when it is NULL. The list of
- * calls is made from the headers. */
+/* In builds that check handles, every public function refuses each of its handles when it was destroyed, when
+ * it is of another type, when it is no address of an object at all and, but for those that may be, when it is
+ * NULL. The list of calls is made from the headers. */
 #include "check.h"
 #include "run.h"
 #include "small.h"

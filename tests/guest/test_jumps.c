@@ -1,6 +1,6 @@
-/* A callback may leave by longjmp(), from any call: the integrator, the state and the system can then be destroyed, and run
- * again they give the bits that they would have given, with every method, with threads, and with a frame on its way to a
- * file. */
+/* A callback may leave by longjmp(), from any call: the integrator, the state and the system can then be
+ * destroyed, and run again they give the bits that they would have given, with every method, with threads,
+ * and with a frame on its way to a file. */
 #include "check.h"
 #include "held.h"
 #include "run.h"

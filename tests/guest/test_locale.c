@@ -1,5 +1,5 @@
-/* Numbers have a decimal point, whatever the locale of the process or of the thread: what is read gives the same bits, and
- * what is written the same bytes, under a locale with a comma as in C. */
+/* Numbers have a decimal point, whatever the locale of the process or of the thread: what is read gives the
+ * same bits, and what is written the same bytes, under a locale with a comma as in C. */
 #include "check.h"
 #include "run.h"
 #include "small.h"

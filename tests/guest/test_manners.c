@@ -1,6 +1,6 @@
-/* What a guest finds in a process it leaves as it is: errno, rounding mode, treatment of denormals and masks of exceptions,
- * locale, mask and handlers of signals, working folder, mask of modes, open files, threads. After every call of a tour
- * through the whole interface, calls that fail among them. */
+/* What a guest finds in a process it leaves as it is: errno, rounding mode, treatment of denormals and masks
+ * of exceptions, locale, mask and handlers of signals, working folder, mask of modes, open files, threads.
+ * After every call of a tour through the whole interface, calls that fail among them. */
 #define _GNU_SOURCE /* fegetexcept() */
 #include "check.h"
 #include "held.h"
@@ -359,8 +359,8 @@ static void on_signal(int number) {
   (void)number;
 }
 
-/* Everything that can be set is set to what it is not by default. Results are not looked at here: in another rounding mode
- * they are the caller's. */
+/* Everything that can be set is set to what it is not by default. Results are not looked at here: in another
+ * rounding mode they are the caller's. */
 static void test_in_odd_surroundings(void **unused) {
   (void)unused;
   sigset_t mask, kept;

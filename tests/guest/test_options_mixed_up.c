@@ -1,5 +1,5 @@
-/* Options all have one type, whatever they are options of: a function that is given those of something else says so, in
- * every build, and does not look for what they do not have. */
+/* Options all have one type, whatever they are options of: a function that is given those of something else
+ * says so, in every build, and does not look for what they do not have. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -256,7 +256,8 @@ static void test_other_options_are_refused(void **unused) {
   assert_true(taken >= 4);
 }
 
-/* No options at all are the defaults where the header says so; elsewhere they are missing, and that is said. */
+/* No options at all are the defaults where the header says so; elsewhere they are missing, and that is
+ * said. */
 static void test_missing_options_are_refused(void **unused) {
   (void)unused;
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",

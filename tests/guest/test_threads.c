@@ -1,5 +1,5 @@
-/* Many threads at once, each with objects of its own and all with one committed system: every one gets the bits that it gets
- * alone, its own messages, its own files. */
+/* Many threads at once, each with objects of its own and all with one committed system: every one gets the
+ * bits that it gets alone, its own messages, its own files. */
 #include "check.h"
 #include "hash.h"
 #include "random_scene.h"

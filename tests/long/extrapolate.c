@@ -1,6 +1,6 @@
-/* The motion of a scene by extrapolation in long double: extrapolate SCENE TOLERANCE EVALUATIONS TIME ... < FACTS
- * Prints JSON: times, positions (one row of 3n numbers a time), free particles, steps and evaluations; ends with 1 where the
- * evaluations do not last to the end.
+/* The motion of a scene by extrapolation in long double: extrapolate SCENE TOLERANCE EVALUATIONS TIME ... <
+ * FACTS Prints JSON: times, positions (one row of 3n numbers a time), free particles, steps and evaluations;
+ * ends with 1 where the evaluations do not last to the end.
  *
  * What a system does not tell of itself comes from the scene by way of FACTS, one a line:
  *   gravity X Y Z | drag C | pulls NUMBER | pulls-named NAME | harmonic PARTICLE X Y Z FREQUENCY PHASE

@@ -4,9 +4,9 @@
 
 #include "hooke.h"
 
-/* `live` returns a hash of what the life came to; `detail` is its argument. `kept` is what the heap may grow by in all lives
- * after the first twentieth [bytes]: 0, or with libhdf5, whose lists of released blocks fill slowly, less than a block in a
- * hundred lives. Tables end with a name of NULL. */
+/* `live` returns a hash of what the life came to; `detail` is its argument. `kept` is what the heap may grow
+ * by in all lives after the first twentieth [bytes]: 0, or with libhdf5, whose lists of released blocks fill
+ * slowly, less than a block in a hundred lives. Tables end with a name of NULL. */
 enum { HDF5_KEEPS = 4096 };
 struct life {
   const char *name, *detail;
@@ -21,7 +21,8 @@ struct life_files {
 };
 extern struct life_files life_files;
 
-/* A spring group and a rope, committed; the caller destroys it. MANY is enough for a frame to be written by a thread. */
+/* A spring group and a rope, committed; the caller destroys it. MANY is enough for a frame to be written by a
+ * thread. */
 enum { SEGMENTS = 6, MANY = 1400 };
 hooke_scene *life_scene(int32_t segments);
 

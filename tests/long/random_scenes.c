@@ -1,5 +1,6 @@
-/* Random scenes as files: random_scenes FOLDER FIRST COUNT writes FOLDER/random-<seed>.json, whose runs are of a second, with
- * frames every tenth; groups of springs that only pull have names that begin with "pull". Prints the names of the files. */
+/* Random scenes as files: random_scenes FOLDER FIRST COUNT writes FOLDER/random-<seed>.json, whose runs are
+ * of a second, with frames every tenth; groups of springs that only pull have names that begin with "pull".
+ * Prints the names of the files. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -7,7 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What a scene file can hold, in turns; no springs that start without a direction, whose motion hangs on rounding. */
+/* What a scene file can hold, in turns; no springs that start without a direction, whose motion hangs on
+ * rounding. */
 static struct random_scene_request request(uint64_t seed) {
   static const int32_t features[] = {
       SCENE_GRAVITY | SCENE_PINNED, SCENE_GRAVITY | SCENE_DAMPING | SCENE_DRAG | SCENE_PINNED,

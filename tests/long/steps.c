@@ -1,8 +1,9 @@
 /* Very many steps of a small scene: steps STATE_FILE METHOD whole|pieces STEPS.
- * A free chain of eight particles that is its own image in the origin. What has to hold exactly: the image, and with it a
- * momentum of 0, and the same numbers whether one integrator takes all steps ("whole") or new ones take pieces of them. What
- * has to stay within bounds: the energy, the angular momentum, and the memory of the process.
- * The place reached is kept in STATE_FILE, from which a later call goes on; a line is printed at every tenth of the way. */
+ * A free chain of eight particles that is its own image in the origin. What has to hold exactly: the image,
+ * and with it a momentum of 0, and the same numbers whether one integrator takes all steps ("whole") or new
+ * ones take pieces of them. What has to stay within bounds: the energy, the angular momentum, and the memory
+ * of the process. The place reached is kept in STATE_FILE, from which a later call goes on; a line is printed
+ * at every tenth of the way. */
 #include "check.h"
 #include "hash.h"
 #include "run.h"

@@ -23,7 +23,8 @@ static double volume_of(const double *q, const int64_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Particles of unequal masses, to be committed; with `scale` on the rest lengths of altitude springs on all `tetrahedra`. */
+/* Particles of unequal masses, to be committed; with `scale` on the rest lengths of altitude springs on all
+ * `tetrahedra`. */
 static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,
                                double stiffness, double damping, double scale) {
   hooke_system *system = NULL;
@@ -78,7 +79,8 @@ static double width_along(const double *q, const double n[3]) {
   return (high - low) / sqrt(dot(n, n));
 }
 
-/* The shortest altitude is the least width of the tetrahedron: no direction has a smaller one, and that of the force has it. */
+/* The shortest altitude is the least width of the tetrahedron: no direction has a smaller one, and that of
+ * the force has it. */
 static void the_shortest_is_the_least_width(void **unused) {
   (void)unused;
   struct random_source source = {3};
@@ -102,7 +104,8 @@ static void the_shortest_is_the_least_width(void **unused) {
       if (dot(n, n) > 0.01) assert_true(width_along(q, n) >= length * (1.0 - 1e-12));
     }
     check_ok(hooke_system_force(system, 0.0, q, still, force));
-    /* a push apart of 5 (1/1.25 - 1): on one side it adds up to 1, on the other side too, within the tetrahedron */
+    /* a push apart of 5 (1/1.25 - 1): on one side it adds up to 1, on the other side too, within the
+     * tetrahedron */
     double out[3], push = 0.0, most = 0.0;
     for (int p = 0; p < 4; p++) {
       if (dot(force + 3 * p, force + 3 * p) > most) {
@@ -118,7 +121,8 @@ static void the_shortest_is_the_least_width(void **unused) {
   }
 }
 
-/* Rest lengths are three volumes over the area of a face, or the volume over the parallelogram of two edges. */
+/* Rest lengths are three volumes over the area of a face, or the volume over the parallelogram of two
+ * edges. */
 static void rest_lengths_are_altitudes(void **unused) {
   (void)unused;
   const double q[12] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 2}; /* at a corner of three right angles: 6 V = 24 */
@@ -133,7 +137,8 @@ static void rest_lengths_are_altitudes(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong side. */
+/* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong
+ * side. */
 static void what_is_inside_out_turns_back(void **unused) {
   (void)unused;
   const double q0[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.5};
@@ -200,7 +205,8 @@ static void verlet_keeps_the_energy_to_its_order(void **unused) {
   check_between(fine / coarse, 0.005, 0.02);
 }
 
-/* At a change of the altitude the energy jumps by what their rest lengths differ in, and momentum does not. */
+/* At a change of the altitude the energy jumps by what their rest lengths differ in, and momentum does
+ * not. */
 static void the_energy_jumps_where_another_altitude_acts(void **unused) {
   (void)unused;
   double q[12], jump = 0.0, last = NAN, at = NAN;
@@ -334,7 +340,8 @@ static void methods_agree(void **unused) {
 
 /* ---- a hanging curl ---- */
 
-/* The share of tetrahedra of four consecutive particles that never turn inside out, frame by frame, in half a second. */
+/* The share of tetrahedra of four consecutive particles that never turn inside out, frame by frame, in half a
+ * second. */
 static double share_kept(double turns, double twist, double altitude) {
   enum { FRAMES = 50 };
   hooke_system *system = new_curl(turns, twist, altitude, 1e-5, "0,1,2");
@@ -361,8 +368,8 @@ static double share_kept(double turns, double twist, double altitude) {
   return (double)kept / (CURL - 3);
 }
 
-/* Released, a curl keeps its hand by altitude and twist springs, whichever it is; without both of them it does not, and
- * twist springs alone do not do it. */
+/* Released, a curl keeps its hand by altitude and twist springs, whichever it is; without both of them it
+ * does not, and twist springs alone do not do it. */
 static void a_hanging_curl_stays_a_curl(void **unused) {
   (void)unused;
   check_between(share_kept(2.0, 2.0, 1.0), 1.0, 1.0);

@@ -89,7 +89,8 @@ static double volume_of(const double *q, const int64_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Tetrahedra at random, some with tension, with springs, drag, and particles of all masses, some of them held. */
+/* Tetrahedra at random, some with tension, with springs, drag, and particles of all masses, some of them
+ * held. */
 static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
   (void)unused;
   for (uint64_t seed = 1; seed <= 12; seed++) {

@@ -1,4 +1,5 @@
-/* Backward Euler: its formula, any step, both forms, drives and callbacks in its equations, and steps without solution. */
+/* Backward Euler: its formula, any step, both forms, drives and callbacks in its equations, and steps without
+ * solution. */
 #include "check.h"
 #include "order.h"
 #include "reference.h"
@@ -114,7 +115,8 @@ static void order_with_a_drive(void **unused) {
 
 /* ---- nonlinear scenes ---- */
 
-/* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy never rises. */
+/* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy
+ * never rises. */
 static void strides_over_a_stiff_rod(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
@@ -201,7 +203,8 @@ static void work_is_counted(void **unused) {
 
 /* ---- no solution ---- */
 
-/* A cable that runs taut within the step: strong damping would pull it back to where it is slack and does not pull. */
+/* A cable that runs taut within the step: strong damping would pull it back to where it is slack and does not
+ * pull. */
 static void a_step_without_solution(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};

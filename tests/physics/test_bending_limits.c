@@ -32,7 +32,8 @@ static hooke_system *new_rope(int segments, double bending, double stiffness, do
   return system;
 }
 
-/* The row of a particle far from the ends sums up to 16 c, and a long beam comes as near to that as one likes. */
+/* The row of a particle far from the ends sums up to 16 c, and a long beam comes as near to that as one
+ * likes. */
 static void a_beam_is_bounded_by_its_middle(void **unused) {
   (void)unused;
   const double c = 0.5 / (0.1 * 0.1 * 0.1), slowest = 2.0 / sqrt(16.0 * c / 0.01);

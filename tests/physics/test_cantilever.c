@@ -1,7 +1,7 @@
 /* A beam and a sheet that bend under their own weight mean the same at every resolution.
  *
- * Two held particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins half a piece
- * before the wall. What its tip sinks by, for small deflections and masses by density, is
+ * Two held particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins
+ * half a piece before the wall. What its tip sinks by, for small deflections and masses by density, is
  *   m g l^3/(2 B) sum of s^3, s = 1 .. N - 1,   m = rho l,
  * which comes to w L^4/(8 B), w = rho g, as 1/N^2 does. */
 #include "check.h"
@@ -122,7 +122,8 @@ static void solve(int64_t size, int64_t width, double *band, double *x) {
   }
 }
 
-/* What the last particle sinks by; the system is destroyed. `across` particles are in a row, two rows are held. */
+/* What the last particle sinks by; the system is destroyed. `across` particles are in a row, two rows are
+ * held. */
 static double sag_of(hooke_system *system, int64_t across) {
   const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
   const int64_t size = 3 * (n - held);
@@ -168,7 +169,8 @@ static void tips_sink_as_beams_do(void **unused) {
   check_between((SAG * LENGTH - tip[0]) / (SAG * LENGTH - tip[1]), 3.5, 4.8);
 }
 
-/* Equal shares of the rope's mass give the tip twice what it stands for; a wall at the first particle is half a piece off. */
+/* Equal shares of the rope's mass give the tip twice what it stands for; a wall at the first particle is half
+ * a piece off. */
 static void other_masses_and_walls_are_noticed(void **unused) {
   (void)unused;
   const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;

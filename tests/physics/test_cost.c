@@ -1,4 +1,5 @@
-/* Costs of ingredients: which there are, limits and memory without them; times as far as they are the same everywhere. */
+/* Costs of ingredients: which there are, limits and memory without them; times as far as they are the same
+ * everywhere. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -14,7 +15,8 @@ static int32_t pull(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-/* Two unit masses on springs of frequencies 10 and 4 to pins, apart from each other, and a spring that does nothing. */
+/* Two unit masses on springs of frequencies 10 and 4 to pins, apart from each other, and a spring that does
+ * nothing. */
 static hooke_system *open_oscillators(double damping, double drag, int gravity, int callback) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 5, 0}, down[] = {0, 0, -9.81};
   static const int64_t pinned[] = {0, 2}, stiff[] = {0, 1}, soft[] = {2, 3}, zero[] = {1, 3};
@@ -135,8 +137,8 @@ static void limits_are_those_without(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Groups of 1, 3 and 2 springs and of 2 triples: as many as asked, the largest first, of one size the first; and all that is
- * not of a group. */
+/* Groups of 1, 3 and 2 springs and of 2 triples: as many as asked, the largest first, of one size the first;
+ * and all that is not of a group. */
 static void the_largest_groups_are_looked_at(void **unused) {
   (void)unused;
   enum { GROUPS = 4, MOST = GROUPS + 1 };

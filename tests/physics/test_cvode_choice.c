@@ -1,5 +1,6 @@
-/* The highest order that cvode-bdf chooses where max_order is not given: 2 where stiff springs are weakly damped and the
- * tolerance is not tight, else 5. Where 5 is chosen the run is, to the bit, that with max_order 5. */
+/* The highest order that cvode-bdf chooses where max_order is not given: 2 where stiff springs are weakly
+ * damped and the tolerance is not tight, else 5. Where 5 is chosen the run is, to the bit, that with
+ * max_order 5. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -161,7 +162,8 @@ static void test_strongly_damped(void **unused) {
   check_left_alone(STIFF, STRONG, LOOSE);
 }
 
-/* With the absolute tolerance wide, steps are long at both of these; only the first lets go of the higher orders. */
+/* With the absolute tolerance wide, steps are long at both of these; only the first lets go of the higher
+ * orders. */
 static void test_tight_tolerance(void **unused) {
   (void)unused;
   needs_cvode();

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The rule, on the canonical steps: the first check (every `stride` steps and every 1000) at which a number is not
- * finite or E - E(0) > 100 (T(0) + U_springs(0) + the largest |U_gravity - U_gravity(0)| so far + M g^2 h^2 / 2), the
- * last being what gravity gives free particles at rest in one step. What rounding may give them is left out: it is nothing
- * here. 0 if there is none. */
+/* The rule, on the canonical steps: the first check (every `stride` steps and every 1000) at which a number
+ * is not finite or E - E(0) > 100 (T(0) + U_springs(0) + the largest |U_gravity - U_gravity(0)| so far + M
+ * g^2 h^2 / 2), the last being what gravity gives free particles at rest in one step. What rounding may give
+ * them is left out: it is nothing here. 0 if there is none. */
 struct verdict {
   int64_t step, good; /* where it shows, and the check before */
 };
@@ -114,7 +114,8 @@ static void test_check_every_thousand(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A long fall gains more than 100 times what springs and motion held at first: gravity's own swing allows for it. */
+/* A long fall gains more than 100 times what springs and motion held at first: gravity's own swing allows for
+ * it. */
 static void test_falling_is_not_diverging(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
@@ -130,8 +131,8 @@ static void test_falling_is_not_diverging(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Forward Euler gives particles at rest a velocity before they have moved: nothing to compare it with yet, and still no
- * divergence, at any step. */
+/* Forward Euler gives particles at rest a velocity before they have moved: nothing to compare it with yet,
+ * and still no divergence, at any step. */
 static void test_first_step_of_a_fall(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};

@@ -150,7 +150,8 @@ static void test_callback_stops(void **unused) {
   }
 }
 
-/* The same by an error-controlled method: wherever it stopped, the driven particle is where it belongs at that time. */
+/* The same by an error-controlled method: wherever it stopped, the driven particle is where it belongs at
+ * that time. */
 static void test_callback_stops_adaptive_methods(void **unused) {
   (void)unused;
   const int64_t driven = 0;

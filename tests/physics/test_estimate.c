@@ -1,5 +1,5 @@
-/* What a run is said to be off by is what it is off by; what is picked for a wanted error keeps to it; and what grows by
- * itself is seen to. */
+/* What a run is said to be off by is what it is off by; what is picked for a wanted error keeps to it; and
+ * what grows by itself is seen to. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -179,7 +179,8 @@ static double least_limit_along(const hooke_system *system, const hooke_options 
   return least;
 }
 
-/* How many times the bound at the start the picked step is, which is at most 0.9 of the limit at every frame. */
+/* How many times the bound at the start the picked step is, which is at most 0.9 of the limit at every
+ * frame. */
 static double picked_over_bound(const hooke_system *system, const char *method) {
   hooke_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
   hooke_state *state = start_state(system);

@@ -1,5 +1,5 @@
-/* The extrapolation in long double that wants are held against: solutions to 15 digits, the canonical forces, motions, and what it
- * does where it should give up. Nothing of the library moves here. */
+/* The extrapolation in long double that wants are held against: solutions to 15 digits, the canonical forces,
+ * motions, and what it does where it should give up. Nothing of the library moves here. */
 #include "check.h"
 #include "long_force.h"
 #include "random_scene.h"

@@ -163,8 +163,8 @@ static void test_third_law(void **unused) {
   }
 }
 
-/* Springs alone and nothing held: momentum stays by every fixed-step method, angular momentum by symplectic Euler, whose
- * step is q += h v(new); forward Euler changes it by h^2 v x a. */
+/* Springs alone and nothing held: momentum stays by every fixed-step method, angular momentum by symplectic
+ * Euler, whose step is q += h v(new); forward Euler changes it by h^2 v x a. */
 static void drift(const char *method, double *momentum, double *angular) {
   double q[LAW_SIZE], v[LAW_SIZE], before[6], after[6], mass[LAW_PARTICLES], size = 0.0;
   struct law_scene scene;

@@ -1,5 +1,5 @@
-/* Pinned particles that nothing touches are not stepped, and nobody can tell: what moves has the same bits without them,
- * and they stay where they are. */
+/* Pinned particles that nothing touches are not stepped, and nobody can tell: what moves has the same bits
+ * without them, and they stay where they are. */
 #include "check.h"
 #include "run.h"
 

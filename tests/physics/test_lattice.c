@@ -1,4 +1,5 @@
-/* Lattices: how many springs of which family, where they pull, and that the part is what its springs one by one are. */
+/* Lattices: how many springs of which family, where they pull, and that the part is what its springs one by
+ * one are. */
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
@@ -82,7 +83,8 @@ static void springs_are_in_order(void **unused) {
   for (int d = 0; d < 16; d++) {
     const int64_t begin = k;
     for (int p = 0; p < NX * NY * NZ; p++) {
-      /* p is the corner from which the spring leaves in the cell: its lower end goes back along negative steps */
+      /* p is the corner from which the spring leaves in the cell: its lower end goes back along negative
+       * steps */
       const int at[3] = {p % NX, p / NX % NY, p / NX / NY};
       int low[3], high[3], fits = 1;
       for (int a = 0; a < 3; a++) {

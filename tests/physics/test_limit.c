@@ -1,5 +1,5 @@
-/* Predicted limits: against spectra computed independently to 13 digits, against the formulas of one mode, and against
- * the safe bounds, which they may never fall below. */
+/* Predicted limits: against spectra computed independently to 13 digits, against the formulas of one mode,
+ * and against the safe bounds, which they may never fall below. */
 #include "check.h"
 #include "random_scene.h"
 #include "reference.h"
@@ -195,7 +195,8 @@ static void one_mode_follows_the_table(void **unused) {
   }
 }
 
-/* The same scene many times over goes another way: iterations for more unknowns, part of the spectrum beyond. */
+/* The same scene many times over goes another way: iterations for more unknowns, part of the spectrum
+ * beyond. */
 static void many_copies_have_the_limits_of_one(void **unused) {
   (void)unused;
   static const struct {
@@ -216,7 +217,8 @@ static void many_copies_have_the_limits_of_one(void **unused) {
       check_digits(predicted(limit, "rk4"), net6.rk4, 1e-9);
       check_digits(predicted(limit, "forward-euler"), net6.forward_euler, 1e-6);
     } else {
-      /* over the modes found: never below the limit, and here those found are the ones that limit Runge-Kutta */
+      /* over the modes found: never below the limit, and here those found are the ones that limit
+       * Runge-Kutta */
       check_between(predicted(limit, "rk4"), (1.0 - 2e-3) * net6.rk4, 1.02 * net6.rk4);
       check_between(predicted(limit, "forward-euler"), net6.forward_euler, INFINITY);
       assert_true(strstr(hooke_limit_text(limit, row_of(limit, "rk4"), "note"), "only the fastest") != NULL);

@@ -1,5 +1,5 @@
-/* Limits of the step, predicted from the spectrum against found by running: random networks, and ropes, cloths and lattices
- * with one odd particle or spring. */
+/* Limits of the step, predicted from the spectrum against found by running: random networks, and ropes,
+ * cloths and lattices with one odd particle or spring. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -43,8 +43,8 @@ static int agree(double measured, double predicted, double tolerance) {
 
 /* ---- random networks ---- */
 
-/* 8 particles, some of whose springs are stretched and some compressed; every third scene has springs that only pull, every
- * fourth a driven particle, every second drag. */
+/* 8 particles, some of whose springs are stretched and some compressed; every third scene has springs that
+ * only pull, every fourth a driven particle, every second drag. */
 static hooke_system *random_network(uint64_t seed, double damping) {
   struct random_source source = {seed};
   enum { N = 8, SPRINGS = 14 };
@@ -161,7 +161,8 @@ static int64_t join(const struct piece *piece, int64_t n, int64_t *ends) {
   return count;
 }
 
-/* Springs of 100 N/m with damping in proportion `beta` to stiffness, particles of 0.1 kg, the first one pinned. */
+/* Springs of 100 N/m with damping in proportion `beta` to stiffness, particles of 0.1 kg, the first one
+ * pinned. */
 static hooke_system *build_piece(const struct piece *piece, enum odd odd, double beta) {
   const int64_t *size = piece->size, n = size[0] * size[1] * size[2], pinned = 0;
   double position[3 * MOST_PARTICLES], mass[MOST_PARTICLES], stiffness[MOST_SPRINGS], damping[MOST_SPRINGS];
@@ -302,8 +303,8 @@ static void linear_scene_runs_up_to_the_prediction(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A spring that only pulls counts as taut in the linearised scene; where it never gets taut, the scene itself takes any
- * step. */
+/* A spring that only pulls counts as taut in the linearised scene; where it never gets taut, the scene itself
+ * takes any step. */
 static void slack_scene_takes_any_step(void **unused) {
   (void)unused;
   const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};

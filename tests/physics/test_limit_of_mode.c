@@ -1,4 +1,5 @@
-/* The limit of one mode: against closed forms, against the limits of an oscillator, and what a report refuses. */
+/* The limit of one mode: against closed forms, against the limits of an oscillator, and what a report
+ * refuses. */
 #include "check.h"
 #include "run.h"
 

@@ -51,7 +51,8 @@ static void references_are_met(void **unused) {
   }
 }
 
-/* Every force, driven and pinned particles, springs that only pull, callbacks with and without their derivative. */
+/* Every force, driven and pinned particles, springs that only pull, callbacks with and without their
+ * derivative. */
 static void everything(void **unused) {
   (void)unused;
   static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
@@ -149,7 +150,8 @@ static struct counted run_alone(const hooke_system *system, const char *solver) 
   return found;
 }
 
-/* A factor takes few iterations, and the choice comes to it; also beside a particle of a millionth of the mass. */
+/* A factor takes few iterations, and the choice comes to it; also beside a particle of a millionth of the
+ * mass. */
 static void factor_pays(void **unused) {
   (void)unused;
   needs_cvode();

@@ -213,7 +213,8 @@ static void damping_by_ratio_is_that_of_both_ends(void **unused) {
 
 /* ---- vertices ---- */
 
-/* Every triangle with vertices of its own becomes the mesh with shared ones, in the order of first appearance. */
+/* Every triangle with vertices of its own becomes the mesh with shared ones, in the order of first
+ * appearance. */
 static void vertices_at_one_place_are_one(void **unused) {
   (void)unused;
   const struct mesh shared = icosahedron();

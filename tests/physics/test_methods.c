@@ -59,8 +59,8 @@ static void refuse_absent(const hooke_system *system, const char *method) {
   hooke_options_destroy(options);
 }
 
-/* Half the step at most 0.6 of the error (order 1 or better) and a tighter tolerance a smaller error; an error-controlled
- * method at rtol 1e-9 beats every fixed step of order 1 here. */
+/* Half the step at most 0.6 of the error (order 1 or better) and a tighter tolerance a smaller error; an
+ * error-controlled method at rtol 1e-9 beats every fixed step of order 1 here. */
 static void test_every_method_on_every_scene(void **unused) {
   (void)unused;
   for (int k = 0; k < REFERENCE_COUNT; k++) {
@@ -101,8 +101,9 @@ static void test_every_method_on_every_scene(void **unused) {
   }
 }
 
-/* A pendulum on a stiff, strongly damped rod. Newton with the right derivative strides over the fast mode once it has
- * died out; the fixed-point iteration of cvode-adams cannot, and neither could Newton with a wrong derivative. */
+/* A pendulum on a stiff, strongly damped rod. Newton with the right derivative strides over the fast mode
+ * once it has died out; the fixed-point iteration of cvode-adams cannot, and neither could Newton with a
+ * wrong derivative. */
 static void test_bdf_strides_over_damped_modes(void **unused) {
   (void)unused;
   if (hooke_method_is_built("cvode-bdf") != 1) skip();

@@ -96,8 +96,9 @@ static void test_drag_or_damping(void **unused) {
 
 /* ---- a hanging rubber band ---- */
 
-/* Length at rest of a band of mass 0.4 kg and unit rest length with 0.2 kg at its end, cut into `segments`. Masses lie
- * half and half at the ends of each segment, so that the exact stretch is (0.2 + 0.4/2) g / ks for any number of them. */
+/* Length at rest of a band of mass 0.4 kg and unit rest length with 0.2 kg at its end, cut into `segments`.
+ * Masses lie half and half at the ends of each segment, so that the exact stretch is (0.2 + 0.4/2) g / ks for
+ * any number of them. */
 static double hanging_length(const char *law, int64_t segments, double step) {
   const double gravity[] = {0, 0, -10}, piece = 1.0 / (double)segments;
   double *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);

@@ -1,5 +1,6 @@
-/* What a scene needs: changes and costs are those of runs made apart, refinement predicts what a much finer rope does, motion
- * that no step can follow is judged as far as it can be, and whoever stops it keeps what is known. */
+/* What a scene needs: changes and costs are those of runs made apart, refinement predicts what a much finer
+ * rope does, motion that no step can follow is judged as far as it can be, and whoever stops it keeps what is
+ * known. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -171,7 +172,8 @@ static struct frames *run_found(const hooke_needs *needs, const hooke_system *sy
   return frames;
 }
 
-/* What is said is an upper estimate: above the true error, by at most twice what the full run may be off itself. */
+/* What is said is an upper estimate: above the true error, by at most twice what the full run may be off
+ * itself. */
 static void check_said(const hooke_needs *needs, const char *prefix, const hooke_system *system,
                        const struct frames *truth) {
   char word[32];
@@ -207,8 +209,8 @@ static void errors_include_that_of_the_full_run(void **state) {
   hooke_system_destroy(system);
 }
 
-/* By a method of order 1, whose error alone limits the step: to leave out faint springs saves no steps, though the full
- * system takes ten times as many where its error is to be a tenth of the want. */
+/* By a method of order 1, whose error alone limits the step: to leave out faint springs saves no steps,
+ * though the full system takes ten times as many where its error is to be a tenth of the want. */
 static void savings_are_those_at_equal_error(void **state) {
   (void)state;
   const double want = 4e-4;

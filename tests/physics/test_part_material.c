@@ -226,7 +226,8 @@ static void a_cloth_bends_along_its_lines(void **unused) {
   hooke_system_destroy(cloth);
 }
 
-/* A cloth of one cell across has edges alone; one of two particles along a direction does not bend along it. */
+/* A cloth of one cell across has edges alone; one of two particles along a direction does not bend along
+ * it. */
 static void narrow_cloths(void **unused) {
   (void)unused;
   hooke_options *strip = new_cloth(2, 6, "mass", 0.3), *cell = new_cloth(2, 2, "mass", 0.3);

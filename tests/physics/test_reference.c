@@ -171,7 +171,8 @@ static void test_order_of_backward_euler(void **unused) {
   climb_all("backward-euler", 1.0, 5, ladders);
 }
 
-/* ---- the errors that fixed-step methods must have, to 6 digits or the rounding of positions in a few hundred steps ---- */
+/* ---- the errors that fixed-step methods must have, to 6 digits or the rounding of positions in a few
+ * hundred steps ---- */
 
 static void test_known_errors(void **unused) {
   (void)unused;

@@ -110,7 +110,8 @@ static void times_of_the_stages(void **unused) {
   hooke_integrator_destroy(integrator);
 }
 
-/* A mass on a spring whose other end is driven: with the drive at the wrong time of a stage the order would be 1. */
+/* A mass on a spring whose other end is driven: with the drive at the wrong time of a stage the order would
+ * be 1. */
 static void order_with_a_drive(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, amplitude[] = {0.1, 0, 0};

@@ -189,7 +189,8 @@ static void test_observers_stop(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* An error-controlled method reports its internal steps too: every one of them, whatever frames lie within. */
+/* An error-controlled method reports its internal steps too: every one of them, whatever frames lie
+ * within. */
 static void test_step_observer_of_adaptive_methods(void **unused) {
   (void)unused;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
@@ -338,8 +339,8 @@ static struct energies energies_of(const char *method, double omega, double h, d
   return energies;
 }
 
-/* Forward Euler multiplies the energy of an undamped oscillator by 1 + (omega h)^2 a step. Symplectic Euler keeps
- * E - h omega^2 m q.v / 2, so that E stays within a share of about omega h / 2 of where it was. */
+/* Forward Euler multiplies the energy of an undamped oscillator by 1 + (omega h)^2 a step. Symplectic Euler
+ * keeps E - h omega^2 m q.v / 2, so that E stays within a share of about omega h / 2 of where it was. */
 static void test_energy(void **unused) {
   (void)unused;
   const double omega = 5.0, h = 0.002, steps = 10000.0, share = omega * h / 2.0;

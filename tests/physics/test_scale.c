@@ -1,5 +1,5 @@
-/* Large scenes: how much memory they take, and that the last good state, of which they keep no copy, is there all the
- * same. */
+/* Large scenes: how much memory they take, and that the last good state, of which they keep no copy, is there
+ * all the same. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -175,7 +175,8 @@ static int32_t look(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A run of two parts: some steps, and on from there; the second with a copy of the last good state if it is watched. */
+/* A run of two parts: some steps, and on from there; the second with a copy of the last good state if it is
+ * watched. */
 struct outcome {
   hooke_integrator *integrator;
   hooke_state *state;

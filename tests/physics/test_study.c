@@ -1,5 +1,5 @@
-/* Studies: the reference knows what it knows, rows have true errors, orders are those of the theory, a recommendation has
- * been seen to hold, and chaos gets no false reference. */
+/* Studies: the reference knows what it knows, rows have true errors, orders are those of the theory, a
+ * recommendation has been seen to hold, and chaos gets no false reference. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -276,7 +276,8 @@ static int32_t listen(double done, const char *what, void *ctx) {
   return 0;
 }
 
-/* The share told is that of the whole study: it never goes back, not where one run ends and the next begins. */
+/* The share told is that of the whole study: it never goes back, not where one run ends and the next
+ * begins. */
 static void progress_is_of_the_whole_study(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("rope-12"));
@@ -293,7 +294,8 @@ static void progress_is_of_the_whole_study(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Half a second does not do for the first frame of a very long run, and a minute does for all of a short one. */
+/* Half a second does not do for the first frame of a very long run, and a minute does for all of a short
+ * one. */
 static void a_budget_binds_the_reference(void **unused) {
   (void)unused;
   const double every[] = {1e5, 0.05};
@@ -356,7 +358,8 @@ static void a_stopped_study_keeps_its_rows(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Rows that run side by side come to the same numbers as one after the other, and stop when they are asked to. */
+/* Rows that run side by side come to the same numbers as one after the other, and stop when they are asked
+ * to. */
 static void rows_side_by_side_are_the_same(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));

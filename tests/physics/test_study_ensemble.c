@@ -1,5 +1,5 @@
-/* What a study says of watched quantities is true, and where motion is chaotic its ensembles agree with ones ten times as
- * large, and see a bias that is there. */
+/* What a study says of watched quantities is true, and where motion is chaotic its ensembles agree with ones
+ * ten times as large, and see a bias that is there. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -40,7 +40,8 @@ static hooke_study *start(const hooke_system *system, struct study s) {
 
 /* ---- watched quantities ---- */
 
-/* Of the oscillator x(t) = cos(w t), by the error that verlet is known to make: its period is off by (w h)^2/24 of it. */
+/* Of the oscillator x(t) = cos(w t), by the error that verlet is known to make: its period is off by (w
+ * h)^2/24 of it. */
 static void errors_of_what_is_watched_are_true(void **unused) {
   (void)unused;
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
@@ -93,7 +94,8 @@ static hooke_system *double_pendulum(void) {
   return system;
 }
 
-/* How many means of a quantity are within 3 standard errors of that of the large ensemble; adds how many there are. */
+/* How many means of a quantity are within 3 standard errors of that of the large ensemble; adds how many
+ * there are. */
 static int agrees(const hooke_study *small, const hooke_study *large, const char *method,
                   const char *quantity) {
   const hooke_study *const from[] = {small, large};

@@ -1,5 +1,6 @@
-/* Studies for a wanted error on scenes whose errors follow no slope: what is recommended is as accurate as is said, a looser
- * want is never refused where a tighter one is met, and what is said of growth, rounding and margins is true. */
+/* Studies for a wanted error on scenes whose errors follow no slope: what is recommended is as accurate as is
+ * said, a looser want is never refused where a tighter one is met, and what is said of growth, rounding and
+ * margins is true. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -90,7 +91,8 @@ static double apart(const hooke_system *system, const double *a, const double *b
   return sqrt(sum / count);
 }
 
-/* The end of what is judged by a method that had no part in the reference, at a step so small that only rounding is left. */
+/* The end of what is judged by a method that had no part in the reference, at a step so small that only
+ * rounding is left. */
 static void find_end(const hooke_system *system, double until, double *exact) {
   const struct run run = {.method = "rk4", .duration = until, .every = until, .step = until / 1e6};
   run_to_end(system, run, exact, NULL);
@@ -171,8 +173,8 @@ static void none_is_not_said_before_the_finest(void **unused) {
 
 /* ---- margins ---- */
 
-/* An oscillator of 1 rad/s by verlet: the limit is 2 s, the error goes with the third power of the frequency, so that 10 %
- * more stiffness make it 15 % larger; and in proportion to the amplitude. */
+/* An oscillator of 1 rad/s by verlet: the limit is 2 s, the error goes with the third power of the frequency,
+ * so that 10 % more stiffness make it 15 % larger; and in proportion to the amplitude. */
 static void margins_are_those_of_an_oscillator(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(1.0);
@@ -208,7 +210,8 @@ static int32_t keep_positions(int64_t step, const hooke_state *state, void *ctx)
   return 0;
 }
 
-/* Positions at all frames, from a start whose free component k is displaced: positions first, then velocities. */
+/* Positions at all frames, from a start whose free component k is displaced: positions first, then
+ * velocities. */
 static void displaced_frames(const hooke_system *system, struct run run, int k, double length,
                              double *frames) {
   hooke_integrator *integrator = start_run(system, run);

@@ -105,7 +105,8 @@ static void test_stability_circle(void **unused) {
   }
 }
 
-/* Imaginary a: the solution is a circle, forward Euler a spiral outward at every step, by sqrt(1 + (a h)^2). */
+/* Imaginary a: the solution is a circle, forward Euler a spiral outward at every step, by sqrt(1 + (a
+ * h)^2). */
 static void test_spirals_outward(void **unused) {
   (void)unused;
   for (double h = 1.0; h > 1e-4; h /= 4.0) {

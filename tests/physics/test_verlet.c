@@ -1,4 +1,5 @@
-/* Velocity Verlet: what it costs, what a callback sees, energy over long runs, and how large its step may be. */
+/* Velocity Verlet: what it costs, what a callback sees, energy over long runs, and how large its step may
+ * be. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -99,7 +100,8 @@ static void callback_sees_the_velocity_half_way(void **unused) {
 
 /* ---- one oscillator ---- */
 
-/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; the damping in the spring or in the ether. */
+/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; the damping in the spring or in the
+ * ether. */
 static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) {
   const double q[] = {0, 0, 0, 1, 0, 0}, mass = 0.5;
   const int64_t ends[] = {0, 1};
@@ -209,7 +211,8 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A stiff elastic pendulum, nonlinear and without damping: energy swings, and does not drift, over 100 000 steps. */
+/* A stiff elastic pendulum, nonlinear and without damping: energy swings, and does not drift, over 100 000
+ * steps. */
 static void energy_stays_bounded(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("elastic-pendulum"));

@@ -1,5 +1,5 @@
-/* Runs that callbacks blow up, the states that are kept, warnings, and the rules of a diagnosis. The scenes without
- * callbacks are in tests/cli/scenes/exploding. */
+/* Runs that callbacks blow up, the states that are kept, warnings, and the rules of a diagnosis. The scenes
+ * without callbacks are in tests/cli/scenes/exploding. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -103,7 +103,8 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
   hooke_system_destroy(system);
 }
 
-/* Not a number from a time on; infinite beyond a place; from fixed steps, from stages within steps, from a solver. */
+/* Not a number from a time on; infinite beyond a place; from fixed steps, from stages within steps, from a
+ * solver. */
 static void test_force_callbacks(void **unused) {
   (void)unused;
   needs_lapack();
@@ -174,7 +175,8 @@ static void test_innocent_callback(void **unused) {
 
 /* ---- a diagnosis ---- */
 
-/* sqrt(k/m) = 10: the limit is 0.2, and the growth of symplectic Euler is known, so is the step that goes wrong. */
+/* sqrt(k/m) = 10: the limit is 0.2, and the growth of symplectic Euler is known, so is the step that goes
+ * wrong. */
 static void test_numbers_of_an_oscillator(void **unused) {
   (void)unused;
   needs_lapack();
@@ -252,7 +254,8 @@ static void test_asking_changes_nothing(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Methods that choose their steps, with tolerances a thousand times what moves: energy creeps up until it is too much. */
+/* Methods that choose their steps, with tolerances a thousand times what moves: energy creeps up until it is
+ * too much. */
 static void test_tolerances_that_are_too_loose(void **unused) {
   (void)unused;
   needs_lapack();
@@ -277,8 +280,8 @@ static void test_tolerances_that_are_too_loose(void **unused) {
   }
 }
 
-/* A force that grows as the cube of the distance brings it to infinity in a finite time, at about t = 1.77 s: no step and no
- * tolerance gets past that. */
+/* A force that grows as the cube of the distance brings it to infinity in a finite time, at about t = 1.77 s:
+ * no step and no tolerance gets past that. */
 static int32_t escaping_force(int64_t n, double t, const double *q, const double *v, double *force,
                               void *ctx) {
   (void)t, (void)v, (void)ctx;
@@ -359,8 +362,8 @@ static void test_own_loop(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are stiff across, too.
- * Advice is then tried from a state shortly before the trouble. */
+/* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are
+ * stiff across, too. Advice is then tried from a state shortly before the trouble. */
 static void test_trouble_that_comes_late(void **unused) {
   (void)unused;
   needs_lapack();
@@ -410,7 +413,8 @@ static int32_t count_down(double done, const char *what, void *ctx) {
   return --*(int *)ctx < 0;
 }
 
-/* At any call, within replays, searches and trials, and nothing is made; without one, the callback changes nothing. */
+/* At any call, within replays, searches and trials, and nothing is made; without one, the callback changes
+ * nothing. */
 static void test_progress_ends_it(void **unused) {
   (void)unused;
   needs_lapack();
@@ -697,7 +701,8 @@ static void check_overflow(hooke_system *system, int64_t particle, const char *w
   hooke_system_destroy(system);
 }
 
-/* Bending and altitude springs of 1e300: the first step leaves the range of numbers, and no spring is blamed. */
+/* Bending and altitude springs of 1e300: the first step leaves the range of numbers, and no spring is
+ * blamed. */
 static void test_overflow_without_springs(void **unused) {
   (void)unused;
   needs_lapack();

@@ -349,8 +349,8 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
   return result;
 }
 
-/* Force by displacement across a spring: its tension over its length, which turns with it. Where two particles nearly meet that
- * is far more than the stiffness along it. */
+/* Force by displacement across a spring: its tension over its length, which turns with it. Where two
+ * particles nearly meet that is far more than the stiffness along it. */
 static double across(const struct canonical *canonical, int64_t k, const double *q, double speed) {
   const double *a = q + 3 * canonical->ends[2 * k], *b = q + 3 * canonical->ends[2 * k + 1];
   const double r = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);

@@ -1,8 +1,9 @@
 /* The definition of the sums that every path of the library reproduces to the bit.
  *
- * Forces on a particle are added in this order: its springs in ascending spring number (added to the first end,
- * subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs likewise, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that
- * are held (pinned or driven) have none. */
+ * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
+ * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
+ * likewise, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that are held
+ * (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
@@ -31,29 +32,31 @@ struct canonical {
   void *place_ctx;
 };
 
-/* Numbers of a committed system. Springs of all kinds, of groups whose name begins with "pull" only pull; gravity, drag and callback
- * are for the caller to fill in. */
+/* Numbers of a committed system. Springs of all kinds, of groups whose name begins with "pull" only pull;
+ * gravity, drag and callback are for the caller to fill in. */
 void canonical_create(const hooke_system *system, struct canonical *canonical);
 void canonical_destroy(struct canonical *canonical);
 
-/* A = n.n of the seven altitudes of a tetrahedron with these corners, each of three numbers: six times the volume over the
- * root of A is the altitude. */
+/* A = n.n of the seven altitudes of a tetrahedron with these corners, each of three numbers: six times the
+ * volume over the root of A is the altitude. */
 void canonical_altitudes(const double *const x[4], double square[7]);
 
 /* Accelerations, 3 particle_count. */
 void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
                             double *acceleration);
 
-/* One step of a fixed-step method from time t to `end`, h long but for rounding; pinned particles stay as they are. */
+/* One step of a fixed-step method from time t to `end`, h long but for rounding; pinned particles stay as
+ * they are. */
 enum { CANONICAL_UNKNOWN, CANONICAL_STEPPED, CANONICAL_SOLVED };
-/* CANONICAL_UNKNOWN for a method that has no definition here, CANONICAL_SOLVED, with q and v untouched, for one whose step
- * is the solution of equations and no sum. */
+/* CANONICAL_UNKNOWN for a method that has no definition here, CANONICAL_SOLVED, with q and v untouched, for
+ * one whose step is the solution of equations and no sum. */
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v);
 
-/* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity, over 1e-9 of
- * the largest change of one, in the whole step or in the kick that is solved for, and what a few roundings of the numbers
- * in the equations make of it. Infinity unless positions follow from the velocities to the bit. */
+/* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity,
+ * over 1e-9 of the largest change of one, in the whole step or in the kick that is solved for, and what a few
+ * roundings of the numbers in the equations make of it. Infinity unless positions follow from the velocities
+ * to the bit. */
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1);
 

@@ -70,7 +70,8 @@ static void midpoint(struct extrapolation *problem, struct work *work, long doub
     work->result[i] = 0.5L * (work->before[i] + work->now[i] + s * work->slope[i]);
 }
 
-/* Takes a row into the scheme, whose error goes in even powers of the substep; returns the error in units of the tolerance. */
+/* Takes a row into the scheme, whose error goes in even powers of the substep; returns the error in units of
+ * the tolerance. */
 static long double extend(const struct extrapolation *problem, struct work *work, int row) {
   long double worst = 0.0L, ratio[ROWS];
   for (int j = 1; j <= row; j++) {

@@ -1,6 +1,6 @@
-/* Solutions of y' = f(t, y) to nearly all digits of long double, by a method that the library does not have: the modified midpoint
- * rule with 2, 4, 6, ... substeps, extrapolated to substeps of no length (Gragg, Bulirsch and Stoer), with step and order by the
- * error of each step. */
+/* Solutions of y' = f(t, y) to nearly all digits of long double, by a method that the library does not have:
+ * the modified midpoint rule with 2, 4, 6, ... substeps, extrapolated to substeps of no length (Gragg,
+ * Bulirsch and Stoer), with step and order by the error of each step. */
 #ifndef TESTS_SUPPORT_EXTRAPOLATION_H
 #define TESTS_SUPPORT_EXTRAPOLATION_H
 
@@ -19,8 +19,8 @@ struct extrapolation {
   int64_t evaluations, steps, rejected;
 };
 
-/* From y at t to y at `end`; `step` [s] is the first one tried, then the one to go on with. 0, or -1 where the evaluations
- * are spent or steps have shrunk to nothing. */
+/* From y at t to y at `end`; `step` [s] is the first one tried, then the one to go on with. 0, or -1 where
+ * the evaluations are spent or steps have shrunk to nothing. */
 int32_t extrapolate(struct extrapolation *problem, long double t, long double end, long double *step,
                     long double *y);
 

@@ -1,4 +1,5 @@
-/* Runs at the extremes: what came of a run, judges that say what is wrong with it, and the rows of docs/extremes.md. */
+/* Runs at the extremes: what came of a run, judges that say what is wrong with it, and the rows of
+ * docs/extremes.md. */
 #ifndef TESTS_SUPPORT_EXTREME_H
 #define TESTS_SUPPORT_EXTREME_H
 
@@ -33,8 +34,8 @@ void extreme_release(struct extreme_outcome *outcome);
 
 /* ---- judges: NULL, or what is wrong ---- */
 
-/* What every outcome owes: a status that is documented; finite numbers in the state and in every frame; the end of the
- * run reached to the bit, or else a message that says what to do and a state within the run. */
+/* What every outcome owes: a status that is documented; finite numbers in the state and in every frame; the
+ * end of the run reached to the bit, or else a message that says what to do and a state within the run. */
 const char *extreme_unsound(const struct extreme_outcome *outcome);
 /* Sound, the end reached, and low <= error <= high. */
 const char *extreme_not_right(const struct extreme_outcome *outcome, double error, double low, double high);
@@ -43,7 +44,8 @@ const char *extreme_not_ended(const struct extreme_outcome *outcome, int32_t sta
 /* Sound, and ended by any of diverged, step limit, solver failed or bad value. */
 const char *extreme_not_refused(const struct extreme_outcome *outcome);
 
-/* The largest distance of a coordinate from where it should be, over `scale` (INFINITY for one that is no number). */
+/* The largest distance of a coordinate from where it should be, over `scale` (INFINITY for one that is no
+ * number). */
 double extreme_error(const struct extreme_outcome *outcome, const double *expected, double scale);
 
 /* Fails the running test with what a judge says, if it says anything. */
@@ -52,15 +54,15 @@ void extreme_demand(const char *family, const char *name, const char *method, co
 
 /* ---- rows ---- */
 
-/* Remembers one cell of the table of `family`: the outcome of `name` by `method`. `error` is that of a run that came to
- * its end; NaN: none is stated. */
+/* Remembers one cell of the table of `family`: the outcome of `name` by `method`. `error` is that of a run
+ * that came to its end; NaN: none is stated. */
 void extreme_record(const char *family, const char *name, const char *method,
                     const struct extreme_outcome *outcome, double error);
 /* The same with words of the caller's own. */
 void extreme_note(const char *family, const char *name, const char *method, const char *words);
 
-/* The end of every main(): with --rows, prints what was recorded, in lines of "row", family, case, method and words
- * between tabs. Returns the exit code. */
+/* The end of every main(): with --rows, prints what was recorded, in lines of "row", family, case, method and
+ * words between tabs. Returns the exit code. */
 int extreme_finish(int argc, char **argv, int failed);
 
 /* ---- the oscillator ---- */
@@ -86,9 +88,9 @@ struct extreme_oscillator {
   int32_t implicit_status; /* likewise of fixed-step methods that do not diverge */
 };
 
-/* Runs it by every method; each has to give, to rounding, what its known matrix gives, or to diverge where that does.
- * Error-controlled methods have to come between 1e-5 and 1e4 times their tolerance to the solution; far from the origin
- * the tolerance is relative to the distance. */
+/* Runs it by every method; each has to give, to rounding, what its known matrix gives, or to diverge where
+ * that does. Error-controlled methods have to come between 1e-5 and 1e4 times their tolerance to the
+ * solution; far from the origin the tolerance is relative to the distance. */
 void extreme_oscillate(const struct extreme_oscillator *oscillator);
 
 #endif

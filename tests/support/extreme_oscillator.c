@@ -69,7 +69,8 @@ static const char *judge_known(const struct extreme_oscillator *o, const struct 
                            o->rounding != 0.0 ? o->rounding : 1e-9);
 }
 
-/* The energy that the library states is that of the state, and the momentum of a free pair that of the start. */
+/* The energy that the library states is that of the state, and the momentum of a free pair that of the
+ * start. */
 static void check_sums(const struct model *model, const struct extreme_outcome *outcome) {
   const double *mass = hooke_system_mass(model->system), *w = hooke_system_inverse_mass(model->system);
   const long double x = (long double)outcome->q[3] - outcome->q[0] - model->rest;

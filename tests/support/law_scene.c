@@ -116,7 +116,8 @@ static double clear_altitude(const double *const x[4]) {
   return second < 0.75 * first ? fabs(volume) / sqrt(first) : 0.0;
 }
 
-/* Both longer and shorter than at rest; damping does not come near to cancelling the tension of those that only pull. */
+/* Both longer and shorter than at rest; damping does not come near to cancelling the tension of those that
+ * only pull. */
 static void add_altitude(const struct law *law, struct random_source *source, const double *q,
                          hooke_system *system) {
   for (int group = 0; group < 2; group++) {

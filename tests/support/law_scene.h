@@ -29,12 +29,13 @@ struct law_scene {
   int64_t slack, unloaded, taut; /* springs that only pull: short, long but pushed by damping, pulling */
 };
 
-/* Every point closer than 0.03 to (q, v) in each component is on the same side of every switch of a spring that only
- * pulls. */
+/* Every point closer than 0.03 to (q, v) in each component is on the same side of every switch of a spring
+ * that only pulls. */
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene);
 void law_scene_destroy(struct law_scene *scene);
 
-/* Derivative at 0 of g(s) (count numbers), by central differences at h, h/2, h/4, h/8 extrapolated to order 8. */
+/* Derivative at 0 of g(s) (count numbers), by central differences at h, h/2, h/4, h/8 extrapolated to order
+ * 8. */
 typedef void law_curve(double s, double *value, void *ctx);
 void differentiate(int64_t count, law_curve *curve, double h, void *ctx, double *derivative);
 

@@ -59,7 +59,8 @@ static void add_triples(const struct canonical *canonical, const real *q, real *
   }
 }
 
-/* An altitude from a corner to a face, or from an edge to an edge: the corners, and with what weights it follows them. */
+/* An altitude from a corner to a face, or from an edge to an edge: the corners, and with what weights it
+ * follows them. */
 struct altitude {
   int64_t corner[4];
   real along[3], height, weight[4], square;

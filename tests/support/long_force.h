@@ -1,4 +1,5 @@
-/* The accelerations of canonical.h once more, in long double and with motions prescribed, as a rate for extrapolation.h. */
+/* The accelerations of canonical.h once more, in long double and with motions prescribed, as a rate for
+ * extrapolation.h. */
 #ifndef TESTS_SUPPORT_LONG_FORCE_H
 #define TESTS_SUPPORT_LONG_FORCE_H
 

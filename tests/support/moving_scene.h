@@ -1,4 +1,5 @@
-/* Small scenes that move, each with what a run has to remember: for tests that hold all methods against each other. */
+/* Small scenes that move, each with what a run has to remember: for tests that hold all methods against each
+ * other. */
 #ifndef TESTS_SUPPORT_MOVING_SCENE_H
 #define TESTS_SUPPORT_MOVING_SCENE_H
 

@@ -127,15 +127,16 @@ static void draw_ends(struct random_source *source, int64_t particles, int64_t c
   }
 }
 
-/* What was asked for, spring by spring: the library has to hold just that, without what has neither stiffness nor damping.
- */
+/* What was asked for, spring by spring: the library has to hold just that, without what has neither stiffness
+ * nor damping. */
 struct wanted {
   int64_t count; /* so far */
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
 };
 
-/* One number for the group, or one a spring, some of them `low` itself; written out for every spring in `values`. */
+/* One number for the group, or one a spring, some of them `low` itself; written out for every spring in
+ * `values`. */
 static void set_random(struct random_source *source, hooke_options *options, const char *name, int64_t count,
                        double low, double high, double *values) {
   const int64_t drawn = random_whole(source, 0, 1) ? count : 1;

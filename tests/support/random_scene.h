@@ -44,11 +44,12 @@ struct random_scene {
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);
 void random_scene_destroy(struct random_scene *scene);
 
-/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, held particles stay. */
+/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, held particles
+ * stay. */
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v);
 
-/* The callback that scenes with SCENE_CALLBACK use: a pull to the origin, a push that grows with time, and a brake.
- * It reads nothing but its arguments, so it may run in many threads. */
+/* The callback that scenes with SCENE_CALLBACK use: a pull to the origin, a push that grows with time, and a
+ * brake. It reads nothing but its arguments, so it may run in many threads. */
 int32_t random_scene_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 int32_t random_scene_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                    const double *dv, double *out, void *ctx);

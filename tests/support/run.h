@@ -29,7 +29,8 @@ int32_t is_fixed_step(const char *method);
 double largest_difference(int64_t count, const double *a, const double *b);
 double largest(int64_t count, const double *a);
 
-/* hooke_step_bound() at the initial positions; a build without it skips the test, and the system is destroyed. */
+/* hooke_step_bound() at the initial positions; a build without it skips the test, and the system is
+ * destroyed. */
 double bound_at_start(const hooke_system *system, const char *method);
 
 #endif

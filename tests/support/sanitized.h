@@ -1,5 +1,5 @@
-/* Builds with a sanitizer take ten times as long: there a test may take a share of its cases, unless HOOKE_LONG is set; and
- * in any build with HOOKE_SHORT, for those whose every case runs elsewhere. */
+/* Builds with a sanitizer take ten times as long: there a test may take a share of its cases, unless
+ * HOOKE_LONG is set; and in any build with HOOKE_SHORT, for those whose every case runs elsewhere. */
 #ifndef HOOKE_TEST_SANITIZED_H
 #define HOOKE_TEST_SANITIZED_H
 

@@ -17,11 +17,12 @@ hooke_system *small_system(int64_t count, const double *position, const double *
                            int32_t pin_first);
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs);
 
-/* A committed mass on a spring of no length about the pinned origin: every coordinate is an oscillator of angular
- * frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
+/* A committed mass on a spring of no length about the pinned origin: every coordinate is an oscillator of
+ * angular frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
 hooke_system *small_oscillator(double omega);
 
-/* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples: chaotic after a second or so. */
+/* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
+ * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
 
 #endif

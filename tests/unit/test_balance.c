@@ -1,5 +1,5 @@
-/* The balance of energy: what is left over is the error of the method, gets less with the step as its order says, and does not
- * where power is wrong. */
+/* The balance of energy: what is left over is the error of the method, gets less with the step as its order
+ * says, and does not where power is wrong. */
 #include "hooke.h"
 #include "check.h"
 

@@ -1,5 +1,6 @@
-/* Checkpoint files under attack: every byte changed, every length of a file that was cut off, numbers that no run comes by, files
- * of other runs, and the one before in place of the newest. What is read is what was written, or nothing. */
+/* Checkpoint files under attack: every byte changed, every length of a file that was cut off, numbers that no
+ * run comes by, files of other runs, and the one before in place of the newest. What is read is what was
+ * written, or nothing. */
 #include "check.h"
 #include "random.h"
 #include "run.h"

@@ -1,5 +1,5 @@
-/* Crews: every member does its share once, what it wrote is seen by all after a meeting, and neither more members than
- * processors nor work of unequal length holds anyone up. */
+/* Crews: every member does its share once, what it wrote is seen by all after a meeting, and neither more
+ * members than processors nor work of unequal length holds anyone up. */
 #include "check.h"
 
 #include "core/crew.h"
@@ -19,8 +19,8 @@ struct sums {
   int64_t part[MOST], value[COUNT];
 };
 
-/* In each round members add up their shares, meet, add up what the others found, meet, and put new values into the share
- * of the next member. */
+/* In each round members add up their shares, meet, add up what the others found, meet, and put new values
+ * into the share of the next member. */
 static void add_up(int32_t member, int32_t members, void *ctx) {
   struct sums *sums = ctx;
   const int64_t expected = (int64_t)COUNT * (COUNT - 1) / 2;

@@ -159,7 +159,8 @@ static void test_not_finite(void **unused) {
   }
 }
 
-/* Errors h^2 times exp(+d), exp(-2 d), exp(+d) at three steps: slope 2, its half width 12.7062 sqrt(6 d^2/(2 L^2)). */
+/* Errors h^2 times exp(+d), exp(-2 d), exp(+d) at three steps: slope 2, its half width 12.7062 sqrt(6 d^2/(2
+ * L^2)). */
 static void test_line(void **unused) {
   (void)unused;
   enum { ROWS = 3 };

@@ -204,7 +204,8 @@ static void not_built(void **unused) {
   tear_down(&b);
 }
 
-/* dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and by a factor. */
+/* dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and
+ * by a factor. */
 static void implicit_equation(void **unused) {
   (void)unused;
   for (int k = 0; k < 12; k++) {

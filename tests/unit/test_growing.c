@@ -1,4 +1,5 @@
-/* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with every force. */
+/* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with
+ * every force. */
 #include "measure/why/growing.h"
 #include "measure/spectrum/top_mode.h"
 

@@ -1,5 +1,5 @@
-/* Steps that read well and fit: the largest of 1, 2 or 5 times a power of ten up to the limit of which frames and the whole run
- * are multiples, or else a whole part of what there is. */
+/* Steps that read well and fit: the largest of 1, 2 or 5 times a power of ten up to the limit of which frames
+ * and the whole run are multiples, or else a whole part of what there is. */
 #include "measure/why/why.h"
 
 #include "check.h"

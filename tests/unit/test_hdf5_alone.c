@@ -1,5 +1,5 @@
-/* HDF5 takes one thread at a time unless it was built for more, so hooke lets in one: threads with files of their own never
- * meet in it. H5Fopen() is stood in for, to see who is there. */
+/* HDF5 takes one thread at a time unless it was built for more, so hooke lets in one: threads with files of
+ * their own never meet in it. H5Fopen() is stood in for, to see who is there. */
 #include "check.h"
 #include "run.h"
 #include "small.h"

@@ -1,6 +1,7 @@
-/* Particles and springs are numbered by 32 bits, and places in memory are not: the loops give the bits that they give for small
- * numbers where particle, byte and triple of coordinates pass 2^31 and 2^32, up to the last particle that there can be.
- * Of arrays that long only a window is there; whoever goes beyond it ends the test. */
+/* Particles and springs are numbered by 32 bits, and places in memory are not: the loops give the bits that
+ * they give for small numbers where particle, byte and triple of coordinates pass 2^31 and 2^32, up to the
+ * last particle that there can be. Of arrays that long only a window is there; whoever goes beyond it ends
+ * the test. */
 #define _DEFAULT_SOURCE
 #include "check.h"
 #include "random.h"
@@ -29,7 +30,8 @@ static const int64_t edges[] = {(INT64_C(1) << 28) + BESIDE, (INT64_C(1) << 29) 
                                 (INT64_C(1) << 30) + BESIDE, 2 * (MOST / 3) + BESIDE,     MOST};
 enum { EDGES = sizeof edges / sizeof edges[0] };
 
-/* Arrays of MOST doubles, of which numbers low .. low + WINDOW - 1 are there, and nothing is for a while on either side. */
+/* Arrays of MOST doubles, of which numbers low .. low + WINDOW - 1 are there, and nothing is for a while on
+ * either side. */
 struct world {
   char *reserved[ARRAYS];
   double *array[ARRAYS];

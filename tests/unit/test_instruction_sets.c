@@ -1,5 +1,5 @@
-/* Runs of every method with a fixed step have the bits that are written here, with the loops of every instruction set that this
- * machine has, whatever the build is optimised for, for any number of threads. */
+/* Runs of every method with a fixed step have the bits that are written here, with the loops of every
+ * instruction set that this machine has, whatever the build is optimised for, for any number of threads. */
 #include "check.h"
 #include "hash.h"
 #include "random_scene.h"

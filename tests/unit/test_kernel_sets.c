@@ -172,7 +172,8 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
                                 .gravity = {0.0, -9.81, 0.1}};
 }
 
-/* The forces by springs one at a time: those that end at a particle, lane by lane, each before the one that begins there. */
+/* The forces by springs one at a time: those that end at a particle, lane by lane, each before the one that
+ * begins there. */
 static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
   int64_t lost = 0;
   for (int32_t k = 0; k < trial->pass.count; k++) {

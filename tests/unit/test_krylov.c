@@ -57,7 +57,8 @@ static void eliminate(const struct dense *dense, const double *b, double *x) {
   }
 }
 
-/* diag + share (R + skew-or-symmetric R^T), entries of R up to 1/SIZE in size; every `flip`-th diagonal negative. */
+/* diag + share (R + skew-or-symmetric R^T), entries of R up to 1/SIZE in size; every `flip`-th diagonal
+ * negative. */
 static void fill(struct dense *dense, uint64_t seed, double share, double mirror, int flip) {
   struct random_source source = {seed};
   memset(dense, 0, sizeof *dense);

@@ -1,4 +1,5 @@
-/* Systems whose springs form lanes: sums and steps have the bits of the plain order, whatever the lanes are. */
+/* Systems whose springs form lanes: sums and steps have the bits of the plain order, whatever the lanes
+ * are. */
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
@@ -117,7 +118,8 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
   return count;
 }
 
-/* Ropes side by side are two lanes, not two a rope; springs of the same offset that come again after others are a third. */
+/* Ropes side by side are two lanes, not two a rope; springs of the same offset that come again after others
+ * are a third. */
 static void test_lanes_of_ropes(void **unused) {
   (void)unused;
   hooke_system *system;
@@ -146,7 +148,8 @@ static void test_lanes_of_ropes(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Ropes of several materials are a lane each, which reads no parameters, and of very many one lane that does. */
+/* Ropes of several materials are a lane each, which reads no parameters, and of very many one lane that
+ * does. */
 static void check_materials(int ropes, int32_t lanes, int32_t shape) {
   hooke_system *system;
   hooke_options *options;

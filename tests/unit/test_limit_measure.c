@@ -12,7 +12,8 @@
 
 /* ---- small scenes ---- */
 
-/* Unit masses on springs of 1 m to pins, apart from each other: mode k is the motion of mass k along its spring. */
+/* Unit masses on springs of 1 m to pins, apart from each other: mode k is the motion of mass k along its
+ * spring. */
 static hooke_system *oscillators(int64_t count, const double *stiffness, const double *damping, double far) {
   hooke_system *system;
   hooke_options *options;
@@ -137,7 +138,8 @@ static void hidden_mode_is_found(void **unused) {
 
 static void frozen_system_rests(void **unused) {
   (void)unused;
-  /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident particle */
+  /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident
+   * particle */
   const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
   const int64_t ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 4}, pinned = 0, driven = 3;
   const double rest[5] = {0.7, 1.5, 0.6, 0.9, 0.5}, amplitude[3] = {0, 0.1, 0}, mass = 0.5;

@@ -1,5 +1,5 @@
-/* Systems whose springs form a net: sums and steps have the bits of the plain order, whatever the numbers of particles and
- * springs are. */
+/* Systems whose springs form a net: sums and steps have the bits of the plain order, whatever the numbers of
+ * particles and springs are. */
 #include "agree.h"
 #include "check.h"
 #include "members.h"

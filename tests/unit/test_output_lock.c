@@ -1,5 +1,5 @@
-/* The output of a run belongs to that run: a second one is refused at its start, whichever way it comes, until the first has ended
- * or is dead. Readers have no part in it, and a fork leaves all as it is. */
+/* The output of a run belongs to that run: a second one is refused at its start, whichever way it comes,
+ * until the first has ended or is dead. Readers have no part in it, and a fork leaves all as it is. */
 #include "check.h"
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
@@ -146,7 +146,8 @@ static void one_alone_goes_on_with_it(void **state) {
 
 /* ---- processes ---- */
 
-/* Begins a run when the pipe `go` is closed and tells by `out` whether it has the output; ends when `end` is closed. */
+/* Begins a run when the pipe `go` is closed and tells by `out` whether it has the output; ends when `end` is
+ * closed. */
 static pid_t start_other(const int go[2], const int end[2], int out) {
   const pid_t child = fork();
   if (child != 0) return child;
@@ -225,7 +226,8 @@ static int is_refused_in_a_fork(hooke_trajectory *trajectory) {
          strstr(hooke_last_error(), "forked") != NULL;
 }
 
-/* The child ends by what would close the file, the thread that writes being its parent's, and lives on for longer. */
+/* The child ends by what would close the file, the thread that writes being its parent's, and lives on for
+ * longer. */
 static void a_fork_leaves_the_file_alone(void **state) {
   (void)state;
   int end[2], told[2], how;

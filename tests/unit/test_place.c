@@ -1,5 +1,5 @@
-/* Where files come to be: written by several at once, under the longest names, through links, in place of files with a mode and
- * an owner of their own. */
+/* Where files come to be: written by several at once, under the longest names, through links, in place of
+ * files with a mode and an owner of their own. */
 #include "check.h"
 #include "small.h"
 

@@ -1,5 +1,5 @@
-/* Room: scenes that are too large are refused before anything is allocated, at the edges of 32-bit numbers and of memory;
- * what is said to be needed is held against what is used. */
+/* Room: scenes that are too large are refused before anything is allocated, at the edges of 32-bit numbers
+ * and of memory; what is said to be needed is held against what is used. */
 #include "hooke.h"
 #include "check.h"
 #include "sanitized.h"

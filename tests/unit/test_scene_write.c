@@ -97,8 +97,8 @@ static void random_systems_come_back(void **state) {
   }
 }
 
-/* A lattice and a mesh from a file, with pins beyond those of their options: the mesh is written with its numbers, so that
- * the scene needs no file. */
+/* A lattice and a mesh from a file, with pins beyond those of their options: the mesh is written with its
+ * numbers, so that the scene needs no file. */
 static void lattice_and_mesh_come_back(void **state) {
   (void)state;
   const double edges[9] = {1.1, 0.1, 0, 0, 0.7, 0, 0.2, 0, 0.3}, origin[3] = {0.1, 0.2, 0.3},

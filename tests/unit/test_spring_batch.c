@@ -1,5 +1,5 @@
-/* Batches have every spring once, with its material to the bit, whether they go by runs or by the tiles of a net; and sums
- * over them are those over the springs one by one. */
+/* Batches have every spring once, with its material to the bit, whether they go by runs or by the tiles of a
+ * net; and sums over them are those over the springs one by one. */
 #include "check.h"
 #include "model/sum/spring_batch.h"
 #include "random.h"

@@ -1,4 +1,5 @@
-/* Going on in the file of a run that was killed or ended early: the same frames as if it never had, and no other file. */
+/* Going on in the file of a run that was killed or ended early: the same frames as if it never had, and no
+ * other file. */
 #include "check.h"
 #include "file_limit.h"
 #include "io/trajectory/trajectory.h"
@@ -351,8 +352,8 @@ static void sync_brings_frames_to_the_disk(void **state) {
   check_frames(f, 4, "failed");
 }
 
-/* Another file that takes the name while a run goes on is neither written to nor replaced, and the run does not say that its
- * frames are there. */
+/* Another file that takes the name while a run goes on is neither written to nor replaced, and the run does
+ * not say that its frames are there. */
 static void another_file_of_the_name_is_left_alone(void **state) {
   const struct fixture *f = *state;
   for (int early = 0; early <= 1; early++) {

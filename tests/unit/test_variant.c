@@ -1,5 +1,5 @@
-/* Variants of a system: what is not changed has the same bits, what is left out is out, and parts at another resolution
- * stand for the same material. */
+/* Variants of a system: what is not changed has the same bits, what is left out is out, and parts at another
+ * resolution stand for the same material. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -176,7 +176,8 @@ static void what_is_left_out_is_out(void **state) {
   hooke_system_destroy(system);
 }
 
-/* Of the seven springs two apart in the rope, two; the rest is a group of its own, in the numbers of the explicit ones. */
+/* Of the seven springs two apart in the rope, two; the rest is a group of its own, in the numbers of the
+ * explicit ones. */
 static void single_springs_of_a_family_are_left_out(void **state) {
   (void)state;
   hooke_system *system = two_parts();
@@ -399,7 +400,8 @@ static int is_within(const struct single *all, int outer, int inner) {
   return a->group >= 0 && b->of_group == a->group;
 }
 
-/* What is out is within what is out itself, or within its group or part; and within two together if it is within either. */
+/* What is out is within what is out itself, or within its group or part; and within two together if it is
+ * within either. */
 static void variants_within_variants(void **state) {
   (void)state;
   hooke_system *system = everything();

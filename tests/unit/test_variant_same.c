@@ -1,4 +1,5 @@
-/* Systems made again with something left out: with nothing left out they are the same to the loop and the bit. */
+/* Systems made again with something left out: with nothing left out they are the same to the loop and the
+ * bit. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"

@@ -1,5 +1,5 @@
-/* Every instruction set that this machine has gives the same bits in the loops of vectors and triangles; and these
- * are right. */
+/* Every instruction set that this machine has gives the same bits in the loops of vectors and triangles; and
+ * these are right. */
 #include "check.h"
 #include "random.h"
 #include "run.h"

@@ -1,5 +1,5 @@
-/* Large vectors of SUNDIALS are worked on by several threads, and its methods come to the same bits for any number of
- * them, and to the right ones. */
+/* Large vectors of SUNDIALS are worked on by several threads, and its methods come to the same bits for any
+ * number of them, and to the right ones. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"

@@ -1,5 +1,5 @@
-/* What is watched: every form of the grammar and what it refuses, tension against the change of energy with length, and
- * periods against known ones. */
+/* What is watched: every form of the grammar and what it refuses, tension against the change of energy with
+ * length, and periods against known ones. */
 #include "check.h"
 #include "core/memory.h"
 #include "measure/watch/watched.h"
@@ -12,7 +12,8 @@
 static const double PI = 3.14159265358979323846;
 #define COUNT(list) (sizeof(list) / sizeof((list)[0]))
 
-/* Three particles and two groups: "rods" of two springs and "tie" of one, without length; and a rope of five particles. */
+/* Three particles and two groups: "rods" of two springs and "tie" of one, without length; and a rope of five
+ * particles. */
 static hooke_system *scene(void) {
   static const double q[] = {0, 0, 0, 1, 0.2, 0, 2, 0.5, 0.3};
   static const int64_t rods[] = {0, 1, 1, 2}, tie[] = {0, 2};

@@ -1,4 +1,5 @@
-/* Frames that a thread writes: the same bytes in the file but for the name of the run, as many, and failures told. */
+/* Frames that a thread writes: the same bytes in the file but for the name of the run, as many, and failures
+ * told. */
 #include "check.h"
 #include "file_limit.h"
 #include "core/memory.h"

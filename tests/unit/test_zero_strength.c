@@ -1,4 +1,5 @@
-/* What has no strength is not there: a scene with it and one without it choose the same loops, and run to the same bits. */
+/* What has no strength is not there: a scene with it and one without it choose the same loops, and run to the
+ * same bits. */
 #include "canonical.h"
 #include "check.h"
 #include "random.h"
@@ -293,7 +294,8 @@ static void strength_is_seen(void **unused) {
   hooke_system_destroy(cloth);
 }
 
-/* The canonical sum over all springs, those of no strength among them, has the bits of the sum that leaves them out. */
+/* The canonical sum over all springs, those of no strength among them, has the bits of the sum that leaves
+ * them out. */
 static void canonical_sum_agrees(void **unused) {
   (void)unused;
   struct network network;
@@ -366,8 +368,8 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-/* A pinned particle at the end of a spring is not idle, nor one of a triple that has a strength, nor one that a callback may
- * look at, nor one that is free. */
+/* A pinned particle at the end of a spring is not idle, nor one of a triple that has a strength, nor one that
+ * a callback may look at, nor one that is free. */
 static void idle_is_what_nothing_touches(void **unused) {
   (void)unused;
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};

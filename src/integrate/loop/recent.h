@@ -1,4 +1,5 @@
-/* The states of a run that passed the check last, and the one that it began with, as far as a small memory holds them. */
+/* The states of a run that passed the check last, and the one that it began with, as far as a small memory
+ * holds them. */
 #ifndef HOOKE_INTEGRATE_LOOP_RECENT_H
 #define HOOKE_INTEGRATE_LOOP_RECENT_H
 
@@ -17,7 +18,8 @@ struct hk_recent {
 
 /* Room for at least `least` (0 or 1) states of `size` numbers in q. HOOKE_NO_MEMORY. */
 int32_t hk_recent_create(int64_t size, int32_t has_v, int32_t least, struct hk_recent *recent);
-/* Without room there is no copy of the one state that counts as kept: this makes room for one, without its numbers. */
+/* Without room there is no copy of the one state that counts as kept: this makes room for one, without its
+ * numbers. */
 int32_t hk_recent_make_room(int64_t size, int32_t has_v, struct hk_recent *recent);
 void hk_recent_release(struct hk_recent *recent);
 int64_t hk_recent_memory(const struct hk_recent *recent);
@@ -29,7 +31,8 @@ void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first);
 /* A second state after the same step takes the place of the first. */
 void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step);
 
-/* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none, or no room. */
+/* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none, or no
+ * room. */
 const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t place, int64_t *step);
 
 #endif

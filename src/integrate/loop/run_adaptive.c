@@ -1,8 +1,8 @@
 /* The run loop of error-controlled methods: internal steps, frames within them, and checkpoints.
  *
- * What a solver remembers of its steps cannot be written down. So where the option `checkpoint` is given, the method starts
- * anew from (t, q, v) at every t0 + k DT, whether or not anything is written there: a run that goes on from such a place
- * then does what this one did. What the step had past that time is dropped. */
+ * What a solver remembers of its steps cannot be written down. So where the option `checkpoint` is given, the
+ * method starts anew from (t, q, v) at every t0 + k DT, whether or not anything is written there: a run that
+ * goes on from such a place then does what this one did. What the step had past that time is dropped. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/clock.h"
@@ -45,7 +45,8 @@ int32_t hk_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
   return hooke_state_copy(state, restart->state);
 }
 
-/* The step has come to the checkpoint at time t, or past it: the solution there is where the method starts anew. */
+/* The step has come to the checkpoint at time t, or past it: the solution there is where the method starts
+ * anew. */
 static int32_t start_anew(hooke_integrator *it, double t, hooke_state *state) {
   int32_t status = hk_run_store(it, t, state, 0);
   if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);

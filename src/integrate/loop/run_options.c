@@ -186,7 +186,8 @@ int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
   if (frames > 9e15) {
     return hk_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every, frames);
   }
-  /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1 on */
+  /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
+   * on */
   s->frames = 1 + (method->adaptive ? (int64_t)frames : s->steps / s->frame_steps);
   return HOOKE_OK;
 }

@@ -1,5 +1,5 @@
-/* ARKODE (Reynolds et al. 2023): the ESDIRK formulas of Kennedy and Carpenter (2016, 2019), L-stable and stiffly
- * accurate, with Newton and GMRES. Checks a reference where the explicit rk8pd costs too much. */
+/* ARKODE (Reynolds et al. 2023): the ESDIRK formulas of Kennedy and Carpenter (2016, 2019), L-stable and
+ * stiffly accurate, with Newton and GMRES. Checks a reference where the explicit rk8pd costs too much. */
 #include "integrate/integrator.h"
 
 #if HOOKE_HAVE_SUNDIALS
@@ -51,7 +51,8 @@ static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   /* stages predicted from the steps before: less than half the linear iterations */
   if (flag == ARK_SUCCESS) flag = ARKStepSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE);
   if (flag == ARK_SUCCESS) flag = ARKStepSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR);
-  /* where a force jumps, as where a damped spring that only pulls goes slack, a step may have to shrink far */
+  /* where a force jumps, as where a damped spring that only pulls goes slack, a step may have to shrink
+   * far */
   if (flag == ARK_SUCCESS) flag = ARKStepSetMaxErrTestFails(own->memory, MOST_FAILURES);
   return flag == ARK_SUCCESS ? attach_solver(it, own) : flag;
 }
@@ -90,8 +91,8 @@ static void read_counts(hooke_integrator *it) {
                                            .linear_iterations = linear});
 }
 
-/* Steps end at the goal, where the run loop wants the solution: ARKODE's interpolants have a larger error than its
- * steps. */
+/* Steps end at the goal, where the run loop wants the solution: ARKODE's interpolants have a larger error
+ * than its steps. */
 static int32_t step(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   realtype reached = it->t;

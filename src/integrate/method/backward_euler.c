@@ -1,9 +1,9 @@
-/* Backward Euler: v' = v + h a(t + h, q', v'), q' = q + h v'. Order 1, stable at every step. With F(v') = M (v' - v - h g)
- * - h f(t + h, q + h v', v'), K = df/dq and D = df/dv,
+/* Backward Euler: v' = v + h a(t + h, q', v'), q' = q + h v'. Order 1, stable at every step. With F(v') = M
+ * (v' - v - h g) - h f(t + h, q + h v', v'), K = df/dq and D = df/dv,
  *   one iteration  (M - h D - h^2 K) dv = h (f + M g + h K v), all at the old state (Baraff and Witkin 1998)
  *   converged      from there on, Newton: (M - h D - h^2 K) dv = -F at the last guess, with a line search on F.M^-1 F
- * Driven particles are at their new place in F, and on their way to it in the first iteration: K and D times their
- * change of position and velocity stand on its right-hand side. */
+ * Driven particles are at their new place in F, and on their way to it in the first iteration: K and D times
+ * their change of position and velocity stand on its right-hand side. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
@@ -13,10 +13,11 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Residual of the linear equations: what is asked for, and what is good enough where rounding allows no more. */
+/* Residual of the linear equations: what is asked for, and what is good enough where rounding allows no
+ * more. */
 static const double RESIDUAL = 1e-12, FAR_ENOUGH = 1e-9;
-/* A correction below this share of the change of velocity is the last one: Newton squares what is left. Rounding of
- * positions and velocities sets a floor. */
+/* A correction below this share of the change of velocity is the last one: Newton squares what is left.
+ * Rounding of positions and velocities sets a floor. */
 static const double CORRECTION = 1e-9, POSITION_FLOOR = 1e-13, VELOCITY_FLOOR = 1e-14;
 static const double SAFE_RESIDUAL = 1e-2, LEAST_NEWTON_SHARE = 0.1, LEAST_SAFE_SHARE = 1e-8;
 enum { MOST_ITERATIONS = 200, LONGEST_PAUSE = 16, MEMORY = 8 };
@@ -170,9 +171,10 @@ static double downhill(const hooke_integrator *it) {
   return hk_dot(it->size, own->right, own->change);
 }
 
-/* Moves the guess along Newton's correction until F.M^-1 F is below `allowed`, the worst of the last few (Grippo,
- * Lampariello and Lucidi 1986: across a stiff spring the way is narrow and bent, and leads over higher ground), or along a
- * safe one until F.dv hardly falls any more; `square` is F.M^-1 F there. Shares below `least` are not tried. */
+/* Moves the guess along Newton's correction until F.M^-1 F is below `allowed`, the worst of the last few
+ * (Grippo, Lampariello and Lucidi 1986: across a stiff spring the way is narrow and bent, and leads over
+ * higher ground), or along a safe one until F.dv hardly falls any more; `square` is F.M^-1 F there. Shares
+ * below `least` are not tried. */
 static int32_t search(hooke_integrator *it, int newton, double least, double allowed, double *square,
                       int *found) {
   struct backward_euler *own = it->own;
@@ -199,7 +201,8 @@ static int32_t search(hooke_integrator *it, int newton, double least, double all
   return HOOKE_OK;
 }
 
-/* Newton's correction at the guess, where the motion is; `last` if it is small enough to be taken as it is. */
+/* Newton's correction at the guess, where the motion is; `last` if it is small enough to be taken as it
+ * is. */
 static int32_t newton_step(hooke_integrator *it, double allowed, double *square, int *found, int *last) {
   struct backward_euler *own = it->own;
   const double h = it->schedule.step;
@@ -215,8 +218,8 @@ static int32_t newton_step(hooke_integrator *it, double allowed, double *square,
   return *last ? HOOKE_OK : search(it, 1, LEAST_NEWTON_SHARE, allowed, square, found);
 }
 
-/* A correction by conjugate gradients that end where the matrix is not positive. It leads downhill in the energy of the
- * step wherever the guess is, but slowly. */
+/* A correction by conjugate gradients that end where the matrix is not positive. It leads downhill in the
+ * energy of the step wherever the guess is, but slowly. */
 static int32_t safe_step(hooke_integrator *it, double *square, int *found) {
   struct backward_euler *own = it->own;
   const double h = it->schedule.step;
@@ -257,8 +260,9 @@ static double worst_of(const double past[MEMORY]) {
   return worst;
 }
 
-/* Newton wherever it works. Where the matrix is not positive, as it may be for springs under compression, Newton may lead
- * to a saddle of the energy of the step or nowhere; then safe steps, more of them each time that Newton fails again. */
+/* Newton wherever it works. Where the matrix is not positive, as it may be for springs under compression,
+ * Newton may lead to a saddle of the energy of the step or nowhere; then safe steps, more of them each time
+ * that Newton fails again. */
 static int32_t converge(hooke_integrator *it) {
   double square;
   int wait = 0, pause = 0;

@@ -1,10 +1,11 @@
-/* BDF of order 1 and 2 damps every mode that steps do not resolve. Order 3 and above feeds the weakly damped ones, at
- * omega h of order one, until the error control holds the step there although the motion asks for no such step.
+/* BDF of order 1 and 2 damps every mode that steps do not resolve. Order 3 and above feeds the weakly damped
+ * ones, at omega h of order one, until the error control holds the step there although the motion asks for no
+ * such step.
  *
- * So: where steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that ratio is
- * below what order 3 takes, order 2 becomes the highest, before those modes have grown. Where steps then stay shorter
- * than SHORT/omega, accuracy holds them, and the higher orders come back. CVODE keeps its history in the order that it
- * has, so each change is a start from order 1; hence the patience. */
+ * So: where steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that
+ * ratio is below what order 3 takes, order 2 becomes the highest, before those modes have grown. Where steps
+ * then stay shorter than SHORT/omega, accuracy holds them, and the higher orders come back. CVODE keeps its
+ * history in the order that it has, so each change is a start from order 1; hence the patience. */
 #if HOOKE_HAVE_SUNDIALS
 
 #include "integrate/method/cvode_order.h"
@@ -23,7 +24,8 @@ enum {
   ITERATIONS = 15
 };
 static const double LOOSE_RTOL = 1e-6, LONG = 2.0, SHORT = 1.0;
-/* Cosine of 86.03 degrees: Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section V.2. */
+/* Cosine of 86.03 degrees: Hairer and Wanner, Solving Ordinary Differential Equations II (1996), section
+ * V.2. */
 static const double DAMPING_OF_ORDER_3 = 0.0692;
 
 int32_t hk_order_choice_create(hooke_integrator *it) {
@@ -66,9 +68,9 @@ static double product_of(const hooke_integrator *it, const struct hk_unknowns *u
   return sum;
 }
 
-/* Power iterations with the derivative of the forces by the positions, from numbers that prefer no direction; then the
- * damping of what they have come to. A few are enough: it is the mean over the fastest modes that counts. Frequency 0
- * where nothing is stiff. */
+/* Power iterations with the derivative of the forces by the positions, from numbers that prefer no direction;
+ * then the damping of what they have come to. A few are enough: it is the mean over the fastest modes that
+ * counts. Frequency 0 where nothing is stiff. */
 static int32_t find_fastest_modes(hooke_integrator *it, struct hk_order_choice *c, const double *y) {
   const struct hk_unknowns *u = &((const struct hk_sundials *)it->own)->unknowns;
   const int64_t half = u->size / 2;

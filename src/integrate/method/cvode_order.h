@@ -25,8 +25,8 @@ void hk_order_choice_release(struct hk_order_choice *choice);
 void hk_order_choice_begin(struct hk_order_choice *choice, double t);
 /* Counts a step that reached time t: 1 if it is time to look. */
 int32_t hk_order_choice_is_due(struct hk_order_choice *choice, double t);
-/* Looks, with the solution y at the integrator's time; where that changes `low` the solver is to start again from there.
- * HOOKE_STOPPED by a callback. */
+/* Looks, with the solution y at the integrator's time; where that changes `low` the solver is to start again
+ * from there. HOOKE_STOPPED by a callback. */
 int32_t hk_order_choice_look(hooke_integrator *integrator, const double *y);
 
 #endif

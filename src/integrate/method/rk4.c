@@ -1,5 +1,5 @@
-/* The classical Runge-Kutta method (Kutta 1901), order 4: four rates a step, at t, twice at t + h/2, and at t + h.
- * Pinned and driven particles are held in every stage. */
+/* The classical Runge-Kutta method (Kutta 1901), order 4: four rates a step, at t, twice at t + h/2, and at t
+ * + h. Pinned and driven particles are held in every stage. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
@@ -77,8 +77,8 @@ static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void 
   }
 }
 
-/* Held particles at the time of a stage; the second stage in the middle of the step finds the drives where the first
- * one left them. */
+/* Held particles at the time of a stage; the second stage in the middle of the step finds the drives where
+ * the first one left them. */
 static int32_t hold(hooke_integrator *it, int stage) {
   if (it->system->held_count == 0 || stage == 0) return HOOKE_OK;
   if (stage != 2) return hk_integrator_hold(it, stage_time(it, stage));

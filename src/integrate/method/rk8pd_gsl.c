@@ -1,9 +1,11 @@
-/* GSL's rk8pd: the explicit Runge-Kutta formulas of order 8(7) by Prince and Dormand (1981), under the step control of
- * gsl_odeiv2. The first choice to check a reference with, as it shares nothing with SUNDIALS but the force.
+/* GSL's rk8pd: the explicit Runge-Kutta formulas of order 8(7) by Prince and Dormand (1981), under the step
+ * control of gsl_odeiv2. The first choice to check a reference with, as it shares nothing with SUNDIALS but
+ * the force.
  *
- * GSL reports mistakes to a handler of the whole process, which by default ends it; a library may not replace that. So
- * nothing here gives GSL a reason: gsl_odeiv2_step_apply() and _hadjust() have none, the arguments of the makers are in
- * range, and memory is tried for before GSL, which would report its absence, asks for it. */
+ * GSL reports mistakes to a handler of the whole process, which by default ends it; a library may not replace
+ * that. So nothing here gives GSL a reason: gsl_odeiv2_step_apply() and _hadjust() have none, the arguments
+ * of the makers are in range, and memory is tried for before GSL, which would report its absence, asks for
+ * it. */
 #include "integrate/integrator.h"
 
 #if HOOKE_HAVE_GSL
@@ -93,8 +95,8 @@ static double weighed(const struct hk_rk8pd *own, const double *value) {
   return most;
 }
 
-/* The slope at the start, and a first step of one per cent of the time in which y would change by itself (Hairer,
- * Norsett and Wanner 1993, section II.4). */
+/* The slope at the start, and a first step of one per cent of the time in which y would change by itself
+ * (Hairer, Norsett and Wanner 1993, section II.4). */
 static int32_t start(hooke_integrator *it, struct hk_rk8pd *own) {
   const int answer = hk_unknowns_slope(it, &own->unknowns, it->t, own->y, own->slope);
   if (answer == HOOKE_SLOPE_STOPPED) return HOOKE_STOPPED;
@@ -107,7 +109,8 @@ static int32_t start(hooke_integrator *it, struct hk_rk8pd *own) {
   return HOOKE_OK;
 }
 
-/* One attempt at a step of h to time `end`: 1 if it holds, 0 if it is undone; own->step is the next to try. */
+/* One attempt at a step of h to time `end`: 1 if it holds, 0 if it is undone; own->step is the next to
+ * try. */
 static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, double end) {
   const size_t bytes = own->system.dimension * sizeof(double);
   memcpy(own->before, own->y, bytes);
@@ -129,8 +132,8 @@ static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, dou
   return 0;
 }
 
-/* Steps end at the goal, where the run loop wants the solution: nothing is interpolated. Two equal steps to it rather
- * than a long and a short one. */
+/* Steps end at the goal, where the run loop wants the solution: nothing is interpolated. Two equal steps to
+ * it rather than a long and a short one. */
 static int32_t step(hooke_integrator *it) {
   struct hk_rk8pd *own = it->own;
   if (own->step == 0.0) {

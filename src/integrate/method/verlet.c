@@ -1,11 +1,11 @@
 /* Velocity Verlet (Swope and others 1982), order 2, as kick, drift, kick:
  *   v_half = v + h/2 a(t, q, v),  q' = q + h v_half,  v' = v_half + h/2 a(t + h, q', v')
- * The second kick takes the damping at the new velocity, which keeps the order and the limit h w = 2. With spring damping
- * it is solved for, with D = df/dv at (q', v_half):
+ * The second kick takes the damping at the new velocity, which keeps the order and the limit h w = 2. With
+ * spring damping it is solved for, with D = df/dv at (q', v_half):
  *   (M - h/2 D) (v' - v_half) = h/2 (f(t + h, q', v_half) + M g)
- * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs, altitude springs and drag: a
- * callback sees v_half. A spring that only pulls counts if it pulls at (q', v_half), else not at all. Drag alone is a
- * division. */
+ * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs,
+ * altitude springs and drag: a callback sees v_half. A spring that only pulls counts if it pulls at (q',
+ * v_half), else not at all. Drag alone is a division. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
@@ -59,8 +59,8 @@ static const double *gravity(const hooke_system *system, int axis) {
   return system->has_gravity ? &system->gravity[axis] : NULL;
 }
 
-/* The force at the start of a step. Without spring damping and callback it is that of the springs, which the step before
- * has left, and drag: the same sum to the bit. */
+/* The force at the start of a step. Without spring damping and callback it is that of the springs, which the
+ * step before has left, and drag: the same sum to the bit. */
 static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
   if (own->damped || own->callback) return hk_integrator_forces(it, it->t);

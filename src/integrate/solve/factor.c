@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Where the matrix has the block of two particles: in the three columns of the later one, from number `first` of each on;
- * column -1 if an end is held. */
+/* Where the matrix has the block of two particles: in the three columns of the later one, from number `first`
+ * of each on; column -1 if an end is held. */
 struct place {
   int32_t column, first;
 };
@@ -52,8 +52,8 @@ static void number_free(struct hk_factor *x) {
   }
 }
 
-/* The upper triangle of blocks in the present order: a row in each column for every earlier neighbour, ascending, and for
- * the particle itself. */
+/* The upper triangle of blocks in the present order: a row in each column for every earlier neighbour,
+ * ascending, and for the particle itself. */
 static void fill_blocks(const struct hk_factor *x, const struct hk_pattern *pattern,
                         const struct hk_columns *blocks) {
   int32_t count = 0;

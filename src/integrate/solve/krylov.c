@@ -66,8 +66,8 @@ struct general {
   double length, shadow_length; /* of b and of the shadow */
 };
 
-/* The recurrences start anew from the true residual each time that it has come down by this factor, which keeps their
- * residual true and their cosines above rounding; those below the second number are not. */
+/* The recurrences start anew from the true residual each time that it has come down by this factor, which
+ * keeps their residual true and their cosines above rounding; those below the second number are not. */
 static const double SWEEP = 1e-6, BROKEN = 1e-9;
 
 /* Residual from x itself, and a new start of the recurrences. */
@@ -198,7 +198,8 @@ struct minimal {
   double right[SPACE + 1];    /* rotated */
 };
 
-/* Column j of the basis and of the triangle. `broken` where nothing new came, or numbers that are not finite. */
+/* Column j of the basis and of the triangle. `broken` where nothing new came, or numbers that are not
+ * finite. */
 static int32_t extend(struct minimal *g, int j, int *broken) {
   const int64_t size = g->a->size;
   double *h = g->h[j], *next = g->v[j + 1];

@@ -1,5 +1,5 @@
-/* Krylov iterations for A x = b, from x = 0, with products of A alone. A is expected to be near the identity: whoever
- * calls has scaled it. The norm is the plain one. */
+/* Krylov iterations for A x = b, from x = 0, with products of A alone. A is expected to be near the identity:
+ * whoever calls has scaled it. The norm is the plain one. */
 #ifndef HOOKE_INTEGRATE_SOLVE_KRYLOV_H
 #define HOOKE_INTEGRATE_SOLVE_KRYLOV_H
 
@@ -27,19 +27,20 @@ struct hk_solution {
   double residual; /* relative to b; of the general one the true one, b - A x */
 };
 
-/* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that did not
- * converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come out in x. For an A
- * that is not positive they end at the first direction that shows it (Steihaug 1983), with b.x > 0. */
+/* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that
+ * did not converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come
+ * out in x. For an A that is not positive they end at the first direction that shows it (Steihaug 1983), with
+ * b.x > 0. */
 int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                            double *scratch, double *x, struct hk_solution *solution);
 
-/* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. Not converged
- * also where rounding allows no smaller residual; `residual` tells. */
+/* BiCGSTAB(4) (Sleijpen and Fokkema 1993), for any A that is not singular: two products an iteration. Not
+ * converged also where rounding allows no smaller residual; `residual` tells. */
 int32_t hk_solve_general(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                          double *scratch, double *x, struct hk_solution *solution);
 
-/* GMRES (Saad and Schultz 1986), started again each time that its space is full: the smallest residual that so many
- * products allow, for few of them. `tolerance` is absolute, and so is `residual`. */
+/* GMRES (Saad and Schultz 1986), started again each time that its space is full: the smallest residual that
+ * so many products allow, for few of them. `tolerance` is absolute, and so is `residual`. */
 int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                          double *scratch, double *x, struct hk_solution *solution);
 

@@ -11,8 +11,9 @@
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 /* Numbers of a factor that is still made: 2 GB. */
 static const int64_t MOST_NUMBERS = 100000000;
-/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of work on a vector for each number, of a
- * solve with a factor for each of its numbers, of a factor for each of its multiplications. */
+/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of
+ * work on a vector for each number, of a solve with a factor for each of its numbers, of a factor for each of
+ * its multiplications. */
 static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84,
                     OF_TETRAHEDRON = 150.0;
 /* Of BiCGSTAB(4), an iteration. */
@@ -152,7 +153,8 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 
 /* ---- products ---- */
 
-/* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our own. */
+/* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our
+ * own. */
 static int32_t multiply_rows(struct hk_reduced *reduced, int all) {
   hooke_integrator *it = reduced->integrator;
   const int64_t size = it->size;
@@ -227,7 +229,8 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
   return status;
 }
 
-/* The power of two that brings numbers whose squares would overflow or underflow to about 1; 1 for all others. */
+/* The power of two that brings numbers whose squares would overflow or underflow to about 1; 1 for all
+ * others. */
 static double scale_of(int64_t size, const double *b) {
   static const double SAFE = 1e100;
   double most = 0.0;
@@ -331,8 +334,9 @@ static int32_t solve_as_pays(struct hk_reduced *reduced, const double *b, double
                   : solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
 }
 
-/* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with the factor of
- * this step, and if that has come to be old with a new one. What is chosen hangs on the numbers of the step alone. */
+/* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with
+ * the factor of this step, and if that has come to be old with a new one. What is chosen hangs on the numbers
+ * of the step alone. */
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
   int64_t before = 0;

@@ -1,10 +1,10 @@
 /* The linear equations of an implicit step, (M - beta df/dv - alpha df/dq) x = b over the free particles.
  *
- * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, alpha c (1, -2, 1)^T (1, -2, 1)
- * of each triple of bending, of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T), and of each
- * altitude spring (alpha kappa + beta gamma) (g g^T) (u u^T); by its
- * 3x3 blocks on the diagonal (block Jacobi), or by all of it (integrate/solve/factor.h). With S = L L^T what is iterated on is
- * L^-1 (...) L^-T, whose residual weighs particles by their mass. */
+ * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, alpha c (1, -2,
+ * 1)^T (1, -2, 1) of each triple of bending, of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha
+ * T/r) (I - u u^T), and of each altitude spring (alpha kappa + beta gamma) (g g^T) (u u^T); by its 3x3 blocks
+ * on the diagonal (block Jacobi), or by all of it (integrate/solve/factor.h). With S = L L^T what is iterated
+ * on is L^-1 (...) L^-T, whose residual weighs particles by their mass. */
 #ifndef HOOKE_INTEGRATE_SOLVE_REDUCED_H
 #define HOOKE_INTEGRATE_SOLVE_REDUCED_H
 
@@ -13,8 +13,8 @@
 #include "integrate/solve/krylov.h"
 #include "kernel/tangent_loops.h"
 
-/* What is asked: iterations by BiCGSTAB(4), to rounding; by conjugate gradients, for alpha = 0 and with callbacks left
- * out; by GMRES, for few of them. */
+/* What is asked: iterations by BiCGSTAB(4), to rounding; by conjugate gradients, for alpha = 0 and with
+ * callbacks left out; by GMRES, for few of them. */
 enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
@@ -44,8 +44,8 @@ void hk_reduced_release(struct hk_reduced *reduced);
 /* Derivatives at the place of the integrator's motion; t is for callbacks. */
 void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta);
 
-/* x = the solution for b (3n each, x y z apart), 0 where a particle is held; `converged` is 0 if `tolerance` was not
- * reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it. */
+/* x = the solution for b (3n each, x y z apart), 0 where a particle is held; `converged` is 0 if `tolerance`
+ * was not reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it. */
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
@@ -57,8 +57,8 @@ int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
 int32_t hk_reduced_factorise(struct hk_reduced *reduced);
 void hk_reduced_drop_factor(struct hk_reduced *reduced);
 
-/* What things cost, in units of their own: work by blocks for so many products and works on a vector; solves with a factor
- * of S, and the factor itself, once there is room for one. */
+/* What things cost, in units of their own: work by blocks for so many products and works on a vector; solves
+ * with a factor of S, and the factor itself, once there is room for one. */
 double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors);
 double hk_reduced_cost_of_solve(const struct hk_reduced *reduced);
 double hk_reduced_cost_of_factor(const struct hk_reduced *reduced);
@@ -67,12 +67,13 @@ double hk_reduced_cost_of_factor(const struct hk_reduced *reduced);
  * dq - beta dv = b_q and M (dv - beta (W K dq + W D dv)) = M b_v, for alpha = beta^2; then dq = beta z. */
 int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const double *bv, double *out);
 
-/* By GMRES until |weight . r| <= tolerance for the scaled residual r = S^-1 (b - A x), which is near the error of x. */
+/* By GMRES until |weight . r| <= tolerance for the scaled residual r = S^-1 (b - A x), which is near the
+ * error of x. */
 int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const double *weight,
                             double tolerance, int64_t limit, double *x, struct hk_solution *solution);
 
-/* By conjugate gradients, as far as `tolerance` or to where the matrix proves not to be positive: a direction with
- * b.x > 0. For corrections far from a solution. */
+/* By conjugate gradients, as far as `tolerance` or to where the matrix proves not to be positive: a direction
+ * with b.x > 0. For corrections far from a solution. */
 int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x);
 
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */

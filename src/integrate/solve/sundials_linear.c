@@ -1,5 +1,6 @@
-/* A solver "with the matrix embedded": it is asked at every Newton iteration and finds state and gamma by itself, so that
- * its products are never old. S is, as long as that costs fewer iterations than a new factor. */
+/* A solver "with the matrix embedded": it is asked at every Newton iteration and finds state and gamma by
+ * itself, so that its products are never old. S is, as long as that costs fewer iterations than a new
+ * factor. */
 #if HOOKE_HAVE_SUNDIALS
 
 #include "integrate/solve/sundials_linear.h"
@@ -71,13 +72,14 @@ static double cost_by_blocks(const struct solver *s, double iterations) {
   return iterations * hk_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
 }
 
-/* What a new factor would have saved has come to its price. That is told after the fact, and so costs at most twice what
- * the best choice would have. */
+/* What a new factor would have saved has come to its price. That is told after the fact, and so costs at most
+ * twice what the best choice would have. */
 static int is_due(const struct solver *s) {
   return s->excess > hk_reduced_cost_of_factor(&s->reduced);
 }
 
-/* Whether the next solves had better be with a new factor; by counts alone, so that runs repeat to the bit. */
+/* Whether the next solves had better be with a new factor; by counts alone, so that runs repeat to the
+ * bit. */
 static int32_t learn(struct solver *s, const struct hk_solution *solution) {
   const double iterations = (double)solution->iterations;
   s->solves++;
@@ -129,8 +131,8 @@ static void give(struct solver *s, double gamma, N_Vector x) {
   hk_unknowns_gather(u, dv, to + 3 * m);
 }
 
-/* The largest that a block of S has over its mass. Along what is soft the residual scaled by blocks is smaller than the
- * error by up to this; its root was found to make up for that. */
+/* The largest that a block of S has over its mass. Along what is soft the residual scaled by blocks is
+ * smaller than the error by up to this; its root was found to make up for that. */
 static double stiffest(const struct solver *s) {
   const hooke_system *system = s->integrator->system;
   const int64_t n = system->particle_count;

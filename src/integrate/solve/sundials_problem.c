@@ -75,8 +75,8 @@ int32_t hk_sundials_order(const hooke_integrator *it, int lowest, int highest, i
                  it->method->name, lowest, highest);
 }
 
-/* Along stiff springs a small residual is a large error, which costs steps, so this is below the 0.05 of SUNDIALS; and
- * where the Krylov space holds every unknown, accuracy is free. */
+/* Along stiff springs a small residual is a large error, which costs steps, so this is below the 0.05 of
+ * SUNDIALS; and where the Krylov space holds every unknown, accuracy is free. */
 double hk_sundials_linear_share(const hooke_integrator *it) {
   const struct hk_sundials *own = it->own;
   return !it->rate && 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS ? 1e-4 : 1e-2;
@@ -100,8 +100,8 @@ void hk_sundials_count(hooke_integrator *it, struct hk_counts since) {
   it->count.linear_iterations = before->linear_iterations + since.linear_iterations;
 }
 
-/* Not the end of a run that is very long: the solvers try no first step below 1e-14 of the way, and one that is 1e16
- * times too long leaves nothing of the state when it is taken back. */
+/* Not the end of a run that is very long: the solvers try no first step below 1e-14 of the way, and one that
+ * is 1e16 times too long leaves nothing of the state when it is taken back. */
 static const double FARTHEST = 1e9;
 
 double hk_sundials_towards(const hooke_integrator *it) {

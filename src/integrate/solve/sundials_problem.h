@@ -30,10 +30,12 @@ struct hk_sundials {
   char message[512];              /* the solver's last complaint */
 };
 
-/* Makes integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and room for products of
- * the derivative; `vectors`: how many the solver keeps besides, for the count of memory. HOOKE_NO_MEMORY. */
+/* Makes integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and room for
+ * products of the derivative; `vectors`: how many the solver keeps besides, for the count of memory.
+ * HOOKE_NO_MEMORY. */
 int32_t hk_sundials_create(hooke_integrator *integrator, int32_t implicit, int64_t vectors);
-/* The status of what a solver was made with: `created`, or `no_room` as it said itself. HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED. */
+/* The status of what a solver was made with: `created`, or `no_room` as it said itself. HOOKE_NO_MEMORY,
+ * HOOKE_SOLVER_FAILED. */
 int32_t hk_sundials_created(const hooke_integrator *integrator, const char *solver, int32_t created,
                             int32_t no_room);
 /* Before a run: made anew, if the run before came to be without memory inside the solver. HOOKE_NO_MEMORY. */
@@ -46,8 +48,8 @@ int32_t hk_sundials_order(const hooke_integrator *integrator, int lowest, int hi
 /* How far a linear solve goes, as a share of what Newton may leave. */
 double hk_sundials_linear_share(const hooke_integrator *integrator);
 
-/* Takes up a state for a solver that starts anew; adds the counts it has since; takes its new time, and fails where
- * that has not moved. `solver` is its name for messages. */
+/* Takes up a state for a solver that starts anew; adds the counts it has since; takes its new time, and fails
+ * where that has not moved. `solver` is its name for messages. */
 void hk_sundials_load(hooke_integrator *integrator, const hooke_state *state);
 void hk_sundials_count(hooke_integrator *integrator, struct hk_counts since);
 int32_t hk_sundials_advance(hooke_integrator *integrator, const char *solver, int flag, double reached);

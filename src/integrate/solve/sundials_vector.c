@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Vectors are worked on in blocks, which depend on the size alone: as many as there may be sums, and none so small that
- * many vectors would not stay in cache between two of them. Below LARGE waking the others takes longer than it saves. */
+/* Vectors are worked on in blocks, which depend on the size alone: as many as there may be sums, and none so
+ * small that many vectors would not stay in cache between two of them. Below LARGE waking the others takes
+ * longer than it saves. */
 enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
 
 /* Begins as that of a serial vector, for whoever takes it for one. */

@@ -40,7 +40,8 @@ void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
 void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
 void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
 
-/* Check value of the options of a run that have a value, given or not, but for `threads`, which decide no bit. */
+/* Check value of the options of a run that have a value, given or not, but for `threads`, which decide no
+ * bit. */
 uint32_t hk_checkpoint_options(const hooke_options *options);
 
 /* NULL, or what is wrong with a header of a file of `length` bytes. */

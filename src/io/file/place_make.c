@@ -1,9 +1,10 @@
 /* Making a file, giving it its place, and keeping other runs from it.
  *
- * The lock is on the file itself, for all of it, and belongs to the open descriptor (F_OFD_SETLK): it ends with the process, and
- * another descriptor of the same process has no part in it. HDF5's readers ask by flock(), which on local file systems is
- * another kind of lock. A file takes its name locked, so whoever finds a name finds the lock; one who got a lock makes sure that the
- * name still is that of the file. Where a file system has no locks all goes on without. */
+ * The lock is on the file itself, for all of it, and belongs to the open descriptor (F_OFD_SETLK): it ends
+ * with the process, and another descriptor of the same process has no part in it. HDF5's readers ask by
+ * flock(), which on local file systems is another kind of lock. A file takes its name locked, so whoever
+ * finds a name finds the lock; one who got a lock makes sure that the name still is that of the file. Where a
+ * file system has no locks all goes on without. */
 #define _GNU_SOURCE /* F_OFD_SETLK, renameat2() */
 #include "core/keep_errno.h"
 #include "core/memory.h"
@@ -48,7 +49,8 @@ static int32_t lock(const char *path, int descriptor) {
   return fcntl(descriptor, F_OFD_SETLK, &lock) == 0 ? HOOKE_OK : refuse_written(path, descriptor);
 }
 
-/* Readers come first where flock() and our lock are of one kind, as on NFS: there is no lock then. `path`: the file's name. */
+/* Readers come first where flock() and our lock are of one kind, as on NFS: there is no lock then. `path`:
+ * the file's name. */
 static void let_readers_in(const char *path, int descriptor) {
   const int reader = open(path, O_RDONLY | O_CLOEXEC);
   if (reader >= 0 && flock(reader, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) unlock(descriptor);

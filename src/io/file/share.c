@@ -11,8 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seen from the folder of the library or, where it is linked statically, of the program: the build tree and the Python
- * package, an installation (CMake knows where its libraries are), a program beside lib. An installation may be moved. */
+/* Seen from the folder of the library or, where it is linked statically, of the program: the build tree and
+ * the Python package, an installation (CMake knows where its libraries are), a program beside lib. An
+ * installation may be moved. */
 static const char *const near_library[] = {"share/hooke", HOOKE_SHARE_FROM_LIBRARY, "../share/hooke"};
 enum { NEAR_COUNT = sizeof near_library / sizeof near_library[0] };
 

@@ -34,7 +34,8 @@ static void add(struct hk_text *text, const char *words) {
   hk_text_add(text, words, (int64_t)strlen(words));
 }
 
-/* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer a terminal. */
+/* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer
+ * a terminal. */
 static void add_quoted(struct hk_text *text, const char *words) {
   add(text, "\"");
   const char *at = words;

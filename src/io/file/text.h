@@ -14,8 +14,8 @@ struct hk_text {
 void hk_text_add(struct hk_text *text, const char *bytes, int64_t length);
 void hk_text_release(struct hk_text *text);
 
-/* JSON: `key` is NULL in an array. What is not finite becomes null, and so does a text that is NULL. A text may stand
- * inside a <script> element, whatever it says. */
+/* JSON: `key` is NULL in an array. What is not finite becomes null, and so does a text that is NULL. A text
+ * may stand inside a <script> element, whatever it says. */
 void hk_text_open(struct hk_text *text, const char *key, char bracket);
 void hk_text_close(struct hk_text *text, char bracket);
 void hk_text_number(struct hk_text *text, const char *key, double value);

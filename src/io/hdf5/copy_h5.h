@@ -1,6 +1,6 @@
-/* Groups, attributes and contiguous arrays of a file of ours, made again in another. H5Ocopy does the same, but takes some
- * versions down with it where a write fails; so HDF5 makes the arrays, and what is in them is copied as bytes when it is done
- * with the new file. */
+/* Groups, attributes and contiguous arrays of a file of ours, made again in another. H5Ocopy does the same,
+ * but takes some versions down with it where a write fails; so HDF5 makes the arrays, and what is in them is
+ * copied as bytes when it is done with the new file. */
 #ifndef HOOKE_IO_HDF5_COPY_H5_H
 #define HOOKE_IO_HDF5_COPY_H5_H
 
@@ -19,8 +19,9 @@ struct hk_h5_copy {
   } * piece;
 };
 
-/* Makes the object `path` and all that is in it, except what is called `skip` (NULL: nothing) and attributes that are
- * references; what is not in this very file is refused. Whatever comes back, hk_h5_copy_release() has to follow at last. Negative on failure. */
+/* Makes the object `path` and all that is in it, except what is called `skip` (NULL: nothing) and attributes
+ * that are references; what is not in this very file is refused. Whatever comes back, hk_h5_copy_release()
+ * has to follow at last. Negative on failure. */
 herr_t hk_h5_copy(hid_t from, hid_t to, const char *path, const char *skip, struct hk_h5_copy *copy);
 
 /* 0, or the number of the system's error. */

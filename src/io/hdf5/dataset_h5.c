@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 /* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is a
- * trap. [bytes] is a little more than HDF5 1.10 takes, while it reads, for each chunk that it comes to, written
- * or not: 6.6 kB. */
+ * trap. [bytes] is a little more than HDF5 1.10 takes, while it reads, for each chunk that it comes to,
+ * written or not: 6.6 kB. */
 enum { LARGEST_RATIO = 2048, BYTES_OF_CHUNK = 8192 };
 
 static const char not_numbers[] = "is not an array of numbers";

@@ -9,9 +9,9 @@
 
 #include <hdf5.h>
 
-/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. No file makes HDF5 load
- * code meanwhile. HDF5 takes one thread
- * at a time: between begin and end no other thread of hooke is in it. Guards are not nested. */
+/* Stands in for the thread's error handler while we work, and keeps the reason of the first failure. No file
+ * makes HDF5 load code meanwhile. HDF5 takes one thread at a time: between begin and end no other thread of
+ * hooke is in it. Guards are not nested. */
 struct hk_h5_guard {
   char reason[256];
   int32_t no_memory; /* is the reason */
@@ -25,7 +25,8 @@ struct hk_h5_guard {
 void hk_h5_guard_begin(struct hk_h5_guard *guard);
 void hk_h5_guard_end(const struct hk_h5_guard *guard);
 
-/* Fails with "path: could not <what>: reason": HOOKE_IO_FAILED, or HOOKE_NO_MEMORY where that is the reason, HDF5's or ours. */
+/* Fails with "path: could not <what>: reason": HOOKE_IO_FAILED, or HOOKE_NO_MEMORY where that is the reason,
+ * HDF5's or ours. */
 int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char *what);
 
 struct hk_h5_file {
@@ -38,30 +39,32 @@ struct hk_h5_file {
 /* A file that nothing is of yet, which may be released. */
 #define HOOKE_NO_H5_FILE ((struct hk_h5_file){.id = -1, .list = -1, .place = HOOKE_NO_PLACE})
 
-/* Creates a file that is going to have up to `bytes`, as hk_place_make() does: default format, no raw data held back in
- * memory, everything aligned to 16 bytes so that no number lies across two pages. HOOKE_IO_FAILED, HOOKE_NO_MEMORY;
- * hk_h5_file_release() has to follow in any case. */
+/* Creates a file that is going to have up to `bytes`, as hk_place_make() does: default format, no raw data
+ * held back in memory, everything aligned to 16 bytes so that no number lies across two pages.
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hk_h5_file_release() has to follow in any case. */
 int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file);
 
 /* The same for the output of a run, as hk_place_make_held() does. */
 int32_t hk_h5_file_create_held(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
                                struct hk_h5_file *file);
 
-/* Gives it room on the disk for all of it and closes it for HDF5; from here on bytes in it may be written by the descriptor.
- * HOOKE_IO_FAILED. */
+/* Gives it room on the disk for all of it and closes it for HDF5; from here on bytes in it may be written by
+ * the descriptor. HOOKE_IO_FAILED. */
 int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file);
 
-/* Brings everything to the disk and takes the place of an older file; the descriptor stays. HOOKE_IO_FAILED. */
+/* Brings everything to the disk and takes the place of an older file; the descriptor stays.
+ * HOOKE_IO_FAILED. */
 int32_t hk_h5_file_publish(struct hk_h5_file *file);
 
-/* Brings everything to the disk, and closes. HOOKE_IO_FAILED, also if another file has taken the name meanwhile. */
+/* Brings everything to the disk, and closes. HOOKE_IO_FAILED, also if another file has taken the name
+ * meanwhile. */
 int32_t hk_h5_file_close(struct hk_h5_file *file);
 
 /* Closes for HDF5, brings everything to the disk and takes the place of an older file. HOOKE_IO_FAILED. */
 int32_t hk_h5_file_finish(struct hk_h5_guard *guard, struct hk_h5_file *file);
 
-/* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name meanwhile. The
- * caller closes everything that it opens in it. */
+/* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name
+ * meanwhile. The caller closes everything that it opens in it. */
 int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id);
 
 /* Bytes that it has now, by its descriptor. */

@@ -12,16 +12,16 @@
 /* Releases a handle of any kind but a file; negative ones are none. */
 void hk_h5_drop(hid_t id);
 
-/* The object of that name in a group (or a file; negative: none) by a hard link, so one that is in this very file; negative if
- * there is none, which is no error of HDF5's. */
+/* The object of that name in a group (or a file; negative: none) by a hard link, so one that is in this very
+ * file; negative if there is none, which is no error of HDF5's. */
 hid_t hk_h5_open_own(hid_t where, const char *name);
 
-/* An access list, of links as of datasets, that refuses links to other files, which is then the guard's reason; negative without
- * memory. */
+/* An access list, of links as of datasets, that refuses links to other files, which is then the guard's
+ * reason; negative without memory. */
 hid_t hk_h5_own_links(struct hk_h5_guard *guard);
 
-/* NULL if what a dataset has is in this very file and HDF5 can read it by itself, else words for what it is. To be asked before
- * its space is: HDF5 opens the sources of a virtual dataset for that. */
+/* NULL if what a dataset has is in this very file and HDF5 can read it by itself, else words for what it is.
+ * To be asked before its space is: HDF5 opens the sources of a virtual dataset for that. */
 const char *hk_h5_foreign(hid_t dataset);
 
 herr_t hk_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);

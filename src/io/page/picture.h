@@ -21,7 +21,8 @@ void hk_picture_release(struct hk_picture *picture);
 
 /* Draws a spring. */
 void hk_picture_take(struct hk_picture *picture, int64_t spring);
-/* Draws of the springs from `first` up to `end` those that are left and not shut, evenly as many as there is room for. */
+/* Draws of the springs from `first` up to `end` those that are left and not shut, evenly as many as there is
+ * room for. */
 void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room);
 /* Tells of a particle, whether it has springs that are drawn or not. */
 void hk_picture_show(struct hk_picture *picture, int64_t particle);
@@ -33,7 +34,8 @@ int64_t *hk_picture_list(const struct hk_picture *picture);
 /* "particle" and "held": the number of each in that list, and whether it is pinned or driven. */
 void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list);
 
-/* Vectors as rows of x y z under `key`, those at the places of a list, rounded to whole multiples of 1/scale; none of NULL. */
+/* Vectors as rows of x y z under `key`, those at the places of a list, rounded to whole multiples of 1/scale;
+ * none of NULL. */
 void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
                             int64_t count, double scale);
 /* A scale that leaves six digits of the extent of positions; infinity: none is to be rounded. */

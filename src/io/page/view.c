@@ -121,7 +121,8 @@ static int64_t stride_for(int64_t count, int64_t room) {
   return count > room ? 1 + (count - 1) / room : 1;
 }
 
-/* Particles in their order: the ends of springs that are shown, those that are held, and those without any spring. */
+/* Particles in their order: the ends of springs that are shown, those that are held, and those without any
+ * spring. */
 static int32_t choose_particles(struct hooke_view *view, const double *ends, const double *species) {
   const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
   char *tied = hk_new(all, 1);

@@ -48,8 +48,8 @@ struct hk_view_box {
 
 int64_t hk_view_frame_bytes(const struct hooke_view *view);
 
-/* Coordinates of the particles as 16-bit numbers, lowest byte first, x y z in turn, then a byte for the strain of each
- * spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
+/* Coordinates of the particles as 16-bit numbers, lowest byte first, x y z in turn, then a byte for the
+ * strain of each spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
 int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
 
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */

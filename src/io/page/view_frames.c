@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of each frame so many springs are looked at for the scale of colours; of them so many, and of the frames so many, have a
- * strain within it. Of a run that blew up only frames count that are not much wider than the first, since what comes after
- * them leaves no colours for the others. */
+/* Of each frame so many springs are looked at for the scale of colours; of them so many, and of the frames so
+ * many, have a strain within it. Of a run that blew up only frames count that are not much wider than the
+ * first, since what comes after them leaves no colours for the others. */
 enum { LOOKED_AT = 4096, WIDEST = 65535, MIDDLE = 127, NO_STRAIN = 255 };
 static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 

@@ -111,7 +111,8 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
   return status == HOOKE_OK ? text->status : status;
 }
 
-/* The places of the two ends of each spring, as 32-bit numbers, lowest byte first, then the marks of the particles. */
+/* The places of the two ends of each spring, as 32-bit numbers, lowest byte first, then the marks of the
+ * particles. */
 static int32_t add_fixed(const struct page *page, struct hk_text *text) {
   const struct hooke_view *view = page->view;
   const int64_t count = 8 * view->springs + view->particles;

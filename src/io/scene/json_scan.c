@@ -114,7 +114,8 @@ int32_t hk_json_guard_feed(struct hk_json_guard *guard, const char *bytes, int64
 }
 
 double hk_json_guard_bytes(const struct hk_json_guard *guard, int64_t length) {
-  /* measured with jansson 2.14; the text is there, while it grows up to three times, and once more as texts in it */
+  /* measured with jansson 2.14; the text is there, while it grows up to three times, and once more as texts
+   * in it */
   static const double per_value = 64.0, per_list = 144.0, per_object = 400.0, per_byte = 4.0;
   return per_value * (double)guard->values + per_list * (double)guard->lists +
          per_object * (double)guard->objects + per_byte * (double)length;

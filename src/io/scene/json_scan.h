@@ -5,8 +5,8 @@
 #include "hooke/base.h"
 
 /* Follows a text that comes in pieces, so that a hopeless one is refused before it is in memory: not UTF-8,
- * NUL bytes, not an object, nested too deep, full of empty brackets, too much for the memory. `line` and `column` (from 1, in
- * characters) are those of the last character seen. All zeros is the start. */
+ * NUL bytes, not an object, nested too deep, full of empty brackets, too much for the memory. `line` and
+ * `column` (from 1, in characters) are those of the last character seen. All zeros is the start. */
 struct hk_json_guard {
   int64_t line, column, depth;
   int32_t started, in_string, escaped;

@@ -1,5 +1,5 @@
-/* v and f with all forms of corners, negative numbers and polygons; lines that go on after a backslash; any line ends. What
- * has nothing to do with the surface is passed over, and what would be lost is refused. */
+/* v and f with all forms of corners, negative numbers and polygons; lines that go on after a backslash; any
+ * line ends. What has nothing to do with the surface is passed over, and what would be lost is refused. */
 #include "io/scene/obj.h"
 
 #include "core/memory.h"
@@ -144,7 +144,8 @@ static int32_t read_vertex(struct reader *reader, int64_t line) {
   return add_vertex(reader->obj, number, line);
 }
 
-/* The vertex of a corner v, v/vt, v//vn or v/vt/vn; negative numbers count back from the last vertex so far. */
+/* The vertex of a corner v, v/vt, v//vn or v/vt/vn; negative numbers count back from the last vertex so
+ * far. */
 static int32_t read_corner(const struct reader *reader, const struct word *word, int64_t *vertex) {
   static const char form[] = "allowed: v, v/vt, v//vn or v/vt/vn, whole numbers";
   const int64_t count = reader->obj->vertex_count;

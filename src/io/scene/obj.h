@@ -12,8 +12,8 @@ struct hk_obj {
   int32_t *vertex_line, *triangle_line; /* lines that they begin on, from 1 */
 };
 
-/* Reads `length` bytes. On failure `line` is that of the trouble, and the message is without the name of the file.
- * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; to be released in each case. */
+/* Reads `length` bytes. On failure `line` is that of the trouble, and the message is without the name of the
+ * file. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; to be released in each case. */
 int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64_t *line);
 /* What reading `length` bytes of such a file into a mesh needs at most [bytes]. */
 double hk_obj_bytes(const char *text, int64_t length);

@@ -24,12 +24,14 @@ struct hk_scene_trouble {
 };
 int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble);
 
-/* Whether a text is a scene that names files, and if so its title, for the caller to free. HOOKE_NO_MEMORY. */
+/* Whether a text is a scene that names files, and if so its title, for the caller to free.
+ * HOOKE_NO_MEMORY. */
 int32_t hk_scene_names_files(const char *text, int32_t *names, char **title);
 
-/* The scene to keep with a run of `system` by the options `run`. `whole` is NULL where `text`, which may be NULL, will do;
- * where it names files, a text for the caller to free that has their numbers in it, so that the run can go on and be verified
- * where they are not. A system that no scene can hold, such as one with callbacks, keeps its text. HOOKE_NO_MEMORY. */
+/* The scene to keep with a run of `system` by the options `run`. `whole` is NULL where `text`, which may be
+ * NULL, will do; where it names files, a text for the caller to free that has their numbers in it, so that
+ * the run can go on and be verified where they are not. A system that no scene can hold, such as one with
+ * callbacks, keeps its text. HOOKE_NO_MEMORY. */
 int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
                             char **whole);
 

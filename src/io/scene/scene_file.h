@@ -4,9 +4,10 @@
 
 #include "io/scene/json_scan.h"
 
-/* Reads a whole file, checking it on the way, so that a hopeless one is refused early (a guard of NULL takes any bytes). `text` is the caller's
- * to free and ends with a NUL. HOOKE_BAD_VALUE if there is no such file or the guard refuses it,
- * HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. The message is without the name of the file. */
+/* Reads a whole file, checking it on the way, so that a hopeless one is refused early (a guard of NULL takes
+ * any bytes). `text` is the caller's to free and ends with a NUL. HOOKE_BAD_VALUE if there is no such file or
+ * the guard refuses it, HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. The message is without the
+ * name of the file. */
 int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length);
 
 /* The folder that a path is in; NULL if there is no memory. */

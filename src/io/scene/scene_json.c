@@ -64,8 +64,8 @@ struct source {
   int32_t starved; /* something could not be allocated */
 };
 
-/* jansson leaves out what it has no memory for, of a word or of a number, and goes on. All that tells of it is `errno`,
- * and only until the next number; so it is given a byte at a time. */
+/* jansson leaves out what it has no memory for, of a word or of a number, and goes on. All that tells of it
+ * is `errno`, and only until the next number; so it is given a byte at a time. */
 static size_t give_byte(void *buffer, size_t size, void *ctx) {
   struct source *source = ctx;
   source->starved |= errno == ENOMEM;

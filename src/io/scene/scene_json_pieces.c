@@ -94,8 +94,8 @@ static int32_t read_kind(const json_t *object, const char **kind) {
   return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
 }
 
-/* The names of all parts, before the first is built; an unnamed part is called by its kind and number. What is wrong with one
- * is said when it is built. */
+/* The names of all parts, before the first is built; an unnamed part is called by its kind and number. What
+ * is wrong with one is said when it is built. */
 static int32_t note_names(struct hk_scene_reader *reader, const json_t *parts) {
   int32_t status = hk_part_names_create((int64_t)json_array_size(parts), &reader->parts);
   for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {

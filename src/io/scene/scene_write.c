@@ -1,4 +1,5 @@
-/* A system written as a scene: what was made from options is written as these options, the rest one by one. */
+/* A system written as a scene: what was made from options is written as these options, the rest one by
+ * one. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"

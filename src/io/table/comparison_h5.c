@@ -1,5 +1,5 @@
-/* A comparison in one H5MD file: the reference under /particles/all, each method under /particles/<method>, the options
- * that all have in common under /hooke/options, and
+/* A comparison in one H5MD file: the reference under /particles/all, each method under /particles/<method>,
+ * the options that all have in common under /hooke/options, and
  *
  *   /comparison/reference              the method of the reference
  *   /comparison/method, status         [rows], texts

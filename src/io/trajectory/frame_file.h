@@ -1,5 +1,6 @@
-/* Frames as plain bytes in a file whose arrays are contiguous and of their final size. No HDF5 is called, which one thread
- * at a time may use and which may be the caller's own at any time; so this may be done by a thread of ours. */
+/* Frames as plain bytes in a file whose arrays are contiguous and of their final size. No HDF5 is called,
+ * which one thread at a time may use and which may be the caller's own at any time; so this may be done by a
+ * thread of ours. */
 #ifndef HOOKE_IO_TRAJECTORY_FRAME_FILE_H
 #define HOOKE_IO_TRAJECTORY_FRAME_FILE_H
 
@@ -35,7 +36,8 @@ extern const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT];
 int64_t hk_frame_numbers(int64_t particle_count, int array);
 int64_t hk_frame_bytes(int64_t particle_count, int array);
 
-/* Writes a frame: its numbers, their check value, and its time last. 0, or the number of the system's error. */
+/* Writes a frame: its numbers, their check value, and its time last. 0, or the number of the system's
+ * error. */
 int hk_frame_write(const struct hk_frame_file *file, int64_t frame, int64_t step, const hooke_state *state);
 
 /* `whole`: 1 if the frame has a time and its numbers have the check value that stands beside them. */

@@ -1,4 +1,5 @@
-/* A thread that writes frames while steps go on: one is copied and on its way, and the next waits until it is there. */
+/* A thread that writes frames while steps go on: one is copied and on its way, and the next waits until it is
+ * there. */
 #ifndef HOOKE_IO_TRAJECTORY_FRAME_THREAD_H
 #define HOOKE_IO_TRAJECTORY_FRAME_THREAD_H
 
@@ -15,7 +16,8 @@ int hk_frame_thread_write(struct hk_frame_thread *thread, int64_t step, const ho
 /* Waits for the frame on its way; the system's error, as above. */
 int hk_frame_thread_wait(struct hk_frame_thread *thread);
 
-/* Waits for the last frame and ends the thread: how many frames are there in all, and the error, if there was one. */
+/* Waits for the last frame and ends the thread: how many frames are there in all, and the error, if there was
+ * one. */
 int hk_frame_thread_end(struct hk_frame_thread *thread, int64_t *written);
 
 #endif

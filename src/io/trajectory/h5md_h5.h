@@ -35,8 +35,8 @@ enum { HOOKE_RUN_SIZE = 33 };
 int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]);
 herr_t hk_h5md_write_run(hid_t file, const char *run);
 
-/* Makes everything but particles, observables and check values again in another file; hk_h5md_refer() has to follow when
- * the particles group is there. */
+/* Makes everything but particles, observables and check values again in another file; hk_h5md_refer() has to
+ * follow when the particles group is there. */
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
 
@@ -46,8 +46,9 @@ herr_t hk_h5md_write_error_room(hid_t file);
 /* Where in the file an array of so many bytes is; -1 if there is none. */
 int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
-/* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing them, a word for a
- * status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's error. */
+/* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing
+ * them, a word for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's
+ * error. */
 enum { HOOKE_H5MD_RUNNING = 1000 };
 herr_t hk_h5md_find_status(hid_t file, int64_t *at);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);

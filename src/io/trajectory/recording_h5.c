@@ -59,8 +59,8 @@ struct arrays {
   hid_t id[HOOKE_FRAME_ARRAY_COUNT];
 };
 
-/* An array of numbers for all frames, `rows` x `columns` each. Numbers have the machine's order of bytes, since frames are
- * written as bytes. */
+/* An array of numbers for all frames, `rows` x `columns` each. Numbers have the machine's order of bytes,
+ * since frames are written as bytes. */
 static hid_t new_frames(const struct arrays *arrays, hid_t where, int64_t rows, int32_t columns) {
   const double fill = NAN;
   const hsize_t frames = (hsize_t)arrays->recording->frame_count;

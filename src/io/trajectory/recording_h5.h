@@ -8,10 +8,10 @@
  *   /hooke[/<group>]/frame_check          [frames]         CRC-32 of the frame's bytes: step, time, position, velocity,
  *                                                          observables in their order (frame_file.h)
  *
- * Every array is contiguous, of its final size, and there before the first frame: filled with NaN, step with -1, position
- * and velocity, which would take as long to fill as to write, with nothing but room for them. A frame is written in place
- * (frame_file.h), its check value and then its time last: time is the mark that the frame is there. Nothing else of the
- * file changes, so the file is valid whenever the process is killed. */
+ * Every array is contiguous, of its final size, and there before the first frame: filled with NaN, step with
+ * -1, position and velocity, which would take as long to fill as to write, with nothing but room for them. A
+ * frame is written in place (frame_file.h), its check value and then its time last: time is the mark that the
+ * frame is there. Nothing else of the file changes, so the file is valid whenever the process is killed. */
 #ifndef HOOKE_IO_TRAJECTORY_RECORDING_H5_H
 #define HOOKE_IO_TRAJECTORY_RECORDING_H5_H
 
@@ -43,8 +43,8 @@ herr_t hk_recording_create(hid_t file, const hooke_system *system, const char *g
 /* Writes the next frame; there has to be room for it. 0, or the number of the system's error. */
 int hk_recording_write(struct hk_recording *recording, int64_t step, const hooke_state *state);
 
-/* Makes the same arrays in another file, which has /hooke, for another number of frames, and what does not change with time.
- * hk_frame_copy() copies frames, when HDF5 is done with the other file. */
+/* Makes the same arrays in another file, which has /hooke, for another number of frames, and what does not
+ * change with time. hk_frame_copy() copies frames, when HDF5 is done with the other file. */
 herr_t hk_recording_copy(const struct hk_recording *from, hid_t from_file, hid_t file, int64_t frame_count,
                          struct hk_recording *to, struct hk_h5_copy *copy);
 

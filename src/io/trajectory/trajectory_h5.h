@@ -25,8 +25,8 @@ hooke_trajectory *hk_trajectory_new(void);
 /* Releases everything, and leaves the file as it is. */
 void hk_trajectory_release(hooke_trajectory *trajectory);
 
-/* Makes the same file with room for `frame_count` frames, the first `copied` of them and this outcome in it, and gives it
- * the name of the old one. `made` is new. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Makes the same file with room for `frame_count` frames, the first `copied` of them and this outcome in it,
+ * and gives it the name of the old one. `made` is new. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
                              int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
 

@@ -1,4 +1,5 @@
-/* A file that a run left behind is taken for one of ours only if it is, to the last array, what the run would have made. */
+/* A file that a run left behind is taken for one of ours only if it is, to the last array, what the run would
+ * have made. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/trajectory/trajectory.h"

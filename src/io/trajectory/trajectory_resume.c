@@ -1,4 +1,5 @@
-/* Going on with the run of a trajectory: which place that is, and the file opened for the frames that are missing. */
+/* Going on with the run of a trajectory: which place that is, and the file opened for the frames that are
+ * missing. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/print.h"

@@ -49,8 +49,8 @@ static void add_array(struct companion *c, const char *type, int bytes, const ch
   add(&c->text, ":%s</DataItem>", path);
 }
 
-/* One frame of an array of frames. VTK holds two frames for the same whose first words here are alike, so there is a
- * comment with the number. */
+/* One frame of an array of frames. VTK holds two frames for the same whose first words here are alike, so
+ * there is a comment with the number. */
 static void add_slab(struct companion *c, int64_t frame, const char *path) {
   char size[96];
   snprintf(size, sizeof size, "%lld %lld 3", c->planned, c->particles);
@@ -136,7 +136,8 @@ static int32_t check_name(const char *name) {
                         "ASCII without colons");
 }
 
-/* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else from the root. */
+/* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else
+ * from the root. */
 static int32_t find_name(struct companion *c, const char *path) {
   HOOKE_KEEP_ERRNO;
   const char *there = hk_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');

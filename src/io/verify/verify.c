@@ -15,8 +15,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How often the step is halved, or tolerances are tightened; at the end of that what is left over has to come from the
- * method, if a step is this share of the longest stable one. */
+/* How often the step is halved, or tolerances are tightened; at the end of that what is left over has to come
+ * from the method, if a step is this share of the longest stable one. */
 enum { MOST_REFINED = 4 };
 static const double RESOLVED = 0.25, ESTIMATES = 4.0;
 

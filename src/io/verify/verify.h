@@ -42,8 +42,8 @@ struct hk_verify_pass {
       own; /* q and v of each frame of the first pass, where the file's may be others; NULL: they are the file's */
 };
 
-/* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the like only of
- * refined passes. */
+/* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the
+ * like only of refined passes. */
 int32_t hk_verify_pass(struct hooke_verify *verify, struct hk_verify_pass *pass);
 void hk_verify_pass_release(struct hk_verify_pass *pass);
 

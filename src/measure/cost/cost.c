@@ -141,8 +141,8 @@ static int32_t find_first_limit(hooke_cost *cost, const hooke_state *state) {
   return status;
 }
 
-/* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers that are not
- * finite may. */
+/* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers
+ * that are not finite may. */
 static int32_t choose_step(hooke_cost *cost, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);
   double step = cost->run_step, safe = cost->limit;

@@ -29,7 +29,8 @@ struct hooke_cost {
   struct hk_cost_row *row;
 };
 
-/* Lists what is there, and chooses all that is not of a group and as many groups as the options say. HOOKE_NO_MEMORY. */
+/* Lists what is there, and chooses all that is not of a group and as many groups as the options say.
+ * HOOKE_NO_MEMORY. */
 int32_t hk_cost_list_rows(hooke_cost *cost);
 int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
 

@@ -47,8 +47,8 @@ static int compare_sizes(const void *one, const void *two) {
   return (a > b) - (a < b);
 }
 
-/* Every group makes the scene again, so that the time for all of very many would grow with their square. The rows are those of
- * groups so far. */
+/* Every group makes the scene again, so that the time for all of very many would grow with their square. The
+ * rows are those of groups so far. */
 static int32_t leave_small_groups_out(hooke_cost *cost) {
   const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
   if (count <= most) return HOOKE_OK;

@@ -15,9 +15,10 @@ struct hk_timed {
 int32_t hk_timed_create(const hooke_system *system, const hooke_options *run, struct hk_timed *timed);
 void hk_timed_release(struct hk_timed *timed);
 
-/* Runs blocks of `full`, `lean` and `full` again in turn, each from `start`, for about `seconds`, two rounds at least: both
- * series of `full`, whose difference tells how far times can be trusted, and the first of `lean`. Times stay infinite where the
- * method can take no step. HOOKE_STOPPED by a callback; failures of the method itself are none. */
+/* Runs blocks of `full`, `lean` and `full` again in turn, each from `start`, for about `seconds`, two rounds
+ * at least: both series of `full`, whose difference tells how far times can be trusted, and the first of
+ * `lean`. Times stay infinite where the method can take no step. HOOKE_STOPPED by a callback; failures of the
+ * method itself are none. */
 int32_t hk_timed_compare(struct hk_timed *full, struct hk_timed *lean, const hooke_state *start,
                          double seconds);
 

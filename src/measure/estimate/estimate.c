@@ -95,7 +95,8 @@ int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options
 
 /* ---- watching the run ---- */
 
-/* Frames that are kept with a want, to hold a finer run against: whole parts of the run, as far as memory is at hand. */
+/* Frames that are kept with a want, to hold a finer run against: whole parts of the run, as far as memory is
+ * at hand. */
 static void choose_kept(hooke_estimate *e, int64_t *count) {
   const double frames = e->duration / e->every;
   const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);

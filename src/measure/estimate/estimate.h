@@ -39,13 +39,13 @@ struct hooke_estimate {
 /* The method and its step or tolerance in options of a run. */
 double hk_estimate_value(const hooke_options *options);
 
-/* The run once more by another step or tolerance, in `frames` (its start and as many as there is memory for, `every` apart
- * [s]): from `from` (NULL: from the beginning) for `duration`. What ends it early leaves fewer frames.
- * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+/* The run once more by another step or tolerance, in `frames` (its start and as many as there is memory for,
+ * `every` apart [s]): from `from` (NULL: from the beginning) for `duration`. What ends it early leaves fewer
+ * frames. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_rerun(struct hooke_estimate *estimate, double value, const hooke_state *from,
                           double duration, double every, struct hk_frames *frames);
-/* Estimates from reruns: coarser ones, and finer ones of the last piece or of all. They leave the error NaN where they cannot
- * tell (estimate_runs.c). */
+/* Estimates from reruns: coarser ones, and finer ones of the last piece or of all. They leave the error NaN
+ * where they cannot tell (estimate_runs.c). */
 int32_t hk_estimate_by_coarser(struct hooke_estimate *estimate);
 int32_t hk_estimate_by_slice(struct hooke_estimate *estimate);
 int32_t hk_estimate_by_finer(struct hooke_estimate *estimate);

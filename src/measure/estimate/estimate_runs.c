@@ -1,4 +1,5 @@
-/* Estimates of a run's error from other runs of its method: Richardson's, where the order that is seen is that of the method. */
+/* Estimates of a run's error from other runs of its method: Richardson's, where the order that is seen is
+ * that of the method. */
 #include "measure/estimate/estimate.h"
 
 #include "integrate/method.h"
@@ -124,7 +125,8 @@ int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
 
 /* ---- finer ---- */
 
-/* The largest distance of the kept frames, the last `count` of them, to those of a finer run, as an error of the run. */
+/* The largest distance of the kept frames, the last `count` of them, to those of a finer run, as an error of
+ * the run. */
 static double error_to(struct hooke_estimate *e, const struct hk_frames *finer) {
   const struct hk_frames *kept = &e->kept;
   const struct hk_method *method = method_of(e);

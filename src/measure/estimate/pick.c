@@ -94,7 +94,8 @@ static int32_t shorten(struct hk_pick *pick) {
   return hooke_options_set_number(pick->run, "duration", reached);
 }
 
-/* Of the whole run; where not even its second frame is reached, of a beginning with frames that are closer. */
+/* Of the whole run; where not even its second frame is reached, of a beginning with frames that are
+ * closer. */
 static int32_t find_reference(struct hk_pick *pick, double budget) {
   int32_t status = make_reference(pick, budget);
   if (status == HOOKE_OK && (pick->reference.trusted > 1 || !pick->reference.hurried)) return shorten(pick);

@@ -1,6 +1,7 @@
-/* Picking a method and its step or tolerance for a wanted error: a reference no tighter than that takes, and for each
- * method the few runs that find its cheapest row within the wanted error. Where there is no time for all of a run, its
- * beginning is studied, for the same share of the error: errors grow at least in proportion to time. */
+/* Picking a method and its step or tolerance for a wanted error: a reference no tighter than that takes, and
+ * for each method the few runs that find its cheapest row within the wanted error. Where there is no time for
+ * all of a run, its beginning is studied, for the same share of the error: errors grow at least in proportion
+ * to time. */
 #ifndef HOOKE_MEASURE_ESTIMATE_PICK_H
 #define HOOKE_MEASURE_ESTIMATE_PICK_H
 
@@ -30,8 +31,8 @@ struct hk_pick {
   void *ctx;
 };
 
-/* Picks. `run` has the duration and what methods take besides steps and tolerances. To be released in either case.
- * HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+/* Picks. `run` has the duration and what methods take besides steps and tolerances. To be released in either
+ * case. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
                     const char *method, hooke_progress *progress, void *ctx);
 void hk_pick_release(struct hk_pick *pick);
@@ -39,7 +40,8 @@ void hk_pick_release(struct hk_pick *pick);
 /* Time up to which the reference can be trusted, from the start of the run [s]. */
 double hk_pick_trusted(const struct hk_pick *pick);
 
-/* Searches all methods for the cheapest row within the wanted error, and puts it into `best` (pick_search.c). */
+/* Searches all methods for the cheapest row within the wanted error, and puts it into `best`
+ * (pick_search.c). */
 int32_t hk_pick_search(struct hk_pick *pick);
 /* Options of a run by a method with a step or tolerance. */
 int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);

@@ -1,4 +1,5 @@
-/* Is a run to be trusted? Its step must stay clear of the stability limit, and its energy must not grow by itself. */
+/* Is a run to be trusted? Its step must stay clear of the stability limit, and its energy must not grow by
+ * itself. */
 #ifndef HOOKE_MEASURE_ESTIMATE_SOUNDNESS_H
 #define HOOKE_MEASURE_ESTIMATE_SOUNDNESS_H
 
@@ -21,20 +22,21 @@ struct hk_soundness {
   double *time, *energy; /* of the states seen */
 };
 
-/* Begins at `state`, with memory for `capacity` states and `patience` [s] for limits; to be released in either case.
- * HOOKE_NO_MEMORY. */
+/* Begins at `state`, with memory for `capacity` states and `patience` [s] for limits; to be released in
+ * either case. HOOKE_NO_MEMORY. */
 int32_t hk_soundness_begin(struct hk_soundness *soundness, const hooke_system *system, const char *method,
                            double step, double patience, const hooke_state *state, int64_t capacity);
 /* Takes another state, such as a frame; those beyond the capacity are left out. */
 void hk_soundness_see(struct hk_soundness *soundness, const hooke_state *state);
 void hk_soundness_release(struct hk_soundness *soundness);
 
-/* How far the energy rises over the last half of the states seen, as a share of the scale: the slope of a least-squares
- * line times the time it covers, where the slope is over three times its standard error; else 0. NaN where energy comes
- * from outside (callbacks, drives) or there are fewer than eight states. */
+/* How far the energy rises over the last half of the states seen, as a share of the scale: the slope of a
+ * least-squares line times the time it covers, where the slope is over three times its standard error; else
+ * 0. NaN where energy comes from outside (callbacks, drives) or there are fewer than eight states. */
 double hk_soundness_rise(const struct hk_soundness *soundness);
 
-/* The share from which on a run gains energy by itself, and the share of the stable step that may be taken. */
+/* The share from which on a run gains energy by itself, and the share of the stable step that may be
+ * taken. */
 extern const double hk_soundness_most_rise, hk_soundness_limit_share;
 
 #endif

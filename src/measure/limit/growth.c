@@ -8,15 +8,18 @@
 #include <math.h>
 #include <string.h>
 
-/* Windows of equal length cover a run. Each has the mean logarithm of the amplitude (the root of the energy) over some
- * samples at irregular times, so that no oscillation hides between them. When all are full, pairs of them become one. */
+/* Windows of equal length cover a run. Each has the mean logarithm of the amplitude (the root of the energy)
+ * over some samples at irregular times, so that no oscillation hides between them. When all are full, pairs
+ * of them become one. */
 enum { WINDOWS = 96, FIRST_WINDOW = 32, SAMPLES = 4, BLOCKS = 3 };
 static const double RANDOM_SHARE = 1e-3;
 static const double SCALE_DOWN = 5.0; /* log of the amplitude at which displacements are scaled back */
-/* Less than that in the log of the amplitude may be part of a slow oscillation, unless all steps are taken. */
+/* Less than that in the log of the amplitude may be part of a slow oscillation, unless all steps are
+ * taken. */
 static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
-/* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same for speed:
- * particles that have turned about others, which costs no energy, are not quite where linear motion would have them. */
+/* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
+ * for speed: particles that have turned about others, which costs no energy, are not quite where linear
+ * motion would have them. */
 static const double NOTHING_LEFT = -12.0;
 
 struct course {
@@ -48,8 +51,8 @@ static void fill(struct course *course, int64_t steps, double value) {
   course->length *= 2;
 }
 
-/* The change of the mean from block to block, three of them over the last three quarters, and the scatter of the windows
- * about a straight line. */
+/* The change of the mean from block to block, three of them over the last three quarters, and the scatter of
+ * the windows about a straight line. */
 struct trend {
   double change[BLOCKS - 1], scatter;
   int steady; /* the changes are alike, and well above the scatter */
@@ -86,8 +89,8 @@ static double kinetic(const hooke_system *system, const double *v) {
   return sum;
 }
 
-/* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as would a free scene,
- * and turn the springs. */
+/* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as
+ * would a free scene, and turn the springs. */
 static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   const hooke_system *system = growth->frozen->system;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
@@ -140,8 +143,9 @@ static int32_t watch(double done, const char *method, void *ctx) {
          (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
 }
 
-/* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped mode swings by
- * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told apart. */
+/* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped
+ * mode swings by 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told
+ * apart. */
 static double certain_rise(const struct hk_growth *growth) {
   return log(30.0 / sqrt(0.5 * growth->accuracy));
 }
@@ -179,7 +183,8 @@ static enum hk_verdict last_word(const struct course *course) {
   return HOOKE_STEADY;
 }
 
-/* `count` steps, beginning anew: the integrator then looks for numbers that are not finite and for no rise of energy. */
+/* `count` steps, beginning anew: the integrator then looks for numbers that are not finite and for no rise of
+ * energy. */
 static int32_t take(struct hk_growth *growth, hooke_integrator *integrator, int64_t count,
                     enum hk_verdict *verdict, int *ended) {
   hooke_state_set_time(growth->state, 0.0);

@@ -1,5 +1,5 @@
-/* Does the motion of a frozen system grow at a step? One run of the real integrator, seen through the energy of the
- * displacement. */
+/* Does the motion of a frozen system grow at a step? One run of the real integrator, seen through the energy
+ * of the displacement. */
 #ifndef HOOKE_MEASURE_LIMIT_GROWTH_H
 #define HOOKE_MEASURE_LIMIT_GROWTH_H
 
@@ -36,10 +36,11 @@ int32_t hk_growth_create(const struct hk_frozen *frozen, const hooke_options *ru
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth);
 void hk_growth_release(struct hk_growth *growth);
 
-/* Runs at `step` from the known direction with a thousandth of random motion, or from random motion alone, until the energy
- * clearly grows or decays, or for `most_steps`. A `thorough` run starts from random motion and takes all of its steps before
- * it says that motion holds: a mode that nobody thought of has had the time to show. Motion that grew is the direction of
- * later runs where none was known or the run was thorough. HOOKE_STOPPED by the progress; HOOKE_NO_MEMORY. */
+/* Runs at `step` from the known direction with a thousandth of random motion, or from random motion alone,
+ * until the energy clearly grows or decays, or for `most_steps`. A `thorough` run starts from random motion
+ * and takes all of its steps before it says that motion holds: a mode that nobody thought of has had the time
+ * to show. Motion that grew is the direction of later runs where none was known or the run was thorough.
+ * HOOKE_STOPPED by the progress; HOOKE_NO_MEMORY. */
 int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
                       enum hk_verdict *verdict);
 

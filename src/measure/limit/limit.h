@@ -51,10 +51,12 @@ struct hooke_limit {
 /* Bounds, predictions and modes at positions q (3n), in place of those before. */
 int32_t hk_limit_predict_rows(hooke_limit *limit, const double *q);
 
-/* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none has. */
+/* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none
+ * has. */
 const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit);
 
-/* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the context. */
+/* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the
+ * context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
 
 #endif

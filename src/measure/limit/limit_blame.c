@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Puts an element where it belongs in a list of HOOKE_BLAME_MOST at most, the largest share first and equal ones in the
- * order in which they come. `share_at` is where an element has its share. */
+/* Puts an element where it belongs in a list of HOOKE_BLAME_MOST at most, the largest share first and equal
+ * ones in the order in which they come. `share_at` is where an element has its share. */
 static void keep(void *list, int64_t *count, size_t size, size_t share_at, const void *element) {
   unsigned char *place = list;
   double share, other;

@@ -1,4 +1,5 @@
-/* What a limit hangs on: the springs and particles that carry the limiting mode, and what it would buy to change them. */
+/* What a limit hangs on: the springs and particles that carry the limiting mode, and what it would buy to
+ * change them. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
 
@@ -38,13 +39,15 @@ struct hk_blame {
   double room;
 };
 
-/* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a mode (3n displacements, NULL: none is known),
- * `h2` being the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
+/* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a
+ * mode (3n displacements, NULL: none is known), `h2` being the weight of K and `h` that of 2 C.
+ * HOOKE_NO_MEMORY. */
 int32_t hk_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                       struct hk_blame *blame);
 void hk_blame_release(struct hk_blame *blame);
 
-/* The force that has half of the whole or more, HOOKE_BLAME_*; -1 if springs by their stiffness have, or none has. Its name. */
+/* The force that has half of the whole or more, HOOKE_BLAME_*; -1 if springs by their stiffness have, or none
+ * has. Its name. */
 int32_t hk_blame_force(const struct hk_blame *blame);
 const char *hk_blame_force_name(int32_t force);
 
@@ -62,9 +65,10 @@ struct hk_remedy {
   char sentence[640];
 };
 
-/* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the step without
- * it would be larger; `factor` is what the set costs. `limit` is that of `method` at q as it is. Where there is no such set
- * `sentence` says what there is instead, the counts are 0 and the numbers NaN. The failures of hk_limit_predict(). */
+/* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the
+ * step without it would be larger; `factor` is what the set costs. `limit` is that of `method` at q as it is.
+ * Where there is no such set `sentence` says what there is instead, the counts are 0 and the numbers NaN. The
+ * failures of hk_limit_predict(). */
 int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
                        const struct hk_blame *blame, struct hk_remedy *remedy);
 

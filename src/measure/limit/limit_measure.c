@@ -47,8 +47,8 @@ static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
   return HOOKE_OK;
 }
 
-/* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or somewhat less, and
- * forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
+/* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or
+ * somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
 static int64_t steps_for(const struct hk_growth *growth, int slow) {
   const double accuracy = growth->accuracy;
   const double steps = slow                     ? 4000.0 / accuracy
@@ -96,8 +96,8 @@ static void read_bracket(const struct hk_bracket *bracket, struct hk_measurement
     out->step = 0.0, out->never_stable = 1;
 }
 
-/* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none may be seen at
- * large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
+/* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none
+ * may be seen at large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
 static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int small, int *confirmed) {
   static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
   const int64_t most_steps = trial->most_steps;

@@ -1,4 +1,5 @@
-/* Limits found by running: the step is bisected between one at which real runs hold and one at which they grow. */
+/* Limits found by running: the step is bisected between one at which real runs hold and one at which they
+ * grow. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 
@@ -12,18 +13,19 @@ struct hk_measurement {
   const char *note;     /* what to know about it, "" if nothing */
 };
 
-/* The limit of `method` on the system linearised and frozen at q (see frozen.h), to the relative `accuracy`, within
- * `budget` [s]. The search starts at `predicted` (NaN: not known; 0 and infinity are put to the test), with runs that start
- * in `mode` (3n displacements, or NULL) and some random motion. What is found is confirmed by a run just below it that starts
- * from random motion alone. `run` (options of a run) and `progress` may be NULL. A budget that ends too early is told in
- * the note. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
+/* The limit of `method` on the system linearised and frozen at q (see frozen.h), to the relative `accuracy`,
+ * within `budget` [s]. The search starts at `predicted` (NaN: not known; 0 and infinity are put to the test),
+ * with runs that start in `mode` (3n displacements, or NULL) and some random motion. What is found is
+ * confirmed by a run just below it that starts from random motion alone. `run` (options of a run) and
+ * `progress` may be NULL. A budget that ends too early is told in the note. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT,
+ * HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
                          double budget, hooke_progress *progress, void *ctx, struct hk_measurement *out);
 
-/* The largest step at which the scene itself runs from `start` through the `duration` of `run` without divergence. With
- * callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE without a duration; HOOKE_STOPPED
- * also where a callback of the scene asked for it. */
+/* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
+ * divergence. With callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE
+ * without a duration; HOOKE_STOPPED also where a callback of the scene asked for it. */
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
                                    double accuracy, double budget, hooke_progress *progress, void *ctx,

@@ -100,7 +100,8 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
   return status;
 }
 
-/* By how much the mode as it is would be slower: the positive root g of g^2 k + g c = m, all over the whole. */
+/* By how much the mode as it is would be slower: the positive root g of g^2 k + g c = m, all over the
+ * whole. */
 static double perturbed(const struct hk_blame *blame, const struct set *set, double factor) {
   const double cut = set->springs ? 1.0 - 1.0 / factor : 0.0;
   const double k = blame->stiffness_share - cut * set->stiffness_share;
@@ -109,7 +110,8 @@ static double perturbed(const struct hk_blame *blame, const struct set *set, dou
   return 2.0 * m / (c + sqrt(c * c + 4.0 * k * m));
 }
 
-/* The factor that makes the set as slow as the rest, for a step `gain` times larger: g^2 k + g c of its own k and c. */
+/* The factor that makes the set as slow as the rest, for a step `gain` times larger: g^2 k + g c of its own k
+ * and c. */
 static double fitting_factor(const struct hk_blame *blame, const struct set *set, double gain) {
   const double stiff = set->springs ? set->stiffness_share / set->share : blame->stiffness_share;
   const double factor = gain * gain * stiff + gain * (1.0 - stiff);
@@ -209,7 +211,8 @@ static void tell_groups(const hooke_system *system, const struct hk_blame *blame
 
 /* ---- drag and damping ---- */
 
-/* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it either way. */
+/* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it
+ * either way. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
                              const struct hk_blame *blame, int32_t force, double *limit) {
   hooke_system without = *system;
@@ -269,7 +272,8 @@ int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *
   struct set first = spring_set(system, blame), second = particle_set(system, blame);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
   if (springs && particles) find_oddness(system, blame, &first, &second);
-  /* one particle and all of its springs, or one spring and its two particles: the smaller set is the odd one */
+  /* one particle and all of its springs, or one spring and its two particles: the smaller set is the odd
+   * one */
   if (particles &&
       (!springs || second.count < first.count || (second.count == first.count && second.odd > first.odd))) {
     const struct set other = first;

@@ -108,26 +108,29 @@ double hk_needs_moved(const hooke_needs *needs, const struct hk_needs_path *path
 int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound);
 
-/* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as well). */
+/* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as
+ * well). */
 struct hk_needs_trial {
   const hooke_system *system;
   const struct hk_variant_map *map;
 };
-/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is the path of the
- * run with half the step, which for the full system may be off by `own_error`. Where differences grow so fast that no step is small enough, step_error is that of the best; the
- * full system then says how many frames are judged. It is NaN, and there is no path, if no run came to its end.
- * HOOKE_STOPPED, HOOKE_NO_MEMORY and the like come out. */
+/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is
+ * the path of the run with half the step, which for the full system may be off by `own_error`. Where
+ * differences grow so fast that no step is small enough, step_error is that of the best; the full system then
+ * says how many frames are judged. It is NaN, and there is no path, if no run came to its end. HOOKE_STOPPED,
+ * HOOKE_NO_MEMORY and the like come out. */
 int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                          struct hk_needs_path *fine);
-/* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors together, that
- * of the path of the full system included: the run to recommend. `error` is NaN, and there is no path, if none is not much
- * smaller than that of the full system. */
+/* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors
+ * together, that of the path of the full system included: the run to recommend. `error` is NaN, and there is
+ * no path, if none is not much smaller than that of the full system. */
 int32_t hk_needs_fit(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error);
-/* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than `most` [s], or the
- * method does not suit it. */
+/* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than
+ * `most` [s], or the method does not suit it. */
 int32_t hk_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
-/* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the least of each. */
+/* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the
+ * least of each. */
 int32_t hk_needs_time_in_turns(hooke_needs *needs, const struct hk_needs_trial trial[2],
                                struct hk_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */

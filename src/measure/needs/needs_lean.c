@@ -64,8 +64,8 @@ static double work(const struct hk_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
-/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are left out break
- * up runs of others, whose ends are then looked up. */
+/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are
+ * left out break up runs of others, whose ends are then looked up. */
 static int32_t may_save(const hooke_needs *needs, const struct hk_needs_row *row) {
   if (strcmp(row->kind, "compression") == 0) return 0;
   return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
@@ -84,8 +84,8 @@ static int32_t comes_before(const hooke_needs *needs, const struct hk_needs_row 
   return a->cost.particles + a->cost.springs < b->cost.particles + b->cost.springs;
 }
 
-/* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left out or tried;
- * -1 if there is none. */
+/* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left
+ * out or tried; -1 if there is none. */
 static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {

@@ -14,8 +14,8 @@ struct hk_needs_recorder {
   int32_t expired;           /* 1: it was */
 };
 
-/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. HOOKE_STOPPED and other failures
- * come out. */
+/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. HOOKE_STOPPED and
+ * other failures come out. */
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost);
 

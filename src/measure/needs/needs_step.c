@@ -123,8 +123,8 @@ static void swap_runs(struct search *search) {
   search->cost[1] = cost;
 }
 
-/* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as small as that
- * of the full system. */
+/* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as
+ * small as that of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const hooke_needs *needs = search->recorder.needs;
   if (search->recorder.trial->map == NULL) return 0;
@@ -133,7 +133,8 @@ static int32_t is_needed_for_certain(const struct search *search, double error) 
   return error <= CERTAIN * distance || !is_coarser_than_full(search);
 }
 
-/* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place 1. */
+/* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place
+ * 1. */
 static int32_t find_step(struct search *search) {
   const hooke_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
@@ -193,8 +194,8 @@ static void begin_search(struct search *search, double limit) {
   search->first_stable = search->value;
 }
 
-/* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if it does not
- * come to its end, beyond what was judged. */
+/* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if
+ * it does not come to its end, beyond what was judged. */
 static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
   const hooke_needs *needs = search->recorder.needs;
   double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
@@ -217,8 +218,8 @@ static void hand_over(struct hk_needs_path *from, struct hk_needs_path *to) {
   from->position = NULL;
 }
 
-/* The full system is judged, and all others against it, up to where the best step can be trusted with a margin: variants
- * grow differences about as fast. Up to there a larger step may do. */
+/* The full system is judged, and all others against it, up to where the best step can be trusted with a
+ * margin: variants grow differences about as fast. Up to there a larger step may do. */
 static int32_t judge_full(struct search *search, double limit, struct hk_needs_path *fine) {
   hooke_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
@@ -291,7 +292,8 @@ static double error_of(const struct search *search, int32_t which) {
   return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
 }
 
-/* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place 0. */
+/* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place
+ * 0. */
 static int32_t coarsen(struct search *search, double failed, double *error) {
   int32_t status = HOOKE_OK;
   for (int k = 0; k < HALVINGS && status == HOOKE_OK; k++) {

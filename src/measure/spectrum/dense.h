@@ -1,20 +1,22 @@
-/* Dense eigenvalues, by LAPACK; all return HOOKE_NOT_BUILT without it, and HOOKE_NO_MEMORY. Matrices are in rows. */
+/* Dense eigenvalues, by LAPACK; all return HOOKE_NOT_BUILT without it, and HOOKE_NO_MEMORY. Matrices are in
+ * rows. */
 #ifndef HOOKE_MEASURE_SPECTRUM_DENSE_H
 #define HOOKE_MEASURE_SPECTRUM_DENSE_H
 
 #include <stdint.h>
 
-/* Eigenvalues of a symmetric n x n matrix, which is destroyed, the largest first; `vector` (n rows, one a value, of length
- * 1) may be NULL, which is ten times faster. */
+/* Eigenvalues of a symmetric n x n matrix, which is destroyed, the largest first; `vector` (n rows, one a
+ * value, of length 1) may be NULL, which is ten times faster. */
 int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector);
 
-/* The largest eigenvalue of the tridiagonal matrix with `diagonal` (n) and `beside` (n - 1), and its vector (n, or NULL). */
+/* The largest eigenvalue of the tridiagonal matrix with `diagonal` (n) and `beside` (n - 1), and its vector
+ * (n, or NULL). */
 int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
                              double *vector);
 
-/* Eigenvalues lambda of lambda^2 I + lambda C + K, K and C symmetric and not negative, with their vectors (n each, real and
- * imaginary part). What K and C both take to 0 is left out; of conjugates, the one with the positive imaginary part is
- * given. All arrays have room for 2n. */
+/* Eigenvalues lambda of lambda^2 I + lambda C + K, K and C symmetric and not negative, with their vectors (n
+ * each, real and imaginary part). What K and C both take to 0 is left out; of conjugates, the one with the
+ * positive imaginary part is given. All arrays have room for 2n. */
 struct hk_damped_modes {
   int64_t count;
   double *real, *imaginary;

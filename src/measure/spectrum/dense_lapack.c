@@ -170,8 +170,8 @@ static void take(int64_t n, int64_t r, const double *basis, const double *real, 
   }
 }
 
-/* Column k has the vector of a real eigenvalue; of a pair, columns k and k + 1 the two parts of the first one's, whose
- * imaginary part is positive. */
+/* Column k has the vector of a real eigenvalue; of a pair, columns k and k + 1 the two parts of the first
+ * one's, whose imaginary part is positive. */
 static void take_all(int64_t n, int64_t r, const double *basis, const double *real, const double *imaginary,
                      const double *vector, struct hk_damped_modes *modes) {
   for (int64_t k = 0; k < 2 * r; k++) {

@@ -79,7 +79,8 @@ static void see_tetrahedra(struct thaw *thaw, struct hk_frozen *frozen) {
   }
 }
 
-/* Without tension where they are; one that is flat has so short a rest length that its tension is that of a displacement. */
+/* Without tension where they are; one that is flat has so short a rest length that its tension is that of a
+ * displacement. */
 static void place_tetrahedra(const struct thaw *thaw, const struct hk_frozen *frozen) {
   for (int64_t k = 0; k < frozen->altitude_count; k++) {
     struct hk_tetrahedron *t = &thaw->tetrahedron[k];
@@ -103,8 +104,8 @@ static void find_extent(struct thaw *thaw) {
   }
 }
 
-/* The shortest spring becomes 1e9/sqrt(extent over shortest) m long: the longer, the less springs turn; the shorter, the
- * less rounding of positions there is; this weighs the two. */
+/* The shortest spring becomes 1e9/sqrt(extent over shortest) m long: the longer, the less springs turn; the
+ * shorter, the less rounding of positions there is; this weighs the two. */
 static void find_factor(struct thaw *thaw) {
   if (isinf(thaw->shortest)) {
     thaw->factor = 0.0; /* no spring has a direction: all of them are linear about one place */
@@ -235,7 +236,8 @@ static int32_t build(const struct thaw *thaw, const struct hk_frozen *frozen, co
   return status;
 }
 
-/* The force of springs and bending at rest, taken back: the sum that the integrators form is then 0 to the bit. */
+/* The force of springs and bending at rest, taken back: the sum that the integrators form is then 0 to the
+ * bit. */
 static int32_t find_balance(struct hk_frozen *frozen, int *needed) {
   const int64_t size = 3 * frozen->system->particle_count;
   double *still = hk_new(size, sizeof(double));

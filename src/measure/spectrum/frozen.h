@@ -1,15 +1,15 @@
-/* A system linearised and frozen at given positions, at rest, as a system of real springs, so that every integrator runs on
- * it with its own loops: implicit treatment of spring damping and all.
+/* A system linearised and frozen at given positions, at rest, as a system of real springs, so that every
+ * integrator runs on it with its own loops: implicit treatment of spring damping and all.
  *
- * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to 1e9 m long, and
- * displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion is linear; and rounding of
- * positions, 1e-16 of the extent, stays as far below the displacements. (Displacements as
- * small as that of the scene as it is would be the same in principle; but rest lengths have to be set anew anyway, and
- * numbers about 1 need no thought.) A spring keeps kappa and gamma; its rest length
- * l0/r of its new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is its
- * length. One that only pulls counts as taut. One of length 0 is linear as it is if it wants to be of length 0, and else
- * has no force and is left out. Bending is linear as it is. A constant force balances the tensions. Gravity and callbacks are left out, driven particles
- * are pinned. */
+ * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to 1e9
+ * m long, and displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion is
+ * linear; and rounding of positions, 1e-16 of the extent, stays as far below the displacements.
+ * (Displacements as small as that of the scene as it is would be the same in principle; but rest lengths have
+ * to be set anew anyway, and numbers about 1 need no thought.) A spring keeps kappa and gamma; its rest
+ * length l0/r of its new length keeps tension over length, the stiffness across. A compressed one is clamped:
+ * its rest length is its length. One that only pulls counts as taut. One of length 0 is linear as it is if it
+ * wants to be of length 0, and else has no force and is left out. Bending is linear as it is. A constant
+ * force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. */
 #ifndef HOOKE_MEASURE_SPECTRUM_FROZEN_H
 #define HOOKE_MEASURE_SPECTRUM_FROZEN_H
 
@@ -43,7 +43,8 @@ void hk_frozen_release(struct hk_frozen *frozen);
 /* Twice the energy of the displacement from `place` and the velocity (3n each): x.Kx + v.Mv. */
 double hk_frozen_energy(const struct hk_frozen *frozen, const double *q, const double *v);
 
-/* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act on. */
+/* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act
+ * on. */
 void hk_frozen_push(const struct hk_frozen *frozen, const double *x, double *out);
 
 /* A spring at q as its displacements see it, clamped as above; one of length 0 is stiff in all directions. */

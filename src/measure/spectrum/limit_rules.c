@@ -38,8 +38,9 @@ static int32_t damping_of(struct hk_linearised *lin, const double *x, double *ro
   return HOOKE_OK;
 }
 
-/* h at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. From the mode of one h its own step, which is the next h: the
- * eigenvalue is stationary in the mode, so this is Newton's iteration, from above after the first turn. */
+/* h at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. From the mode of one h its own step, which
+ * is the next h: the eigenvalue is stationary in the mode, so this is Newton's iteration, from above after
+ * the first turn. */
 static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out) {
   struct hk_linearised *lin = s->linearised;
   take_mode(s, s->stiffest_mode, out);

@@ -2,14 +2,15 @@
  *
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
- * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple of bending in
- * K, the same in all directions; kappa (g g^T)(u u^T) in K and gamma (g g^T)(u u^T) in C of every altitude spring, g its
- * weights, without what its tension adds. A compressed spring is clamped: its stiffness across, which
- * is negative, counts as 0. A spring that only pulls counts as taut; one of no length as stiff in all directions.
+ * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple
+ * of bending in K, the same in all directions; kappa (g g^T)(u u^T) in K and gamma (g g^T)(u u^T) in C of
+ * every altitude spring, g its weights, without what its tension adds. A compressed spring is clamped: its
+ * stiffness across, which is negative, counts as 0. A spring that only pulls counts as taut; one of no length
+ * as stiff in all directions.
  *
- * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues come in units
- * of `rate`, a bound of the fastest motion, so that neither stiffness nor masses overflow: K is divided by rate^2, C by
- * rate. */
+ * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues
+ * come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses overflow: K is
+ * divided by rate^2, C by rate. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 #define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 
@@ -39,8 +40,8 @@ struct hk_linearised {
   /* a K + b C, from the last hk_linearised_weigh() */
   struct hk_tangent tangent;
   double *g[3], *g_across, brake, bent;
-  /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with HOOKE_STOPPED (NULL:
-   * none); and bytes that a basis may take (0: as many as are usual) */
+  /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with
+   * HOOKE_STOPPED (NULL: none); and bytes that a basis may take (0: as many as are usual) */
   struct hk_patience *patience;
   double room;
 };
@@ -48,8 +49,8 @@ struct hk_linearised {
 /* Bytes that it takes at most, with what a search for the largest eigenvalue needs besides. */
 double hk_linearised_bytes(const hooke_system *system);
 
-/* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL. HOOKE_BAD_VALUE for
- * numbers that are not finite; HOOKE_NO_MEMORY. */
+/* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL.
+ * HOOKE_BAD_VALUE for numbers that are not finite; HOOKE_NO_MEMORY. */
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
                              const double *mass_scale, struct hk_linearised *linearised);
 void hk_linearised_release(struct hk_linearised *linearised);
@@ -75,7 +76,8 @@ double hk_linearised_dot(const struct hk_linearised *linearised, const double *x
 /* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is held. */
 void hk_linearised_start(const struct hk_linearised *linearised, double *x);
 
-/* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns` long). */
+/* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns`
+ * long). */
 void hk_linearised_pack(const struct hk_linearised *linearised, const double *x, double *unknown);
 void hk_linearised_unpack(const struct hk_linearised *linearised, const double *unknown, double *x);
 

@@ -14,8 +14,8 @@ struct hk_spring hk_naming_spring(const hooke_system *system, int64_t spring);
 enum { HOOKE_NAMING_SIZE = 160 };
 const char *hk_naming_words(const hooke_system *system, int64_t spring, char text[HOOKE_NAMING_SIZE]);
 
-/* The spring, the bending or the altitude spring that weighs most on a particle in a step h, in words ("" if there is none); returns the
- * spring, -1 where it is none. */
+/* The spring, the bending or the altitude spring that weighs most on a particle in a step h, in words ("" if
+ * there is none); returns the spring, -1 where it is none. */
 int64_t hk_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                  char text[HOOKE_NAMING_SIZE]);
 

@@ -1,9 +1,10 @@
 /* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
  *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
  *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
- * of every altitude spring its rows: 2 |g_j| kappa u u^T and 2 |g_j| gamma u u^T, less where some corners are held;
- * and of every triple of bending its rows: c times 4, 8, 4 at its particles, less where some of them are held;
- * with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c I. */
+ * of every altitude spring its rows: 2 |g_j| kappa u u^T and 2 |g_j| gamma u u^T, less where some corners are
+ * held; and of every triple of bending its rows: c times 4, 8, 4 at its particles, less where some of them
+ * are held; with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c
+ * I. */
 #ifndef HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 #define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 
@@ -32,8 +33,8 @@ void hk_node_blocks_release(struct hk_node_blocks *blocks);
 double hk_node_blocks_frequency(const struct hk_node_blocks *blocks);
 double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks);
 
-/* 1 if no eigenvalue of (a K + b C)/m is above `limit` at any particle by these blocks, else 0, and `particle` is the first
- * one at which one is. Far quicker than eigenvalues. */
+/* 1 if no eigenvalue of (a K + b C)/m is above `limit` at any particle by these blocks, else 0, and
+ * `particle` is the first one at which one is. Far quicker than eigenvalues. */
 int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
                                   int64_t *particle);
 

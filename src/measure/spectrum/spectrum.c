@@ -66,8 +66,8 @@ static void add_both(struct hk_spectrum *s, double c, double k, const double *mo
 
 /* ---- proportional damping ---- */
 
-/* C = beta K + delta M: every spring, of altitudes too, is damped in proportion to its stiffness and has none across, nothing bends, and drag
- * meets one mass. */
+/* C = beta K + delta M: every spring, of altitudes too, is damped in proportion to its stiffness and has none
+ * across, nothing bends, and drag meets one mass. */
 static int32_t find_proportion(struct hk_spectrum *s) {
   const struct hk_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
@@ -125,7 +125,8 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
 
 /* ---- any damping ---- */
 
-/* k = u.Ku and c = u.Cu for u.Mu = 1: sums of squares, which keep their digits where a mode is hardly damped. */
+/* k = u.Ku and c = u.Cu for u.Mu = 1: sums of squares, which keep their digits where a mode is hardly
+ * damped. */
 struct refined {
   double k, c;
 };
@@ -280,8 +281,9 @@ static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
   return status;
 }
 
-/* The stiffest mode alone. With C = beta K it limits every method: it has the largest eigenvalues, and of Runge-Kutta the
- * reach along a ray changes less than they do. With drag a softer one may limit, which drag alone brakes. */
+/* The stiffest mode alone. With C = beta K it limits every method: it has the largest eigenvalues, and of
+ * Runge-Kutta the reach along a ray changes less than they do. With drag a softer one may limit, which drag
+ * alone brakes. */
 static int32_t solve_stiffest(struct hk_spectrum *s) {
   const int32_t status = make_room(s, 4, 0);
   if (status == HOOKE_OK) add_both(s, s->beta * s->stiffest + s->delta, s->stiffest, s->stiffest_mode);

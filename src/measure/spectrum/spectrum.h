@@ -1,12 +1,13 @@
-/* Eigenvalues lambda of lambda^2 M + lambda C + K: all of them for small scenes, those of the fastest modes for large ones.
- * Numbers in the units of the linearised system (rate = 1); modes are displacements, x, y and z apart (3n). */
+/* Eigenvalues lambda of lambda^2 M + lambda C + K: all of them for small scenes, those of the fastest modes
+ * for large ones. Numbers in the units of the linearised system (rate = 1); modes are displacements, x, y and
+ * z apart (3n). */
 #ifndef HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
 #define HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
 
 #include "measure/spectrum/linearised.h"
 
-/* All eigenvalues are known where there are at most this many unknowns; or this many where damping is in proportion, C = beta K +
- * delta M (no damping at all included), since then those of K suffice. */
+/* All eigenvalues are known where there are at most this many unknowns; or this many where damping is in
+ * proportion, C = beta K + delta M (no damping at all included), since then those of K suffice. */
 enum { HOOKE_SPECTRUM_DAMPED = 400, HOOKE_SPECTRUM_PROPORTIONAL = 1500 };
 
 struct hk_spectrum {
@@ -24,11 +25,12 @@ struct hk_spectrum {
   double *block;       /* where they are */
 };
 
-/* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay, and what else decides
- * where C = beta K; as many modes as can be had. */
+/* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay,
+ * and what else decides where C = beta K; as many modes as can be had. */
 enum hk_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
 
-/* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+/* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it.
+ * HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 int32_t hk_spectrum_create(struct hk_linearised *linearised, double accuracy, enum hk_spectrum_extent extent,
                            const double *start, struct hk_spectrum *spectrum);
 void hk_spectrum_release(struct hk_spectrum *spectrum);

@@ -35,8 +35,8 @@ static double verlet(const struct hk_node_blocks *blocks) {
   return frequency > 0.0 ? 2.0 / frequency : INFINITY;
 }
 
-/* The half disc of this radius in the left half plane lies within |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1; an eigenvalue is
- * at most omega where it oscillates, and at most c where it does not. */
+/* The half disc of this radius in the left half plane lies within |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1; an
+ * eigenvalue is at most omega where it oscillates, and at most c where it does not. */
 static double rk4(const struct hk_node_blocks *blocks) {
   const double frequency = hk_node_blocks_frequency(blocks), rate = hk_node_blocks_damping_rate(blocks);
   const double fastest = fmax(frequency, rate);

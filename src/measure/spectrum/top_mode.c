@@ -9,7 +9,8 @@
 
 enum { DENSE_UNKNOWNS = 100 };
 
-/* What ARPACK is asked for: the eigenvalue's error goes with the square of the residual where values are apart. */
+/* What ARPACK is asked for: the eigenvalue's error goes with the square of the residual where values are
+ * apart. */
 static const double TIGHTER = 1e-3;
 
 static const double NOISE = 0.1;

@@ -78,9 +78,9 @@ static void combine(const struct lanczos *z, double *x) {
     x[k] /= length;
 }
 
-/* Done when the residual is below the accuracy; or when the second half of the turns raised the value by little. Where values lie
- * densely what is missing falls with the square of the turns, so it is a third of that rise, and seen to be up to four fifths:
- * half of it is added. */
+/* Done when the residual is below the accuracy; or when the second half of the turns raised the value by
+ * little. Where values lie densely what is missing falls with the square of the turns, so it is a third of
+ * that rise, and seen to be up to four fifths: half of it is added. */
 static int32_t judge(struct lanczos *z, double accuracy, double *value, int *done) {
   double half = 0.0;
   int32_t status = largest(z, z->count, value, z->share);

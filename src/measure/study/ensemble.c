@@ -38,14 +38,16 @@ static int32_t add_source(const hooke_study *study, struct hk_ensemble *ensemble
   return HOOKE_OK;
 }
 
-/* 1 if `row` is to be taken rather than `other` of the same method: of those that meet the want the cheaper, else the finer. */
+/* 1 if `row` is to be taken rather than `other` of the same method: of those that meet the want the cheaper,
+ * else the finer. */
 static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
   const int meets = row->trial.error <= want;
   if (other == NULL || meets != (other->trial.error <= want)) return other == NULL || meets;
   return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
 }
 
-/* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN without one. */
+/* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN
+ * without one. */
 static double choose_value(const hooke_study *study, int32_t method) {
   const struct hk_study_recommendation *r = &study->recommendation;
   const double want = hooke_options_number(study->options, "want");

@@ -1,5 +1,5 @@
-/* Ensembles: where a motion cannot be computed to the end, because small differences grow too much, means and spreads over
- * many starts that nobody could tell apart still can. */
+/* Ensembles: where a motion cannot be computed to the end, because small differences grow too much, means and
+ * spreads over many starts that nobody could tell apart still can. */
 #ifndef HOOKE_MEASURE_STUDY_ENSEMBLE_H
 #define HOOKE_MEASURE_STUDY_ENSEMBLE_H
 
@@ -7,7 +7,8 @@
 
 struct hooke_study;
 
-/* One that moves all members: the method of the reference, or a method of the study with one step or tolerance. */
+/* One that moves all members: the method of the reference, or a method of the study with one step or
+ * tolerance. */
 struct hk_ensemble_source {
   int32_t method; /* of the study; -1: the reference */
   double value;   /* step or rtol */
@@ -25,7 +26,8 @@ struct hk_ensemble {
   struct hk_ensemble_source *source; /* the reference first */
 };
 
-/* What a source has of a quantity: of how many members, their mean, the spread (standard deviation) of the members about it. */
+/* What a source has of a quantity: of how many members, their mean, the spread (standard deviation) of the
+ * members about it. */
 struct hk_ensemble_sample {
   int64_t members;
   double mean, spread;
@@ -33,11 +35,12 @@ struct hk_ensemble_sample {
 struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble, int64_t source,
                                              int64_t quantity);
 
-/* The difference of a source's mean from the reference's, in standard errors of that difference; NaN where it is not known. */
+/* The difference of a source's mean from the reference's, in standard errors of that difference; NaN where it
+ * is not known. */
 double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int64_t quantity);
 
-/* Runs the members of a study whose rows are made, of all sources in turn, until they are complete or the deadline is there.
- * Does nothing if no ensemble is asked for, or if the reference is trusted to the end. */
+/* Runs the members of a study whose rows are made, of all sources in turn, until they are complete or the
+ * deadline is there. Does nothing if no ensemble is asked for, or if the reference is trusted to the end. */
 int32_t hk_ensemble_run(struct hooke_study *study);
 void hk_ensemble_release(struct hk_ensemble *ensemble);
 

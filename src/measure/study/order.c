@@ -15,7 +15,8 @@ static const double CLEAR_OF_FLOOR = 10.0;      /* times the agreement of the re
 static const double SMALL = 0.05;               /* errors above this share of the extent are not asymptotic */
 static const double BELOW = 0.15, ABOVE = 0.25; /* how far an order may be from the theory without a word */
 
-/* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from coarse to fine. */
+/* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from
+ * coarse to fine. */
 static int32_t collect(const hooke_study *study, int32_t method, double *x, double *y) {
   const struct hk_reference *r = &study->reference;
   int32_t count = 0;
@@ -101,12 +102,12 @@ static void explain(const hooke_study *study, int32_t method, struct hooke_study
   hk_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
 }
 
-/* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975), and t with
- * u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
+/* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975),
+ * and t with u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
 static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.30265272974946, 3.18244630528371};
 
-/* y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, as if the points scattered
- * about a line independently and alike: it knows nothing of a curve. */
+/* y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, as if the
+ * points scattered about a line independently and alike: it knows nothing of a curve. */
 static void fit_line(int32_t count, const double *x, const double *y, double *slope, double *half) {
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
   for (int32_t k = 0; k < count; k++) {

@@ -1,5 +1,5 @@
-/* The recommendation: the cheapest step or tolerance whose error is at most what is wanted. Predicted on the measured
- * curves, then searched for by runs, so that what is recommended has been seen to hold. */
+/* The recommendation: the cheapest step or tolerance whose error is at most what is wanted. Predicted on the
+ * measured curves, then searched for by runs, so that what is recommended has been seen to hold. */
 #include "measure/study/study_search.h"
 
 #include "core/clock.h"
@@ -108,7 +108,8 @@ static int32_t run_again(hooke_study *study, struct hk_study_candidate *c, doubl
   return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
-/* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once more. */
+/* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once
+ * more. */
 static int32_t race(hooke_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
   double seconds[HOOKE_STUDY_METHODS], most;
   const int32_t methods = study->method_count;
@@ -150,8 +151,8 @@ static int made_reference(const hooke_study *study, const struct hk_study_candid
   return strcmp(method, study->reference.method) == 0 || strcmp(method, study->reference.check) == 0;
 }
 
-/* What is as fine as the reference meets the want, since the reference does; then back from there. Its own methods
- * first. */
+/* What is as fine as the reference meets the want, since the reference does; then back from there. Its own
+ * methods first. */
 static int32_t search_from_reference(hooke_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int own = 1; own >= 0; own--) {

@@ -15,7 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so many seconds. */
+/* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so
+ * many seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
 static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
 /* And an ensemble, where one is needed, this one. */

@@ -91,8 +91,8 @@ int32_t hk_study_check_ladder(hooke_study *study);
 
 /* ---- progress (study_progress.c) ---- */
 
-/* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the study. The
- * last one stops a row at its deadline, too, and marks the study as late. */
+/* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the
+ * study. The last one stops a row at its deadline, too, and marks the study as late. */
 int32_t hk_study_tell_reference(double share, void *ctx);
 int32_t hk_study_tell(double share, void *ctx);
 int32_t hk_study_tell_row(double share, void *ctx);
@@ -103,8 +103,8 @@ double hk_study_guess(const hooke_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
 
-/* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The row's trial
- * must be released. Only the first may be called from several threads at a time. */
+/* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The
+ * row's trial must be released. Only the first may be called from several threads at a time. */
 int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
                          const struct hk_listener *listener, struct hk_study_row *row);
 int32_t hk_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out);

@@ -31,8 +31,8 @@ static double bound_of(const hooke_study *study, const char *method, const doubl
   return bound;
 }
 
-/* A step that is stable for certain; where a method has none, or a very small one for which the bound is to blame, a part
- * of the one that symplectic Euler would take. */
+/* A step that is stable for certain; where a method has none, or a very small one for which the bound is to
+ * blame, a part of the one that symplectic Euler would take. */
 static double safe_step(const hooke_study *study, const char *method, const double *q) {
   double bound = bound_of(study, method, q);
   const double other = bound_of(study, "symplectic-euler", q);

@@ -1,5 +1,5 @@
-/* What a recommendation has to spare: its share of the stable limit, and whether it meets the want where stiffness or the
- * start is a little different, each judged against a reference of its own. */
+/* What a recommendation has to spare: its share of the stable limit, and whether it meets the want where
+ * stiffness or the start is a little different, each judged against a reference of its own. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Stiffness is multiplied by 1 + or - this; all free particles start with this share of the largest speed that the
- * reference has, root mean square between two frames, added along (1, 1, 1) and against it. */
+/* Stiffness is multiplied by 1 + or - this; all free particles start with this share of the largest speed
+ * that the reference has, root mean square between two frames, added along (1, 1, 1) and against it. */
 static const double CHANGE = 0.1;
 static const double SHARE = 0.5;     /* of the time that the study took so far */
 static const double SECONDS = 1.0;   /* and in any case so many */
@@ -56,8 +56,8 @@ static double judge(const hooke_study *study, const struct hk_reference *r, cons
   return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
 }
 
-/* The run that is recommended, on a system that is a little different; nothing is known where time was too short for it or
- * its reference. */
+/* The run that is recommended, on a system that is a little different; nothing is known where time was too
+ * short for it or its reference. */
 static int32_t try_change(hooke_study *study, const hooke_system *changed, double seconds, double *holds,
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;

@@ -41,7 +41,8 @@ const char *hooke_study_reference(const hooke_study *study, const char *what) {
   return hk_study_watched_text(study, what);
 }
 
-/* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before it. */
+/* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before
+ * it. */
 static double time_until(const hooke_study *study, int64_t count) {
   const struct hk_frames *frames = &study->reference.frames;
   if (count <= 0) return NAN;

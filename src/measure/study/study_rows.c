@@ -13,12 +13,13 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference, but at most
- * this share of what is left. */
+/* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference,
+ * but at most this share of what is left. */
 static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
 static const double REPEATS = 4.0, REPEAT_SECONDS = 0.3; /* short rows are repeated, for their time */
 
-/* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their turn. */
+/* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their
+ * turn. */
 static const double UNKNOWN_SHARE = 0.1;
 
 /* Seconds that the next row of a method is going to take: the last one's that came to its end, scaled by
@@ -94,8 +95,8 @@ static void *work(void *ctx) {
   return NULL;
 }
 
-/* Side by side first, for the errors; then short rows once more, alone, for their times. The caller's thread works too, or
- * listens: progress is told from it alone. */
+/* Side by side first, for the errors; then short rows once more, alone, for their times. The caller's thread
+ * works too, or listens: progress is told from it alone. */
 static int32_t run_side_by_side(struct level *level, int32_t threads) {
   pthread_t thread[HOOKE_STUDY_METHODS];
   int32_t started = 0;
@@ -173,8 +174,8 @@ static int compare_jobs(const void *a, const void *b) {
   return (x->expected > y->expected) - (x->expected < y->expected);
 }
 
-/* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none of the others
- * from being run. */
+/* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none
+ * of the others from being run. */
 static void plan_level(hooke_study *study, int32_t number, struct level *level) {
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {

@@ -26,7 +26,8 @@ static int is_adaptive(const hooke_study *study, const struct hk_study_candidate
   return hk_study_is_adaptive(study, c->method);
 }
 
-/* Evaluations of forces and products with their derivatives: what the time goes with, but the same in every run. */
+/* Evaluations of forces and products with their derivatives: what the time goes with, but the same in every
+ * run. */
 static double work_of(const struct hk_trial *trial) {
   return trial->force_evaluations + fmax(0.0, trial->linear_iterations);
 }
@@ -37,7 +38,8 @@ double hk_study_candidate_cost(const struct hk_study_candidate *c) {
 
 /* ---- what the ladder says ---- */
 
-/* Where the straight line between two points in logarithms has the error that is allowed, with a little to spare. */
+/* Where the straight line between two points in logarithms has the error that is allowed, with a little to
+ * spare. */
 static double interpolate(const struct hk_study_candidate *c) {
   const double goal = log(GOAL * c->most), high = log(c->error_at_fails), low = log(c->error_at_meets);
   if (!(c->error_at_fails > c->error_at_meets) || !(c->error_at_meets > 0.0))
@@ -46,7 +48,8 @@ static double interpolate(const struct hk_study_candidate *c) {
   return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
 }
 
-/* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference takes as long. */
+/* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference
+ * takes as long. */
 static double predict_beyond(const hooke_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
@@ -128,8 +131,8 @@ static int32_t try_value(hooke_study *study, struct hk_study_candidate *c, doubl
   return status;
 }
 
-/* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that takes as many
- * evaluations of forces. */
+/* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that
+ * takes as many evaluations of forces. */
 static double as_fine_as_reference(const hooke_study *study, int32_t method) {
   const struct hk_reference *r = &study->reference;
   if (!hk_study_is_adaptive(study, method))
@@ -138,14 +141,16 @@ static double as_fine_as_reference(const hooke_study *study, int32_t method) {
   return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
 }
 
-/* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is spent. */
+/* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is
+ * spent. */
 static double least_value(const hooke_study *study, const struct hk_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
   if (is_adaptive(study, c)) return least;
   return isinf(study->budget) ? fmin(least, farthest) : 0.0;
 }
 
-/* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest row on. */
+/* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest
+ * row on. */
 static double by_slope(const struct hk_study_candidate *c, double slope) {
   return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
 }
@@ -162,8 +167,8 @@ static double by_theory(const hooke_study *study, const struct hk_study_candidat
   return by_slope(c, isnan(theory) ? 1.0 : theory);
 }
 
-/* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not diverge. NaN
- * when that has led far enough. */
+/* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not
+ * diverge. NaN when that has led far enough. */
 static double finer(const hooke_study *study, const struct hk_study_candidate *c) {
   if (c->most <= 0.0) return NAN;
   const double least = least_value(study, c);
@@ -207,7 +212,8 @@ static double next_value(const hooke_study *study, const struct hk_study_candida
   return isnan(value) || is_adaptive(study, c) ? value : fit_between(study, c, value);
 }
 
-/* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse to fine. */
+/* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse
+ * to fine. */
 static double least_cost(const hooke_study *study, const struct hk_study_candidate *c) {
   const double seconds = hk_study_candidate_cost(c);
   if (isnan(c->meets)) return isnan(c->error_at_fails) ? 0.0 : seconds;
@@ -221,8 +227,8 @@ static double next_cost(const hooke_study *study, const struct hk_study_candidat
   return hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
-/* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical order; nor, where no
- * run has come to its end, if any other method has done better. */
+/* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical
+ * order; nor, where no run has come to its end, if any other method has done better. */
 static int is_hopeless(const hooke_study *study, const struct hk_study_candidate *c, double cost) {
   if (!isnan(c->meets) || isinf(cost)) return 0;
   return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;

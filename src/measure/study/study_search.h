@@ -26,7 +26,8 @@ void hk_study_candidate_create(const hooke_study *study, int32_t method, double 
                                struct hk_study_candidate *candidate);
 void hk_study_candidate_release(struct hk_study_candidate *candidate);
 
-/* Narrows it down by runs, until the deadline or until it cannot come below `cost` any more [wall seconds]. */
+/* Narrows it down by runs, until the deadline or until it cannot come below `cost` any more [wall
+ * seconds]. */
 int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate *candidate, double cost);
 
 /* Runs what is as fine as the reference, if no run of it as fine has been. */

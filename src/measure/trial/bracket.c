@@ -19,8 +19,9 @@ static int32_t see(struct hk_bracket *b, double step) {
   return HOOKE_OK;
 }
 
-/* The next step outwards: about 1, 4, 16, ... times the accuracy from the guess, then by factors of 2, 4, 16, 16, ... Not
- * alike on both sides, since halving would then end at a good guess itself, where nothing can be seen to grow or decay. */
+/* The next step outwards: about 1, 4, 16, ... times the accuracy from the guess, then by factors of 2, 4, 16,
+ * 16, ... Not alike on both sides, since halving would then end at a good guess itself, where nothing can be
+ * seen to grow or decay. */
 struct reach {
   double share, factor;
 };

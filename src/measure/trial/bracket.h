@@ -1,5 +1,5 @@
-/* The search for the step at which something begins to fail: a bracket about a guess, widened until both sides are known,
- * then halved. */
+/* The search for the step at which something begins to fail: a bracket about a guess, widened until both
+ * sides are known, then halved. */
 #ifndef HOOKE_MEASURE_TRIAL_BRACKET_H
 #define HOOKE_MEASURE_TRIAL_BRACKET_H
 
@@ -22,8 +22,8 @@ struct hk_bracket {
   int32_t unknown; /* a trial had no answer: the bracket is as far as it got */
 };
 
-/* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond `least` or `most`,
- * or a trial has no answer. */
+/* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond
+ * `least` or `most`, or a trial has no answer. */
 int32_t hk_bracket_search(struct hk_bracket *bracket, double guess);
 
 #endif

@@ -1,4 +1,5 @@
-/* The frames of a run, kept to judge other runs by: memory is bounded by the number of frames, not of steps. */
+/* The frames of a run, kept to judge other runs by: memory is bounded by the number of frames, not of
+ * steps. */
 #ifndef HOOKE_MEASURE_TRIAL_FRAMES_H
 #define HOOKE_MEASURE_TRIAL_FRAMES_H
 
@@ -23,7 +24,8 @@ void hk_frames_release(struct hk_frames *frames);
 /* Keeps the next frame; those beyond `count` are left out. */
 void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 
-/* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance too. */
+/* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
+ * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
 
 #endif

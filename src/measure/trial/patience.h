@@ -17,15 +17,16 @@ struct hk_patience {
 /* `seconds` from now on; infinity for no end. */
 struct hk_patience hk_patience_of(double seconds, hooke_progress *progress, void *ctx);
 
-/* Tells the caller of `what`; 1 if there is to be an end, as it is at every call after the first that says so. Without patience
- * (NULL) there is none. */
+/* Tells the caller of `what`; 1 if there is to be an end, as it is at every call after the first that says
+ * so. Without patience (NULL) there is none. */
 int32_t hk_patience_ends(struct hk_patience *patience, const char *what);
 
-/* 1 if there are that many seconds left; if not, it is as spent as when they were over. For what cannot be ended on the way. */
+/* 1 if there are that many seconds left; if not, it is as spent as when they were over. For what cannot be
+ * ended on the way. */
 int32_t hk_patience_has(struct hk_patience *patience, double seconds);
 
-/* Lets the part that begins have no more than that share of what is left, and takes that back when the part is over: 1 if it was
- * spent. */
+/* Lets the part that begins have no more than that share of what is left, and takes that back when the part
+ * is over: 1 if it was spent. */
 void hk_patience_lend(struct hk_patience *patience, double share);
 int32_t hk_patience_take_back(struct hk_patience *patience);
 

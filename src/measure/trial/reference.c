@@ -8,9 +8,9 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Tolerances of the check, level by level. The run that is kept is ten times tighter, so that their distance is mostly
- * the error of the check, and a bound on that of the reference; at the tightest, where rounding takes over, both have the
- * same. Without a budget the first is tight at once. */
+/* Tolerances of the check, level by level. The run that is kept is ten times tighter, so that their distance
+ * is mostly the error of the check, and a bound on that of the reference; at the tightest, where rounding
+ * takes over, both have the same. Without a budget the first is tight at once. */
 static const double LOOSEST = 1e-4, QUICK = 1e-7, TIGHT = 1e-9, TIGHTEST = 1e-14;
 static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a share of the extent */
 static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* from one level to the next */
@@ -23,8 +23,8 @@ static const double DIGITS = 1e-6; /* trusted digits where nothing else is wante
 static const double SAFETY =
     2.0; /* the two may be off in the same direction, and then by more than they part */
 static const double CHECK_COST = 2.0; /* of the check against the first method, before it is known */
-/* Of the budget: where the first run ends, so that there is time to check it; where the last check does; and where there
- * is no further level once all frames are trusted. */
+/* Of the budget: where the first run ends, so that there is time to check it; where the last check does; and
+ * where there is no further level once all frames are trusted. */
 static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
@@ -79,7 +79,8 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
 
 /* ---- levels ---- */
 
-/* What is still to come beside this level, for progress: the levels that are usual, and the runs for the growth. */
+/* What is still to come beside this level, for progress: the levels that are usual, and the runs for the
+ * growth. */
 static double ahead_of_level(const struct hk_reference_watch *watch) {
   const double growth = watch->request->enough ? 0.0 : 1.0;
   return growth + fmax(0.0, EXPECTED_LEVELS - watch->levels) * (1.0 + CHECK_COST);
@@ -160,8 +161,8 @@ static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *
   return HOOKE_OK;
 }
 
-/* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the share of
- * the budget for levels ends. */
+/* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the
+ * share of the budget for levels ends. */
 static int has_time(const struct hk_reference_watch *watch, const struct hk_reference *r, double times,
                     double seconds) {
   const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;

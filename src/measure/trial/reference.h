@@ -1,5 +1,5 @@
-/* A reference that checks itself: two integrators that share only the force, at tightening tolerances, until they agree.
- * Where they part for good (chaos), the time until which they agree is what can be judged. */
+/* A reference that checks itself: two integrators that share only the force, at tightening tolerances, until
+ * they agree. Where they part for good (chaos), the time until which they agree is what can be judged. */
 #ifndef HOOKE_MEASURE_TRIAL_REFERENCE_H
 #define HOOKE_MEASURE_TRIAL_REFERENCE_H
 
@@ -17,7 +17,8 @@ struct hk_reference {
   int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
   int64_t trusted;         /* of those, frames that agree to the digits, from the first on */
   int32_t coarse; /* 1: no frame agrees to the wanted digits; those trusted do to 1e-6 of the extent */
-  /* 1: time was short to compare them further, or at tighter tolerances. 0: they agree, or rounding keeps them apart */
+  /* 1: time was short to compare them further, or at tighter tolerances. 0: they agree, or rounding keeps
+   * them apart */
   int32_t hurried;
   double growth;             /* of small displacements of the start, at most (reference_growth.c) */
   double growth_probability; /* that it is; both NaN where nothing is known */
@@ -32,8 +33,8 @@ struct hk_reference_request {
   const hooke_options *run; /* duration, every */
   int64_t frame_count;
   double digits; /* that a trusted frame is known to [m]; if NaN, 1e-6 of the extent */
-  /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth. 0: on to 1e-9 of the extent, while
-   * there is time */
+  /* 1: no tighter than it takes to trust all frames, beginning loosely, and no growth. 0: on to 1e-9 of the
+   * extent, while there is time */
   int32_t enough;
   double budget; /* [s], infinity for none */
   const struct hk_watched_list
@@ -41,9 +42,9 @@ struct hk_reference_request {
   const struct hk_listener *listener; /* told of progress with the share of the whole reference */
 };
 
-/* Within the budget: a run that it ends is compared as far as it got, and counts if that is further than before.
- * HOOKE_NOT_BUILT without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame after the start; HOOKE_STOPPED;
- * HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
+/* Within the budget: a run that it ends is compared as far as it got, and counts if that is further than
+ * before. HOOKE_NOT_BUILT without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame after the
+ * start; HOOKE_STOPPED; HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
                             struct hk_reference *reference);
 void hk_reference_release(struct hk_reference *reference);
@@ -52,8 +53,9 @@ void hk_reference_release(struct hk_reference *reference);
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
                              hooke_options **out);
 
-/* The method that makes references cheapest on this system at positions q: Adams, or BDF where damping is faster than the
- * fastest oscillation, so that fast motion dies out and an implicit method strides over it. */
+/* The method that makes references cheapest on this system at positions q: Adams, or BDF where damping is
+ * faster than the fastest oscillation, so that fast motion dies out and an implicit method strides over
+ * it. */
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method);
 
 #endif

@@ -1,8 +1,8 @@
-/* How much small displacements of the start grow: the largest singular value of the map from positions and velocities at
- * the start, velocities times the duration, to positions at any frame. A small scene is displaced in every coordinate, and
- * the singular values are those of the differences. Else random displacements bound them (Halko, Martinsson and Tropp 2011,
- * lemma 4.1): of k of them, whose components are normal, 10 sqrt(2/pi) times the largest displacement seen is above with
- * probability 1 - 10^-k. */
+/* How much small displacements of the start grow: the largest singular value of the map from positions and
+ * velocities at the start, velocities times the duration, to positions at any frame. A small scene is
+ * displaced in every coordinate, and the singular values are those of the differences. Else random
+ * displacements bound them (Halko, Martinsson and Tropp 2011, lemma 4.1): of k of them, whose components are
+ * normal, 10 sqrt(2/pi) times the largest displacement seen is above with probability 1 - 10^-k. */
 #include "measure/trial/reference_run.h"
 
 #include "core/clock.h"
@@ -69,7 +69,8 @@ static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state,
   return 0;
 }
 
-/* One run; `seen` is the largest displacement over the frames, in units of `length`, or NaN if time was too short. */
+/* One run; `seen` is the largest displacement over the frames, in units of `length`, or NaN if time was too
+ * short. */
 static int32_t run_displaced(struct hk_reference_watch *watch, struct hk_reference *r, struct displacement *d,
                              double deadline, struct hk_trial *trial, double *seen) {
   const struct hk_reference *base = d->base;

@@ -107,7 +107,8 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
 
 /* ---- which integrators ---- */
 
-/* A trial over a share of the duration, at most so many seconds and steps; infinite where it does not come to its end. */
+/* A trial over a share of the duration, at most so many seconds and steps; infinite where it does not come to
+ * its end. */
 static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_reference *r,
                              const char *method, double rtol, double longest, double most_steps,
                              double duration, struct hk_reference_cost *cost) {
@@ -145,8 +146,9 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
   return status;
 }
 
-/* What rk8pd needs for a short trial, over what the first method needs for the same share of its run: in time, since one
- * spends it on forces and the other on vectors and solves; trials too short to time count by evaluations. */
+/* What rk8pd needs for a short trial, over what the first method needs for the same share of its run: in
+ * time, since one spends it on forces and the other on vectors and solves; trials too short to time count by
+ * evaluations. */
 static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
                              struct hk_reference_cost first, double *ratio) {
   struct hk_reference_cost trial;

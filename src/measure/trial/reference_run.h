@@ -37,8 +37,8 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
                            const char *method, double rtol, const struct hk_listener *listener,
                            struct hk_trial *trial);
 
-/* Of the first integrators, Adams instead of BDF where a trial of the beginning says that it is quicker: damping that is
- * fast need not be stiff for it. */
+/* Of the first integrators, Adams instead of BDF where a trial of the beginning says that it is quicker:
+ * damping that is fast need not be stiff for it. */
 int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *reference,
                                   double rtol);
 

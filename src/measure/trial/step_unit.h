@@ -4,12 +4,12 @@
 
 #include "hooke/options.h"
 
-/* The largest step [s] of which `duration` and `every` are whole multiples: it and its whole parts are the steps that both
- * allow. HOOKE_BAD_VALUE for times that have none that is not very small. */
+/* The largest step [s] of which `duration` and `every` are whole multiples: it and its whole parts are the
+ * steps that both allow. HOOKE_BAD_VALUE for times that have none that is not very small. */
 int32_t hk_step_unit(double duration, double every, double *unit);
 
-/* Duration and time between frames [s] of a run; without one it is set to a hundredth of the duration. HOOKE_BAD_VALUE
- * without a duration. */
+/* Duration and time between frames [s] of a run; without one it is set to a hundredth of the duration.
+ * HOOKE_BAD_VALUE without a duration. */
 int32_t hk_step_times(hooke_options *run, double *duration, double *every);
 
 /* 1 if a quotient is a whole number from 1 on, to 1e-9 relative. */

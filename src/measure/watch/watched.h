@@ -6,8 +6,8 @@
  *     energy  kinetic  potential                 of everything that is free [J]
  *     period:57.y                                the mean time between passages upwards of any of these [s]
  *
- * Indices begin at 0. Several are separated by commas. watched.c reads all of it, and what `needs` watches: a part, a
- * group, or particle numbers such as 0,7-9. */
+ * Indices begin at 0. Several are separated by commas. watched.c reads all of it, and what `needs` watches: a
+ * part, a group, or particle numbers such as 0,7-9. */
 #ifndef HOOKE_MEASURE_WATCH_WATCHED_H
 #define HOOKE_MEASURE_WATCH_WATCHED_H
 
@@ -38,8 +38,9 @@ struct hk_watched_list {
   struct hk_watched *item;
 };
 
-/* Adds what `text` says to a list, which starts as zeros with the committed system; what is there already is not added
- * again. HOOKE_BAD_VALUE, said of the option `place`; HOOKE_NO_MEMORY. In either case the list keeps what it has. */
+/* Adds what `text` says to a list, which starts as zeros with the committed system; what is there already is
+ * not added again. HOOKE_BAD_VALUE, said of the option `place`; HOOKE_NO_MEMORY. In either case the list
+ * keeps what it has. */
 int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text);
 void hk_watched_release(struct hk_watched_list *list);
 /* Number of the quantity of that text, -1 if it is not there. */
@@ -52,14 +53,16 @@ int32_t hk_watched_mark_particles(const hooke_system *system, const char *place,
 /* "m", "N", "J", "s", "" */
 const char *hk_watched_unit(const struct hk_watched *watched);
 
-/* The value at positions q and velocities v (rows); of a period the value of what it is of. Tension is the force along the
- * spring, of damping, too: positive where it pulls its ends together, 0 where a spring that only pulls is slack. */
+/* The value at positions q and velocities v (rows); of a period the value of what it is of. Tension is the
+ * force along the spring, of damping, too: positive where it pulls its ends together, 0 where a spring that
+ * only pulls is slack. */
 double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
                         const double *v);
 
-/* Mean time between passages upwards through the mean of a series, each found by cubic interpolation. A passage counts
- * where the series was below the mean by a tenth of its largest deviation since the last one. NaN where there are fewer
- * than two, or fewer than four frames from one to the next, or a number that is not finite. */
+/* Mean time between passages upwards through the mean of a series, each found by cubic interpolation. A
+ * passage counts where the series was below the mean by a tenth of its largest deviation since the last one.
+ * NaN where there are fewer than two, or fewer than four frames from one to the next, or a number that is not
+ * finite. */
 double hk_watched_period(int64_t count, const double *time, const double *value);
 
 #endif

@@ -25,9 +25,9 @@ static inline double *hk_watched_series_of(const struct hk_watched_series *serie
 void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, const double *q,
                             const double *v);
 
-/* Sets the figures to `factor` times the largest difference over the first `frames` frames at `time`, in a period the
- * difference of the periods over those; NaN where that is not known. Does
- * nothing where the other is of nothing. */
+/* Sets the figures to `factor` times the largest difference over the first `frames` frames at `time`, in a
+ * period the difference of the periods over those; NaN where that is not known. Does nothing where the other
+ * is of nothing. */
 void hk_watched_series_compare(struct hk_watched_series *series, const struct hk_watched_series *other,
                                int64_t frames, const double *time, double factor);
 

@@ -9,7 +9,8 @@
 
 /* ---- products ---- */
 
-/* A spring of a batch; one of no length is stiff in all directions, one that is compressed is not stiff across. */
+/* A spring of a batch; one of no length is stiff in all directions, one that is compressed is not stiff
+ * across. */
 static void add_spring(const struct hk_spring_batch *batch, int64_t k, const double *q, double a, double b,
                        const double *x, double *out) {
   const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];

@@ -1,4 +1,5 @@
-/* Watching the step of a run against the safe bound, at a price that stays below a hundredth of the stepping. */
+/* Watching the step of a run against the safe bound, at a price that stays below a hundredth of the
+ * stepping. */
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/print.h"

@@ -60,7 +60,8 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
              1e-6 * inquiry->room, inquiry->no_room);
 }
 
-/* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was built. */
+/* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was
+ * built. */
 static double usual_room(const hooke_integrator *run) {
   const hooke_system *system = run->system;
   const double built = hk_system_needed_bytes(system, (struct hk_more){0});

@@ -1,5 +1,5 @@
-/* A diagnosis, and the inquiry that makes it: the last steps again, under observation; then the cause; then advice that has
- * been tried. */
+/* A diagnosis, and the inquiry that makes it: the last steps again, under observation; then the cause; then
+ * advice that has been tried. */
 #ifndef HOOKE_MEASURE_WHY_WHY_H
 #define HOOKE_MEASURE_WHY_WHY_H
 
@@ -86,8 +86,8 @@ struct hk_inquiry {
 /* Numbers up to this size (in SI units) are taken to be meant. */
 #define HOOKE_SENSIBLE 1e60
 
-/* Takes the last steps of the run again, or all of them where that is cheap, and notes what there is to see. The statuses
- * of hooke_integrator_create(); HOOKE_STOPPED if a callback asked for it. */
+/* Takes the last steps of the run again, or all of them where that is cheap, and notes what there is to see.
+ * The statuses of hooke_integrator_create(); HOOKE_STOPPED if a callback asked for it. */
 int32_t hk_inquiry_replay(struct hk_inquiry *inquiry);
 
 /* Looks whether the step is above the limit at positions q of the time t, if it was not before. */
@@ -126,8 +126,8 @@ int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
 /* Sets what is set in `changes`. */
 int32_t hk_why_apply(const hooke_options *changes, hooke_options *run);
 
-/* The largest handy step (1, 2 or 5 times a power of ten, else a whole part) up to `limit` of which `every` (NaN: free) and
- * `duration` are whole multiples; `step` (NaN: none) is one that is. */
+/* The largest handy step (1, 2 or 5 times a power of ten, else a whole part) up to `limit` of which `every`
+ * (NaN: free) and `duration` are whole multiples; `step` (NaN: none) is one that is. */
 double hk_handy_step(double step, double limit, double every, double duration);
 
 #endif

@@ -56,7 +56,8 @@ static int32_t stable_step(struct hk_plan *plan, const char *method, double *lim
   return status;
 }
 
-/* A run of the same method or another, of steps up to `limit`; a shorter one where the whole would take days. */
+/* A run of the same method or another, of steps up to `limit`; a shorter one where the whole would take
+ * days. */
 static int32_t offer_step(struct hk_plan *plan, const char *method, double limit, const char *why_so,
                           int32_t *taken) {
   const int other = strcmp(method, plan->inquiry->run->method->name) != 0;

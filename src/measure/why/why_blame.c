@@ -1,4 +1,5 @@
-/* What an excess hangs on: springs, or drag, damping and other forces; and what it would buy to change them. */
+/* What an excess hangs on: springs, or drag, damping and other forces; and what it would buy to change
+ * them. */
 #include "measure/why/why.h"
 
 #include "core/status.h"

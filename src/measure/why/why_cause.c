@@ -204,7 +204,8 @@ static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const cha
 /* Lengths and speeds above this have no square: it is beyond all numbers. */
 static const double HAS_SQUARE = 1e154;
 
-/* The particle of a state with the largest number of those that have no square, and that number; -1 if all have. */
+/* The particle of a state with the largest number of those that have no square, and that number; -1 if all
+ * have. */
 static int64_t largest_unsquared(const hooke_system *system, const double *x, double *most) {
   int64_t found = -1;
   *most = HAS_SQUARE;
@@ -246,7 +247,8 @@ static int32_t judge_start(struct hk_inquiry *inquiry) {
 
 /* ---- solvers ---- */
 
-/* The spring nearest to no length: its length over its rest length, at the last state and at the end of the next step. */
+/* The spring nearest to no length: its length over its rest length, at the last state and at the end of the
+ * next step. */
 static int64_t shortest_spring(const struct hk_inquiry *inquiry, double *ratio) {
   const hooke_state *state = hk_inquiry_last(inquiry);
   const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
@@ -316,8 +318,8 @@ static const char *altitude_words(const struct hk_inquiry *inquiry) {
                                                  "to be the shortest";
 }
 
-/* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in proportion, as a
- * callback's may, end in a leap, too. */
+/* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in
+ * proportion, as a callback's may, end in a leap, too. */
 static int grew_before(const struct hk_inquiry *inquiry) {
   const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
   return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;

@@ -1,5 +1,5 @@
-/* Whether the step was above the limit, the cheapest way first: by the bound, which is one pass over the springs; then by the spectrum,
- * or, where that is out of reach, by the motion that grows. */
+/* Whether the step was above the limit, the cheapest way first: by the bound, which is one pass over the
+ * springs; then by the spectrum, or, where that is out of reach, by the motion that grows. */
 #include "measure/why/why.h"
 
 #include "core/status.h"
@@ -112,7 +112,8 @@ static int32_t survey_small(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   return status;
 }
 
-/* The newest first, which has most of what grows; what grew there is then asked whether it grew at the start. */
+/* The newest first, which has most of what grows; what grew there is then asked whether it grew at the
+ * start. */
 static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   const hooke_integrator *run = inquiry->run;
   const hooke_state *newest = hk_recent_state(&run->recent, 0, NULL), *first = run->recent.first;

@@ -1,5 +1,6 @@
-/* A model that gains energy by itself, told from a step that is too large: where another altitude of a tetrahedron comes to be the
- * shortest its energy jumps, by as much at any step. So the run is tried at smaller and smaller ones, and then with damping. */
+/* A model that gains energy by itself, told from a step that is too large: where another altitude of a
+ * tetrahedron comes to be the shortest its energy jumps, by as much at any step. So the run is tried at
+ * smaller and smaller ones, and then with damping. */
 #include "measure/why/why_trial.h"
 
 #include "core/memory.h"
@@ -66,7 +67,8 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
 
 /* ---- with damping ---- */
 
-/* The run with the change, of the same system but for the damping of its altitude springs, `times` their stiffness. */
+/* The run with the change, of the same system but for the damping of its altitude springs, `times` their
+ * stiffness. */
 static int32_t try_damped(struct hk_plan *plan, double times, const struct hk_change *change,
                           struct hk_trial *trial) {
   hooke_system damped = *plan->inquiry->system;

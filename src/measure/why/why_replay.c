@@ -126,7 +126,8 @@ static double largest_of(const hooke_state *state) {
   return most;
 }
 
-/* The fastest particle of the step that went wrong, which is still in the integrator, and how large its numbers are. */
+/* The fastest particle of the step that went wrong, which is still in the integrator, and how large its
+ * numbers are. */
 static void look_at_damage(struct hk_inquiry *inquiry, const hooke_integrator *again) {
   const struct hk_motion *motion = again->motion;
   double most = -1.0, size = 0.0;
@@ -185,7 +186,8 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
     note_size(replay, state);
     if (springs * (double)k <= MOST_TURNS) watch_turns(inquiry, replay->before, state);
   }
-  /* what is kept on divergence is the last good one again, and the last chance to see the step above the limit */
+  /* what is kept on divergence is the last good one again, and the last chance to see the step above the
+   * limit */
   if (status == HOOKE_DIVERGED) {
     inquiry->excess.tries = 0;
     inquiry->excess.pause = 0;

@@ -18,8 +18,8 @@ static double work_of_run(const hooke_integrator *run, double size) {
   return size * (double)(run->count.force_evaluations + run->count.derivative_products);
 }
 
-/* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from there to the
- * trouble, the earliest of the last good states. */
+/* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from
+ * there to the trouble, the earliest of the last good states. */
 static int32_t find_first(struct hk_plan *plan) {
   const hooke_integrator *run = plan->inquiry->run;
   const hooke_state *oldest = hk_recent_state(&run->recent, run->recent.count - 1, NULL);

@@ -41,7 +41,8 @@ struct hk_trial {
   char proof[96];
 };
 
-/* Runs `system`, the plan's or one like it, with the change as far as the work allows, if there is time and room. */
+/* Runs `system`, the plan's or one like it, with the change as far as the work allows, if there is time and
+ * room. */
 int32_t hk_plan_try(struct hk_plan *plan, const hooke_system *system, const struct hk_change *change,
                     struct hk_trial *trial);
 
@@ -53,7 +54,8 @@ int32_t hk_plan_offer(struct hk_plan *plan, struct hk_change *change, int32_t *t
 /* Gives it without a trial. */
 void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *proof);
 
-/* Runs with the change as far as the work allows; `steps` is how many it took, -1 if it did not come to its end. */
+/* Runs with the change as far as the work allows; `steps` is how many it took, -1 if it did not come to its
+ * end. */
 int32_t hk_plan_count_steps(struct hk_plan *plan, const struct hk_change *change, int64_t *steps);
 
 #endif

@@ -1,4 +1,5 @@
-/* Altitude springs: groups of tetrahedra while a system is built, and all of them in one array from commit on. */
+/* Altitude springs: groups of tetrahedra while a system is built, and all of them in one array from commit
+ * on. */
 #ifndef HOOKE_MODEL_FORCE_ALTITUDE_H
 #define HOOKE_MODEL_FORCE_ALTITUDE_H
 
@@ -40,7 +41,8 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const s
                                const double *q, const double *v, const double *dq, const double *dv,
                                struct hk_tautness_change *change);
 
-/* What altitude springs add to a matrix in the directions they act in: size (g g^T) (u u^T). Zeros where none acts. */
+/* What altitude springs add to a matrix in the directions they act in: size (g g^T) (u u^T). Zeros where none
+ * acts. */
 struct hk_altitude_tangent {
   int32_t particle[4];
   double size, u[3], weight[4];
@@ -58,8 +60,9 @@ void hk_altitude_tangent_add(int64_t count, const struct hk_altitude_tangent *ta
 void hk_altitude_tangent_diagonal(int64_t count, const struct hk_altitude_tangent *tangent,
                                   double *const block[6]);
 
-/* A tetrahedron at q as small displacements from rest see it: stiffness and damping along its altitude, those that only pull
- * being taut, and what tension does to the stiffness left out. The tangent has size 0. 0 if no altitude acts. */
+/* A tetrahedron at q as small displacements from rest see it: stiffness and damping along its altitude, those
+ * that only pull being taut, and what tension does to the stiffness left out. The tangent has size 0. 0 if no
+ * altitude acts. */
 struct hk_altitude_view {
   struct hk_altitude_tangent tangent;
   int32_t choice;
@@ -75,17 +78,17 @@ int32_t hk_tetrahedron_moves(const struct hooke_system *system, const struct hk_
 double hk_tetrahedron_kappa(const struct hk_tetrahedron *tetrahedron);
 double hk_tetrahedron_gamma(const struct hk_tetrahedron *tetrahedron);
 
-/* Particle j's row of g g^T, summed in size over the particles that are not held: the diagonal matrix of these is at least
- * g g^T. */
+/* Particle j's row of g g^T, summed in size over the particles that are not held: the diagonal matrix of
+ * these is at least g g^T. */
 double hk_altitude_row(const struct hooke_system *system, const int32_t particle[4], const double weight[4],
                        int j);
 
-/* Rest lengths and the side of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE, said of the particles
- * that it has, if it is flat. */
+/* Rest lengths and the side of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE,
+ * said of the particles that it has, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);
 
-/* Adds tetrahedra as they are: particles, rest lengths and all. `name` may be NULL. HOOKE_BAD_VALUE for particles that do not
- * exist or are named twice. */
+/* Adds tetrahedra as they are: particles, rest lengths and all. `name` may be NULL. HOOKE_BAD_VALUE for
+ * particles that do not exist or are named twice. */
 int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int32_t from_part,
                                  int64_t count, const struct hk_tetrahedron *tetrahedron);
 
@@ -95,7 +98,8 @@ int32_t hk_altitudes_create(const struct hk_altitude_group *group, int64_t group
 void hk_altitudes_release(struct hk_altitudes *altitudes);
 int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes);
 
-/* Frees what only building needed: all of a group but its name and its count, which is of what acts from now on. */
+/* Frees what only building needed: all of a group but its name and its count, which is of what acts from now
+ * on. */
 void hk_altitude_group_strip(struct hk_altitude_group *group);
 void hk_altitude_group_release(struct hk_altitude_group *group);
 

@@ -71,8 +71,9 @@ static inline void hk_triple_bend(const struct hk_triple *triple, const double *
   }
 }
 
-/* Sum of the sizes of a row of the stiffness of a triple at its particle e, over those that are not held, in units of c;
- * the diagonal matrix of these is at least the stiffness, since (a + b + c)^2 <= (a^2/p + b^2/q + c^2/r) (p + q + r). */
+/* Sum of the sizes of a row of the stiffness of a triple at its particle e, over those that are not held, in
+ * units of c; the diagonal matrix of these is at least the stiffness, since (a + b + c)^2 <= (a^2/p + b^2/q +
+ * c^2/r) (p + q + r). */
 double hk_triple_row(const struct hooke_system *system, const struct hk_triple *triple, int e);
 
 /* f += factor times the forces at x; x, y and z apart. */
@@ -85,7 +86,8 @@ int32_t hk_bending_create(const struct hk_bending_group *group, int64_t group_co
 void hk_bending_release(struct hk_bending *bending);
 int64_t hk_bending_memory(const struct hk_bending *bending);
 
-/* Frees what only building needed: all of a group but its name and its count, which is that of the runs from now on. */
+/* Frees what only building needed: all of a group but its name and its count, which is that of the runs from
+ * now on. */
 void hk_bending_group_strip(struct hk_bending_group *group);
 void hk_bending_group_release(struct hk_bending_group *group);
 

@@ -32,8 +32,8 @@ struct hk_force_row {
 extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_drag,
     hk_force_callback, hk_force_gravity;
 
-/* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out` (NULL: none) says.
- * HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
+/* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out`
+ * (NULL: none) says. HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out);
 

@@ -1,6 +1,7 @@
-/* Altitude springs (kernel/altitude_loops.h): U = ks/(2 l) (h - l)^2 for the altitude h of a tetrahedron that is shortest now,
- * l its rest length. Where another one comes to be shortest the energy jumps, since their rest lengths differ. Between
- * such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j dq_j). */
+/* Altitude springs (kernel/altitude_loops.h): U = ks/(2 l) (h - l)^2 for the altitude h of a tetrahedron that
+ * is shortest now, l its rest length. Where another one comes to be shortest the energy jumps, since their
+ * rest lengths differ. Between such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j
+ * dq_j). */
 #include "model/force/force.h"
 
 #include "core/sum.h"
@@ -85,7 +86,8 @@ static void add_column(const struct hk_pattern *pattern, const struct hk_tetrahe
   }
 }
 
-/* The tetrahedron alone, its corners numbered 0 to 3: displaced by one component of one corner after the other. */
+/* The tetrahedron alone, its corners numbered 0 to 3: displaced by one component of one corner after the
+ * other. */
 static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, const double q[12],
                         const double v[12], double *dfdq, double *dfdv) {
   struct hk_tetrahedron own = *t;

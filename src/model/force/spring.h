@@ -77,8 +77,8 @@ int32_t hk_springs_are_damped(const struct hk_springs *springs);
 void hk_springs_drop_material(struct hk_springs *springs);
 int64_t hk_springs_memory(const struct hk_springs *springs);
 
-/* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes them out of
- * the count; and back into it. */
+/* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes
+ * them out of the count; and back into it. */
 void hk_group_drop(struct hk_group *group);
 void hk_group_take_back(struct hk_group *group);
 

@@ -1,5 +1,5 @@
-/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. Those of coefficient 0 have no
- * force and are left out. */
+/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. Those of
+ * coefficient 0 have no force and are left out. */
 #include "model/force/bending.h"
 
 #include "core/memory.h"
@@ -18,7 +18,8 @@ struct sorter {
   int32_t fill;
 };
 
-/* Length of the stretch from triple k on that has a stiffness; with `in_line`, all of one offset, one after the other. */
+/* Length of the stretch from triple k on that has a stiffness; with `in_line`, all of one offset, one after
+ * the other. */
 static int64_t stretch_at(const struct hk_bending_group *g, int64_t k, int in_line) {
   const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
   const int32_t offset = b[k] - a[k];

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A pass computes every lane at every particle: with fewer springs than this share of that, plain runs are faster; and in a
- * system of few particles there is nothing to gain. */
+/* A pass computes every lane at every particle: with fewer springs than this share of that, plain runs are
+ * faster; and in a system of few particles there is nothing to gain. */
 static const double LEAST_FILLED = 0.3;
 enum { LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
 

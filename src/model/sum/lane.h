@@ -1,9 +1,9 @@
 /* Lanes: how the forces of a whole system are summed in one pass over the particles.
  *
- * A lane is made of runs of one constant offset o > 0 whose lower ends ascend: spring l joins particles l and l + o. Lanes
- * are in an order in which the springs of every particle, taken lane by lane and in each lane the one that ends there before
- * the one that begins there, come in ascending spring number, so that sums have the bits of the plain order. The pass goes
- * over the particles once; kernel/lane_loops.h says how. */
+ * A lane is made of runs of one constant offset o > 0 whose lower ends ascend: spring l joins particles l and
+ * l + o. Lanes are in an order in which the springs of every particle, taken lane by lane and in each lane
+ * the one that ends there before the one that begins there, come in ascending spring number, so that sums
+ * have the bits of the plain order. The pass goes over the particles once; kernel/lane_loops.h says how. */
 #ifndef HOOKE_MODEL_SUM_LANE_H
 #define HOOKE_MODEL_SUM_LANE_H
 
@@ -28,7 +28,8 @@ struct hk_lanes {
   int64_t memory;
 };
 
-/* HOOKE_NO_MEMORY. Material that is stored one by one goes from the springs to the lanes, where the runs then have it. */
+/* HOOKE_NO_MEMORY. Material that is stored one by one goes from the springs to the lanes, where the runs then
+ * have it. */
 int32_t hk_lanes_create(struct hk_springs *springs, int64_t particle_count, struct hk_lanes *lanes);
 void hk_lanes_release(struct hk_lanes *lanes);
 
@@ -41,7 +42,8 @@ int64_t hk_rings_memory(const struct hk_rings *rings);
 struct hk_motion;
 struct hooke_system;
 
-/* One pass over the particles of `motion` that are stepped; returns how many springs had a rest length but no direction. */
+/* One pass over the particles of `motion` that are stepped; returns how many springs had a rest length but no
+ * direction. */
 int64_t hk_lanes_pass(const struct hooke_system *system, struct hk_motion *motion,
                       const struct hk_move *move);
 

@@ -1,13 +1,13 @@
-/* The pass over lanes, by one thread or by a crew. Each member has the particles of a range. What others will have moved
- * when it comes to it, it computes or copies before anyone moves: the springs that begin below its range and end in it, and the
- * particles above its range where its own springs end. */
+/* The pass over lanes, by one thread or by a crew. Each member has the particles of a range. What others will
+ * have moved when it comes to it, it computes or copies before anyone moves: the springs that begin below its
+ * range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
 #include "model/sum/motion.h"
 
 #include <string.h>
 
-/* In a system larger than a cache of the second level the processor is told what it will need: particles that springs reach
- * for the first time, so many before the first spring does. */
+/* In a system larger than a cache of the second level the processor is told what it will need: particles that
+ * springs reach for the first time, so many before the first spring does. */
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
 struct share {
@@ -123,8 +123,8 @@ static void clear_below(const struct hk_lane_view *lane, int64_t from) {
   }
 }
 
-/* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the particle up to
- * which these are all, `to` at most. */
+/* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the
+ * particle up to which these are all, `to` at most. */
 static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int64_t from, int64_t to) {
   share->pass.count = 0;
   for (int32_t k = 0; k < lanes->count; k++) {
@@ -149,7 +149,8 @@ static void advance(const struct task *task, struct share *share, int32_t kind, 
   }
 }
 
-/* Over particles that are not stepped, where no springs begin; none at all if the springs from below do not reach over them. */
+/* Over particles that are not stepped, where no springs begin; none at all if the springs from below do not
+ * reach over them. */
 static void skip(const struct task *task, struct share *share, int64_t to) {
   if (to - share->at >= task->motion->rings->reach) {
     memset(share->open, 0, sizeof share->open);

@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and shares of
- * what all members do at their borders. */
+/* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and
+ * shares of what all members do at their borders. */
 enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hk_motion_members(const hooke_system *system, int32_t most) {
@@ -80,7 +80,8 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   return HOOKE_OK;
 }
 
-/* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of the caller. */
+/* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of
+ * the caller. */
 static void number_held(const hooke_system *system, const int32_t *place, struct hk_motion *motion) {
   int32_t *moved = motion->moved;
   for (int64_t k = 0; k < system->anchor_count; k++)

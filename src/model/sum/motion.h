@@ -1,6 +1,6 @@
 /* The working copy of a state that forces are computed on: x, y and z apart, so that loops load whole
- * vectors. Particles have the caller's numbers, or, where a method moves them tile by tile as soon as the springs of a tile
- * are summed, the working numbers of the system's net. */
+ * vectors. Particles have the caller's numbers, or, where a method moves them tile by tile as soon as the
+ * springs of a tile are summed, the working numbers of the system's net. */
 #ifndef HOOKE_MODEL_SUM_MOTION_H
 #define HOOKE_MODEL_SUM_MOTION_H
 
@@ -35,8 +35,8 @@ int32_t hk_goes_by_tiles(const hooke_system *system);
 /* How many threads of up to `most` the passes over the particles of a system are worth. */
 int32_t hk_motion_members(const hooke_system *system, int32_t most);
 
-/* With `by_tiles` the motion may be moved by hk_motion_pass() alone; only for systems that go by tiles. The crew (NULL:
- * none) has to outlive the motion. */
+/* With `by_tiles` the motion may be moved by hk_motion_pass() alone; only for systems that go by tiles. The
+ * crew (NULL: none) has to outlive the motion. */
 int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_crew *crew,
                          struct hk_motion **motion);
 void hk_motion_destroy(struct hk_motion *motion);
@@ -61,14 +61,15 @@ int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, d
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
                                  const struct hk_force_row *left_out);
 
-/* Sums the springs at all particles in one pass over memory, and does with the sums what `move` says; only for systems with
- * lanes or a net, and to move particles only for motions that go by tiles. */
+/* Sums the springs at all particles in one pass over memory, and does with the sums what `move` says; only
+ * for systems with lanes or a net, and to move particles only for motions that go by tiles. */
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move);
 
 /* Asks the drives where their particles are at time t; HOOKE_STOPPED if a callback asked for it. */
 int32_t hk_motion_drive(const hooke_system *system, struct hk_motion *motion, double t);
 
-/* Puts pinned particles back where they were loaded, at rest, and driven ones where the drives have last said. */
+/* Puts pinned particles back where they were loaded, at rest, and driven ones where the drives have last
+ * said. */
 void hk_motion_hold(const hooke_system *system, struct hk_motion *motion);
 
 #endif

@@ -7,12 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Runs of constant offset are faster than a net if there are more of them than this; and in a system of few springs there
- * is nothing to gain. */
+/* Runs of constant offset are faster than a net if there are more of them than this; and in a system of few
+ * springs there is nothing to gain. */
 static const double MOST_IN_RUNS = 0.7;
 enum { LEAST_SPRINGS = 64, MOST_DEGREE = UINT16_MAX };
 
-/* A window and ring of more bytes than this, and than this a particle, would hold most of the system, for want of any order. */
+/* A window and ring of more bytes than this, and than this a particle, would hold most of the system, for
+ * want of any order. */
 static const double MOST_BYTES = 4194304.0, MOST_BYTES_A_PARTICLE = 64.0;
 
 /* Their own numbering is kept unless the springs of another one reach less than this share as far. */

@@ -1,12 +1,13 @@
 /* Nets: how the forces of springs in no order are summed in one pass over the particles.
  *
- * Particles get a working numbering in which neighbours are near each other, unless their own is good enough. Springs are
- * stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of the springs that begin in a
- * tile go, on their lower ends, into a list of the tile and, on their upper ends, into a ring, which reaches back to the
- * first spring that ends in it; each particle then takes its springs from both in ascending spring number, so that sums
- * have the bits of the plain order. Nothing looks at the particles of a tile after that, so its positions may move at
- * once. Members of a crew have ranges of tiles: they do the springs that end in their range from earlier ones too, and save
- * what they need of later ones, before anything moves. */
+ * Particles get a working numbering in which neighbours are near each other, unless their own is good enough.
+ * Springs are stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of
+ * the springs that begin in a tile go, on their lower ends, into a list of the tile and, on their upper ends,
+ * into a ring, which reaches back to the first spring that ends in it; each particle then takes its springs
+ * from both in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the
+ * particles of a tile after that, so its positions may move at once. Members of a crew have ranges of tiles:
+ * they do the springs that end in their range from earlier ones too, and save what they need of later ones,
+ * before anything moves. */
 #ifndef HOOKE_MODEL_SUM_NET_H
 #define HOOKE_MODEL_SUM_NET_H
 
@@ -60,8 +61,8 @@ int64_t hk_net_memory(const struct hk_net *net);
 /* The part of it that goes with the number of springs. */
 int64_t hk_net_spring_memory(const struct hk_net *net);
 
-/* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number k, place[p]
- * the number of p. HOOKE_NO_MEMORY. */
+/* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number
+ * k, place[p] the number of p. HOOKE_NO_MEMORY. */
 int32_t hk_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
                       int32_t *order, int32_t *place);
 
@@ -82,8 +83,9 @@ typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx)
 
 struct hk_motion;
 
-/* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a rest length
- * but no direction. Members of its crew go over tiles of their own at the same time, each in ascending order. */
+/* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a
+ * rest length but no direction. Members of its crew go over tiles of their own at the same time, each in
+ * ascending order. */
 int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx);
 
 #endif

@@ -1,10 +1,12 @@
-/* Classes of springs: a law that gives every spring of a class its material, equal to the bit, from its rest length. */
+/* Classes of springs: a law that gives every spring of a class its material, equal to the bit, from its rest
+ * length. */
 #include "model/sum/net.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Numbers of their own are faster than divisions, and take 16 bytes a spring: with no more springs than this. */
+/* Numbers of their own are faster than divisions, and take 16 bytes a spring: with no more springs than
+ * this. */
 enum { FEW_SPRINGS = 1 << 17 };
 
 static int same_bits(double a, double b) {
@@ -27,7 +29,8 @@ static int fits(const struct hk_net_class *class, const struct hk_run *run) {
   return 1;
 }
 
-/* The number that divided by `length` is `share`, as far as one spring tells: within a unit in the last place. */
+/* The number that divided by `length` is `share`, as far as one spring tells: within a unit in the last
+ * place. */
 static double multiple(double share, double length, int off) {
   const double whole = share * length;
   return off == 0 ? whole : nextafter(whole, off > 0 ? (double)INFINITY : 0.0);

@@ -1,5 +1,5 @@
-/* A working numbering in which neighbours are near each other (Cuthill and McKee 1969, without sorting by degree, which
- * costs more than it gains here). */
+/* A working numbering in which neighbours are near each other (Cuthill and McKee 1969, without sorting by
+ * degree, which costs more than it gains here). */
 #include "model/sum/net.h"
 
 #include "core/memory.h"
@@ -60,7 +60,8 @@ static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count
   return count;
 }
 
-/* Of each piece, in the order of their first particles: once from there to find an end, once more from that end. */
+/* Of each piece, in the order of their first particles: once from there to find an end, once more from that
+ * end. */
 static void number_pieces(const struct graph *graph, int64_t particles, int32_t *order, int32_t *place) {
   for (int64_t p = 0; p < particles; p++)
     place[p] = -1;

@@ -4,8 +4,9 @@
 
 #include "model/sum/net.h"
 
-/* A member has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles from `begin` on,
- * which end in its own, and saves the rows of the particles from its last one to `saved_end` - 1, which others move. */
+/* A member has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles
+ * from `begin` on, which end in its own, and saves the rows of the particles from its last one to `saved_end`
+ * - 1, which others move. */
 struct hk_net_share {
   int64_t begin, first, end, saved_end;
   const void *place;                    /* of the first force on the first particle */

@@ -1,6 +1,6 @@
-/* All springs of a system, some at a time, in the order in which memory has them: that of their numbers, or by the tiles of
- * a net, whose springs are in no order. For sums and counts in which all springs are alike; the order is the system's own,
- * so that sums have the same bits always. */
+/* All springs of a system, some at a time, in the order in which memory has them: that of their numbers, or
+ * by the tiles of a net, whose springs are in no order. For sums and counts in which all springs are alike;
+ * the order is the system's own, so that sums have the same bits always. */
 #ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 

@@ -1,4 +1,5 @@
-/* A variant: a system made anew from another with some of it left out, or parts of it at another resolution. */
+/* A variant: a system made anew from another with some of it left out, or parts of it at another
+ * resolution. */
 #ifndef HOOKE_MODEL_VARIANT_VARIANT_H
 #define HOOKE_MODEL_VARIANT_VARIANT_H
 
@@ -29,8 +30,8 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
 int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *variant,
                           const struct hk_variant *other);
 
-/* The first group from `group` on, of a part that stays, of which some springs are left out and some stay: options of a part
- * have no words for it. -1 if there is none. */
+/* The first group from `group` on, of a part that stays, of which some springs are left out and some stay:
+ * options of a part have no words for it. -1 if there is none. */
 int64_t hk_variant_next_split(const hooke_system *system, const struct hk_variant *variant, int64_t group);
 
 /* Where particles of a system are in a variant of it. */
@@ -48,17 +49,19 @@ struct hk_variant_map {
 };
 void hk_variant_map_release(struct hk_variant_map *map);
 
-/* 1 if a particle of the system is one of the variant, too; 0 if it was left out, or is in a part of another resolution. */
+/* 1 if a particle of the system is one of the variant, too; 0 if it was left out, or is in a part of another
+ * resolution. */
 int32_t hk_variant_is_same(const struct hk_variant_map *map, int64_t particle);
 
-/* Position of a particle of the system, from positions q of the variant (rows): its own, or in a part of another resolution
- * that of the same material point by linear interpolation. NaN where it was left out. */
+/* Position of a particle of the system, from positions q of the variant (rows): its own, or in a part of
+ * another resolution that of the same material point by linear interpolation. NaN where it was left out. */
 void hk_variant_place(const struct hk_variant_map *map, int64_t particle, const double *q,
                       double position[3]);
 
-/* Makes the variant of a committed system, committed too, and the map into it. Both are the caller's. What is built from
- * options (parts, groups with one material) is built from options again, so that nothing changed gives the same bits.
- * HOOKE_UNSUITED where a callback would see particles renumbered; HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+/* Makes the variant of a committed system, committed too, and the map into it. Both are the caller's. What is
+ * built from options (parts, groups with one material) is built from options again, so that nothing changed
+ * gives the same bits. HOOKE_UNSUITED where a callback would see particles renumbered; HOOKE_BAD_VALUE,
+ * HOOKE_NO_MEMORY. */
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
                         struct hk_variant_map *map);
 
@@ -74,23 +77,26 @@ struct hk_variant_maker {
 
 /* Cells of a part at a scale (variant_map.c); the number of axes. */
 int32_t hk_variant_cells(const struct hk_part_record *part, double scale, int64_t cells[3], int64_t made[3]);
-/* The one in the variant that is nearest to a part's particle (both counted within the part), the higher one of two. */
+/* The one in the variant that is nearest to a part's particle (both counted within the part), the higher one
+ * of two. */
 int64_t hk_variant_nearest(const struct hk_variant_part *part, int64_t offset);
-/* Corners of the cell of the variant that a part's particle lies in, with their weights; those of weight 0 are left out.
- * Returns how many, 8 at most. */
+/* Corners of the cell of the variant that a part's particle lies in, with their weights; those of weight 0
+ * are left out. Returns how many, 8 at most. */
 int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, int64_t corner[8],
                            double weight[8]);
 
 /* Adds particles, in parts and alone, and fills the map (variant_particles.c). */
 int32_t hk_variant_add_particles(struct hk_variant_maker *maker);
-/* Pins and drives. A particle of a part at another resolution is held if all are that it lies between, or one that it is
- * nearest to (variant_held.c). */
+/* Pins and drives. A particle of a part at another resolution is held if all are that it lies between, or one
+ * that it is nearest to (variant_held.c). */
 int32_t hk_variant_hold(struct hk_variant_maker *maker);
-/* 1 if the part of a group does not bring it because single springs of it are left out; those that stay are added as a group
- * of their own. `first` is the group's first spring. Not in a part at another resolution, where springs are others. */
+/* 1 if the part of a group does not bring it because single springs of it are left out; those that stay are
+ * added as a group of their own. `first` is the group's first spring. Not in a part at another resolution,
+ * where springs are others. */
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first);
-/* Groups of springs that no part brings: explicit ones, and what is left of those of parts (variant_springs.c). */
+/* Groups of springs that no part brings: explicit ones, and what is left of those of parts
+ * (variant_springs.c). */
 int32_t hk_variant_add_springs(struct hk_variant_maker *maker);
 /* The same of triples (variant_bending.c). */
 int32_t hk_variant_add_bending(struct hk_variant_maker *maker);

@@ -3,7 +3,8 @@
 
 #include "core/memory.h"
 
-/* The triples from `first` to before `end` whose particles are all there, in the numbers of the variant; how many. */
+/* The triples from `first` to before `end` whose particles are all there, in the numbers of the variant; how
+ * many. */
 static int64_t collect(const struct hk_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
                        double *coefficient) {
   struct hk_triples at = {.bending = &maker->from->bending};

@@ -1,5 +1,6 @@
-/* Cloths compressed to half their rest lengths, folded over so that half of their cells are inverted, and with one particle
- * pulled through its neighbours. The reference is Runge-Kutta with a step that is 16 times smaller. */
+/* Cloths compressed to half their rest lengths, folded over so that half of their cells are inverted, and
+ * with one particle pulled through its neighbours. The reference is Runge-Kutta with a step that is 16 times
+ * smaller. */
 #include "check.h"
 #include "extreme.h"
 #include "random.h"

@@ -48,8 +48,8 @@ static void test_never_flushed(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* An oscillator about a rest length of 1 m is not far from it: speeds, forces and changes are subnormal, and every bit of
- * them is that of the plain loop. */
+/* An oscillator about a rest length of 1 m is not far from it: speeds, forces and changes are subnormal, and
+ * every bit of them is that of the plain loop. */
 static void check_bits(const char *name, double amplitude, double rest_length, double drag) {
   const double q[] = {0, 0, 0, rest_length, amplitude, 0}, v[] = {0, 0, 0, 3.0 * amplitude, 0, amplitude};
   const int64_t ends[] = {0, 1}, steps = 200;

@@ -1,5 +1,5 @@
-/* Free fall with drag, from none to a million times what a step resolves. With z = h c/m and the terminal velocity w = g m/c:
- * v = w + (v0 - w) A^n, where A is what the method makes of exp(-z). */
+/* Free fall with drag, from none to a million times what a step resolves. With z = h c/m and the terminal
+ * velocity w = g m/c: v = w + (v0 - w) A^n, where A is what the method makes of exp(-z). */
 #include "check.h"
 #include "extreme.h"
 

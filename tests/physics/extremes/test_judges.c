@@ -91,7 +91,8 @@ static void test_answers(void **unused) {
   extreme_release(&outcome);
 }
 
-/* Going on in silence with another number than was asked for: the state held within bounds, or the run cut short. */
+/* Going on in silence with another number than was asked for: the state held within bounds, or the run cut
+ * short. */
 static void test_clamps(void **unused) {
   (void)unused;
   struct extreme_outcome outcome;
@@ -130,8 +131,8 @@ static void test_messages(void **unused) {
   extreme_release(&outcome);
 }
 
-/* What the oscillators are held against: the matrices have the determinants and traces of their methods, the solution
- * satisfies its equation, and a matrix that is off by 1e-6 is noticed. */
+/* What the oscillators are held against: the matrices have the determinants and traces of their methods, the
+ * solution satisfies its equation, and a matrix that is off by 1e-6 is noticed. */
 static void test_oscillator(void **unused) {
   (void)unused;
   const long double start[] = {1.0L, 0.5L}, zetas[] = {0.0L, 0.3L, 1.0L, 4.0L};

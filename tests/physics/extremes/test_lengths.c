@@ -1,4 +1,5 @@
-/* Springs of no rest length, of one that no position can have, and springs whose ends coincide or nearly so. */
+/* Springs of no rest length, of one that no position can have, and springs whose ends coincide or nearly
+ * so. */
 #include "check.h"
 #include "extreme.h"
 #include "small.h"
@@ -73,7 +74,8 @@ struct pair {
   int32_t may_fail;   /* so stiff across the spring that an implicit solver may give up */
 };
 
-/* Two free particles, `distance` apart, with a spring of 1 m between them: x = 1 - (1 - distance) cos(omega t). */
+/* Two free particles, `distance` apart, with a spring of 1 m between them: x = 1 - (1 - distance) cos(omega
+ * t). */
 static void check_pair(const struct pair *pair) {
   const double q[] = {0, 0, 0, pair->distance, 0, 0}, h = 0.01, steps = 100, d = pair->distance;
   const int64_t ends[] = {0, 1};
@@ -112,8 +114,8 @@ static void test_coincident(void **unused) {
     check_pair(&pairs[k]);
 }
 
-/* The length of the force, kappa l0, tells how good the direction is: below 1.5e-154 m the square of a distance is
- * subnormal and loses digits, below 1.6e-162 m it is 0. */
+/* The length of the force, kappa l0, tells how good the direction is: below 1.5e-154 m the square of a
+ * distance is subnormal and loses digits, below 1.6e-162 m it is 0. */
 static void test_direction(void **unused) {
   (void)unused;
   const struct {

@@ -1,6 +1,6 @@
-/* Very many steps of 64 oscillators of 64 phases: energy and phase go as theory has them, rounding adds up as a random walk
- * and no faster (Brouwer 1937), and time does not drift. A million steps; with HOOKE_LONG=1 in the environment a hundred
- * million, which takes a few minutes. */
+/* Very many steps of 64 oscillators of 64 phases: energy and phase go as theory has them, rounding adds up as
+ * a random walk and no faster (Brouwer 1937), and time does not drift. A million steps; with HOOKE_LONG=1 in
+ * the environment a hundred million, which takes a few minutes. */
 #include "check.h"
 #include "extreme.h"
 #include "oscillator.h"

@@ -1,5 +1,5 @@
-/* Scenes far from the origin of coordinates: forces come from differences, so that only the spacing of the numbers there
- * is lost, and the loss is what that spacing makes it. */
+/* Scenes far from the origin of coordinates: forces come from differences, so that only the spacing of the
+ * numbers there is lost, and the loss is what that spacing makes it. */
 #include "check.h"
 #include "extreme.h"
 #include "random.h"
@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A stretch of 0.1 m on a spring of 1 m: the digits that are left of it are those of 0.1 m over the spacing. */
+/* A stretch of 0.1 m on a spring of 1 m: the digits that are left of it are those of 0.1 m over the
+ * spacing. */
 static void test_oscillator(void **unused) {
   (void)unused;
   const double distance[] = {0.0, 1e3, 1e6, 1e9};
@@ -30,7 +31,8 @@ static void test_oscillator(void **unused) {
   }
 }
 
-/* What is lost away from the origin (at 1e9 m numbers are 1.2e-7 m apart): the run there against the one at it. */
+/* What is lost away from the origin (at 1e9 m numbers are 1.2e-7 m apart): the run there against the one at
+ * it. */
 static double lost_at(double distance, const char *method, double h) {
   const double amplitude = 0.1;
   double end[2] = {0.0, 0.0};

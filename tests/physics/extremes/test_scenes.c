@@ -14,8 +14,8 @@ static struct extreme_run usual(const char *method) {
       .method = method, .step = 0.01, .steps = 200, .rtol = 1e-9, .atol = 1e-11, .max_steps = 100000};
 }
 
-/* Every method, against the place where each particle has to be; `order1` is the error that h = 0.01 s gives a method of
- * order 1 here, which all have to stay within. Returns nothing: it fails. */
+/* Every method, against the place where each particle has to be; `order1` is the error that h = 0.01 s gives
+ * a method of order 1 here, which all have to stay within. Returns nothing: it fails. */
 static void check_scene(const hooke_system *system, const char *name, const double *expected, double order1) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -32,7 +32,8 @@ static void check_scene(const hooke_system *system, const char *name, const doub
 
 /* ---- free floating ---- */
 
-/* A square that spins about its centre at omega while it flies: each side is stretched so that it turns as a rigid body. */
+/* A square that spins about its centre at omega while it flies: each side is stretched so that it turns as a
+ * rigid body. */
 static void test_free_floating(void **unused) {
   (void)unused;
   const double omega = 1.5, pull = 3.0, stiffness = 40.0, mass = 2.0, t = 2.0;
@@ -88,8 +89,8 @@ static void test_all_pinned(void **unused) {
 
 /* ---- disconnected ---- */
 
-/* Two oscillators that know nothing of each other, a stiff and a soft one, and a particle that flies by: each does what it
- * does alone, to the bit where steps are fixed and nothing is solved. */
+/* Two oscillators that know nothing of each other, a stiff and a soft one, and a particle that flies by: each
+ * does what it does alone, to the bit where steps are fixed and nothing is solved. */
 static hooke_system *pieces(int32_t stiff, int32_t soft, int32_t flier) {
   const double q[] = {0, 0, 0, 1.2, 0, 0, 0, 5, 0, 0, 5.9, 0, 7, 7, 7},
                v[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, -2, 3};
@@ -188,8 +189,8 @@ static void test_single(void **unused) {
 
 /* ---- at rest ---- */
 
-/* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens, and nothing may be made of
- * it: the energy of rounding is no energy to diverge from. */
+/* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens, and nothing
+ * may be made of it: the energy of rounding is no energy to diverge from. */
 static void test_at_rest(void **unused) {
   (void)unused;
   enum { COUNT = 20 };

@@ -1,5 +1,5 @@
-/* Values at the ends of what a number can be: refused where they are no numbers, computed with where they are; and energies
- * beyond the largest number are infinite, never NaN. */
+/* Values at the ends of what a number can be: refused where they are no numbers, computed with where they
+ * are; and energies beyond the largest number are infinite, never NaN. */
 #include "check.h"
 #include "extreme.h"
 #include "small.h"
