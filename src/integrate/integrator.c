@@ -58,10 +58,10 @@ static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **o
 }
 
 static int32_t gather_crew(hooke_integrator *it) {
-  const int32_t members =
+  const int32_t workers =
       hk_motion_members(it->system, (int32_t)hooke_options_number(it->options, "threads"));
-  if (members > 1) it->crew = hk_crew_create(members);
-  return members > 1 && it->crew == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
+  if (workers > 1) it->pool = hk_pool_create(workers);
+  return workers > 1 && it->pool == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
 int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
@@ -77,7 +77,7 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
     status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
   if (status == HOOKE_OK) status = gather_crew(it);
-  if (status == HOOKE_OK) status = hk_motion_create(system, by_tiles, it->crew, &it->motion);
+  if (status == HOOKE_OK) status = hk_motion_create(system, by_tiles, it->pool, &it->motion);
   if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !by_tiles, &it->recent);
   return finish(it, status, out);
 }
@@ -109,7 +109,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
   if (it->own && it->method->destroy) it->method->destroy(it);
   hk_motion_destroy(it->motion);
-  hk_crew_destroy(it->crew);
+  hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);
   hooke_state_destroy(it->restart.state);
   if (it->checker.release) it->checker.release(it->checker.own);

@@ -70,7 +70,7 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_crew *crew; /* NULL: one thread */
+  struct hk_pool *pool; /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;

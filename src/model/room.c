@@ -3,7 +3,7 @@
 #include "model/system.h"
 
 #include "core/print.h"
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "core/status.h"
 
 #include <stdio.h>
@@ -43,7 +43,7 @@ int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, co
                counts[k].name);
   }
   if (what == NULL) what = "this scene";
-  if (fits) return hk_room_require(system->memory_limit, bytes, what);
+  if (fits) return hk_memory_require(system->memory_limit, bytes, what);
   return hk_fail(HOOKE_BAD_VALUE, NULL,
                  "%s needs %s of memory for %s; allowed: up to 2147483647 of each in a system", what,
                  hk_show_bytes(bytes, shown), list);

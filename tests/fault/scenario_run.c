@@ -1,4 +1,4 @@
-/* Runs by every method, alone and in a crew, with all that watches them. */
+/* Runs by every method, alone and by several threads, with all that watches them. */
 #include "scenarios.h"
 
 #include <dirent.h>

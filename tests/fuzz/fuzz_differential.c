@@ -126,15 +126,15 @@ static void check_acceleration(const struct small_scene *scene, int first, struc
 
 /* Forces by three threads, which the library does not spend on a scene this small, and by one. */
 static void check_members(const struct small_scene *scene) {
-  static struct hk_crew *crew;
+  static struct hk_pool *pool;
   const hooke_system *system = scene->system;
   if (system->lanes.count == 0 && system->net.particles == 0) return;
-  if (crew == NULL) crew = hk_crew_create(3);
-  hooke_fuzz_require(crew != NULL, "a crew");
+  if (pool == NULL) pool = hk_pool_create(3);
+  hooke_fuzz_require(pool != NULL, "a thread pool");
   double found[2][3 * MOST_PARTICLES];
   for (int k = 0; k < 2; k++) {
     struct hk_motion *motion = NULL;
-    hooke_fuzz_require(hk_motion_create(system, 0, k ? crew : NULL, &motion) == HOOKE_OK, "a motion");
+    hooke_fuzz_require(hk_motion_create(system, 0, k ? pool : NULL, &motion) == HOOKE_OK, "a motion");
     hk_motion_load(system, motion, scene->q, scene->v);
     hooke_fuzz_require(hk_motion_forces(system, motion, 0.0) == HOOKE_OK, "forces");
     hk_rows_from_components(scene->particles, motion->f, found[k]);

@@ -107,7 +107,7 @@ static uint64_t live_integrator(const char *method) {
 }
 
 /* Large enough for its threads to be started. */
-static uint64_t live_crew(const char *method) {
+static uint64_t live_threads(const char *method) {
   return run_life(MANY, (struct run){.method = method, .step = 1e-3, .duration = 0.01, .threads = 2});
 }
 
@@ -168,8 +168,8 @@ const struct life object_lives[] = {
     {"cvode-adams", "cvode-adams", live_integrator, 0},
     {"rk8pd", "rk8pd", live_integrator, 0},
     {"arkode-esdirk", "arkode-esdirk", live_integrator, 0},
-    {"crew", "verlet", live_crew, 0},
-    {"crew-solved", "backward-euler", live_crew, 0},
+    {"threads", "verlet", live_threads, 0},
+    {"threads-solved", "backward-euler", live_threads, 0},
     {"checkpoint", "verlet", live_checkpoint, 0},
     {"checkpoint-cvode", "cvode-bdf", live_checkpoint, 0},
     {NULL, NULL, NULL, 0},

@@ -14,7 +14,7 @@ STEPS, CYCLES = 10**9, 10**4
 KEEPING_NOTHING = {"GLIBC_TUNABLES": "glibc.malloc.tcache_count=0"}
 # The slow ones first, so that no processor waits at the end.
 KINDS = (
-    "study needs view write-behind resume resume-frame crew-solved verify trajectory record why comparison crew "
+    "study needs view write-behind resume resume-frame threads-solved verify trajectory record why comparison threads "
     "verify-damaged checkpoint checkpoint-cvode arkode-esdirk scene rk8pd cost limit backward-euler "
     "cvode-bdf cvode-adams rk4 verlet symplectic-euler forward-euler system refused"
 ).split()

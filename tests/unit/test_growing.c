@@ -1,7 +1,7 @@
 /* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with
  * every force. */
 #include "measure/why/growing.h"
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include "check.h"
 #include "random_scene.h"
@@ -29,7 +29,8 @@ static double largest(const hooke_system *system, double a, double b) {
   struct hk_linearised lin;
   double value = 0.0, *mode = calloc((size_t)(3 * system->particle_count), sizeof *mode);
   check_ok(hk_linearised_create(system, system->position, NULL, NULL, &lin));
-  const int32_t status = hk_top_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
+  const int32_t status =
+      hk_dominant_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
   hk_linearised_release(&lin);
   free(mode);
   if (status == HOOKE_NOT_BUILT) skip();

@@ -3,7 +3,7 @@
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
-#include "members.h"
+#include "workers.h"
 #include "random.h"
 
 #include "model/system.h"

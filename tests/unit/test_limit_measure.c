@@ -1,6 +1,6 @@
 /* Limits found by running, against formulas; and what they are blamed on. */
 #include "measure/trial/bracket.h"
-#include "measure/spectrum/frozen.h"
+#include "measure/spectrum/linear_twin.h"
 #include "measure/limit/limit_blame.h"
 #include "measure/limit/limit_measure.h"
 
@@ -157,21 +157,21 @@ static void frozen_system_rests(void **unused) {
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
 
-  struct hk_frozen frozen;
-  check_ok(hk_frozen_create(system, position, &frozen));
-  assert_int_equal(frozen.clamped, 1);
-  assert_int_equal(frozen.left_out, 1);
-  assert_int_equal(frozen.damped, 0);
-  assert_int_equal(hooke_system_free_count(frozen.system), 3);
+  struct hk_twin twin;
+  check_ok(hk_twin_create(system, position, &twin));
+  assert_int_equal(twin.clamped, 1);
+  assert_int_equal(twin.left_out, 1);
+  assert_int_equal(twin.damped, 0);
+  assert_int_equal(hooke_system_free_count(twin.system), 3);
   const double still[15] = {0.0};
   double force[15], moved[15], product[15], dq[15];
-  check_ok(hooke_system_force(frozen.system, 0.0, frozen.place, still, force));
+  check_ok(hooke_system_force(twin.system, 0.0, twin.place, still, force));
   for (int k = 0; k < 15; k++)
     check_between(force[k], 0.0, 0.0);
   /* its derivative is that of the scene, except that the compressed spring has no stiffness across */
   for (int k = 0; k < 15; k++)
     dq[k] = k < 3 || (k >= 9 && k < 12) ? 0.0 : sin(1.0 + k);
-  check_ok(hooke_system_derivative_product(frozen.system, 0.0, frozen.place, still, dq, still, product));
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, still, product));
   check_ok(hooke_system_derivative_product(system, 0.0, position, still, dq, still, moved));
   check_close(product[13], moved[13], 1e-12); /* the coincident one */
   const double u[3] = {0.7 / sqrt(1.13), -0.8 / sqrt(1.13), 0.0}, across = 20.0 * (1.0 - 1.5 / sqrt(1.13));
@@ -185,11 +185,11 @@ static void frozen_system_rests(void **unused) {
   /* the energy of a displacement is its product with the force */
   double there[15], energy = 0.0;
   for (int k = 0; k < 15; k++) {
-    there[k] = frozen.place[k] + dq[k];
+    there[k] = twin.place[k] + dq[k];
     energy -= dq[k] * product[k];
   }
-  check_close(hk_frozen_energy(&frozen, there, still), energy, 1e-5 * energy);
-  hk_frozen_release(&frozen);
+  check_close(hk_twin_energy(&twin, there, still), energy, 1e-5 * energy);
+  hk_twin_release(&twin);
 
   const struct hk_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_between(out.step, 0.1, 1.0);

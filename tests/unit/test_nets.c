@@ -2,7 +2,7 @@
  * particles and springs are. */
 #include "agree.h"
 #include "check.h"
-#include "members.h"
+#include "workers.h"
 #include "random.h"
 
 #include "model/sum/motion.h"
@@ -146,7 +146,7 @@ static void check_numbering(const struct hk_net *net, int order) {
                   net->particles < 1000 ? 3 * HOOKE_TILE : net->particles / 8); /* neighbours are near */
 }
 
-/* ---- crews ---- */
+/* ---- thread pools ---- */
 
 static void compare(uint64_t seed, int64_t side, int order, int groups, int material) {
   struct random_source source = {seed};

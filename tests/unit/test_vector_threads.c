@@ -4,7 +4,7 @@
 #include "random_scene.h"
 #include "run.h"
 
-#include "core/crew.h"
+#include "core/thread_pool.h"
 #include "integrate/integrator.h"
 
 #include <stdlib.h>
@@ -18,8 +18,8 @@ static void run_by(const hooke_system *system, struct run run, double *state) {
   const int64_t size = 3 * hooke_system_particle_count(system);
   hooke_integrator *integrator = start_run(system, run);
   hooke_state *found = start_state(system);
-  /* a crew of one would prove nothing */
-  assert_true(run.threads <= 1 || hk_crew_members(integrator->crew) > 1);
+  /* a thread pool of one would prove nothing */
+  assert_true(run.threads <= 1 || hk_pool_members(integrator->pool) > 1);
   check_ok(hooke_integrator_run(integrator, found));
   memcpy(state, hooke_state_position(found), (size_t)size * sizeof(double));
   memcpy(state + size, hooke_state_velocity(found), (size_t)size * sizeof(double));

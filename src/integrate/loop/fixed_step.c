@@ -27,11 +27,11 @@ struct sharing {
   void *ctx;
 };
 
-static void work_on_share(int32_t member, int32_t members, void *ctx) {
+static void work_on_share(int32_t worker, int32_t workers, void *ctx) {
   const struct sharing *sharing = ctx;
   const hooke_system *system = sharing->integrator->system;
-  const int64_t n = system->particle_count, first = hk_crew_share(n, HOOKE_TILE, member, members),
-                last = hk_crew_share(n, HOOKE_TILE, member + 1, members);
+  const int64_t n = system->particle_count, first = hk_pool_share(n, HOOKE_TILE, worker, workers),
+                last = hk_pool_share(n, HOOKE_TILE, worker + 1, workers);
   for (int64_t s = 0; s < system->span_count; s++) {
     const struct hk_span span = system->span[s];
     const int64_t from = span.from > first ? span.from : first,
@@ -41,7 +41,7 @@ static void work_on_share(int32_t member, int32_t members, void *ctx) {
 }
 
 void hk_integrator_each(hooke_integrator *it, hk_particle_work *work, void *ctx) {
-  hk_crew_run(it->motion->crew, work_on_share, &(struct sharing){it, work, ctx});
+  hk_pool_run(it->motion->pool, work_on_share, &(struct sharing){it, work, ctx});
 }
 
 static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {

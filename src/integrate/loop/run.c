@@ -2,7 +2,7 @@
 #include "integrate/loop/run_loop.h"
 
 #include "core/clock.h"
-#include "core/crew.h"
+#include "core/thread_pool.h"
 #include "core/status.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static const double LOOK = 1e-3; /* [s] between two looks at the clock */
 static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  if (state->size == it->size && state->has_v == (it->system != NULL)) return hk_crew_renew(it->crew);
+  if (state->size == it->size && state->has_v == (it->system != NULL)) return hk_pool_renew(it->pool);
   return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
                  (long long)state->size, (long long)it->size);
 }

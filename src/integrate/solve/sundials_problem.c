@@ -25,8 +25,8 @@ int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vecto
   const int64_t size = own->unknowns.size;
   it->own_memory += vectors * size * (int64_t)sizeof(double);
   if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
-  own->y = hk_sundials_vector(size, it->crew, own->context);
-  own->tolerance = hk_sundials_vector(size, it->crew, own->context);
+  own->y = hk_sundials_vector(size, it->pool, own->context);
+  own->tolerance = hk_sundials_vector(size, it->pool, own->context);
   if (own->y == NULL || own->tolerance == NULL || !hk_sundials_spare_create(own->y, &own->spare))
     return no_memory(it, size);
   N_VConst(0.0, own->y);

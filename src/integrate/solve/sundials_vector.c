@@ -17,7 +17,7 @@ enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
 struct content {
   struct _N_VectorContent_Serial serial;
   void *plain; /* what it is a copy of */
-  struct hk_crew *crew;
+  struct hk_pool *pool;
   struct hk_sundials_spare *spare; /* for clones; NULL: none */
   int32_t is_spare;
 };
@@ -45,10 +45,10 @@ struct job {
   double sum[MOST_BLOCKS];
 };
 
-static void work(int32_t member, int32_t members, void *ctx) {
+static void work(int32_t worker, int32_t workers, void *ctx) {
   struct job *job = ctx;
-  const int64_t end = hk_crew_share(job->size, job->block, member + 1, members);
-  for (int64_t at = hk_crew_share(job->size, job->block, member, members); at < end; at += job->block) {
+  const int64_t end = hk_pool_share(job->size, job->block, worker + 1, workers);
+  for (int64_t at = hk_pool_share(job->size, job->block, worker, workers); at < end; at += job->block) {
     const int64_t left = job->size - at;
     job->some(job, at, left < job->block ? left : job->block, &job->sum[at / job->block]);
   }
@@ -59,7 +59,7 @@ static void run(N_Vector v, struct job *job) {
   job->size = size_of(v);
   job->block = (least + LEAST_BLOCK - 1) / LEAST_BLOCK * LEAST_BLOCK;
   if (job->block < LEAST_BLOCK) job->block = LEAST_BLOCK;
-  hk_crew_run(job->size < LARGE ? NULL : ((struct content *)v->content)->crew, work, job);
+  hk_pool_run(job->size < LARGE ? NULL : ((struct content *)v->content)->pool, work, job);
 }
 
 /* The sums of the blocks in their order. */
@@ -236,12 +236,12 @@ static void destroy(N_Vector v) {
 }
 
 /* A serial vector with content of ours; NULL, and nothing left, without memory. */
-static N_Vector wrap(N_Vector v, struct hk_crew *crew) {
+static N_Vector wrap(N_Vector v, struct hk_pool *pool) {
   struct content *content = v ? hk_new(1, sizeof *content) : NULL;
   if (content) {
     content->serial = *(N_VectorContent_Serial)v->content;
     content->plain = v->content;
-    content->crew = crew;
+    content->pool = pool;
     v->content = content;
   } else if (v) {
     N_VDestroy_Serial(v);
@@ -253,7 +253,7 @@ static N_Vector wrap(N_Vector v, struct hk_crew *crew) {
 static N_Vector clone(N_Vector v) {
   const struct content *content = v->content;
   struct hk_sundials_spare *spare = content->spare;
-  N_Vector copy = wrap(N_VClone_Serial(v), content->crew);
+  N_Vector copy = wrap(N_VClone_Serial(v), content->pool);
   if (copy) ((struct content *)copy->content)->spare = spare;
   if (copy || spare == NULL) return copy;
   spare->taken = 1;
@@ -276,8 +276,8 @@ void hk_sundials_spare_release(struct hk_sundials_spare *spare) {
   spare->vector = NULL;
 }
 
-N_Vector hk_sundials_vector(int64_t size, struct hk_crew *crew, SUNContext context) {
-  N_Vector v = wrap(N_VNew_Serial(size, context), crew);
+N_Vector hk_sundials_vector(int64_t size, struct hk_pool *pool, SUNContext context) {
+  N_Vector v = wrap(N_VNew_Serial(size, context), pool);
   if (v == NULL) return NULL;
   v->ops->nvclone = clone;
   v->ops->nvcloneempty = NULL;

@@ -4,13 +4,13 @@
 #ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
 #define HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
 
-#include "core/crew.h"
+#include "core/thread_pool.h"
 
 #include <nvector/nvector_serial.h>
 
-/* `size` numbers, not set; N_VDestroy() releases it. Clones have the same loops and crew, which has to
+/* `size` numbers, not set; N_VDestroy() releases it. Clones have the same loops and pool, which has to
  * outlive them (NULL: one thread). NULL without memory. */
-N_Vector hk_sundials_vector(int64_t size, struct hk_crew *crew, SUNContext context);
+N_Vector hk_sundials_vector(int64_t size, struct hk_pool *pool, SUNContext context);
 
 /* SUNDIALS takes for granted that there is memory for a clone. Where there is none, its clones are all this
  * one vector, which N_VDestroy() leaves alone, and `taken` says that their numbers mean nothing. */

@@ -2,7 +2,7 @@
 #include "io/hdf5/array_h5.h"
 
 #include "core/memory.h"
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
@@ -39,7 +39,7 @@ static int32_t check_room(const struct source *source, const struct hk_dataset *
     bytes *= (double)part[k];
   char what[192];
   snprintf(what, sizeof what, "dataset %.150s", source->dataset);
-  return hk_room_require(source->memory_limit, bytes + hk_dataset_read_bytes(data, part), what);
+  return hk_memory_require(source->memory_limit, bytes + hk_dataset_read_bytes(data, part), what);
 }
 
 /* Frames before the first without a time. */

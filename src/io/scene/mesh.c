@@ -3,7 +3,7 @@
 #include "parts/surface.h"
 #include "core/memory.h"
 #include "core/option.h"
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/scene/obj.h"
 #include "io/scene/scene_file.h"
@@ -63,7 +63,7 @@ int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double
   int64_t line = 0;
   int32_t status = hk_mesh_check_alone(options);
   if (status != HOOKE_OK) return status;
-  status = hk_room_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
+  status = hk_memory_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   return finish(status, line, name, options);
 }

@@ -4,7 +4,7 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/scene/json_place.h"
 #include "io/trajectory/record.h"
@@ -158,7 +158,7 @@ int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *n
   if (status) return in_line(status, name, guard.line, guard.column);
   hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  status = hk_room_require(made->memory_limit, hk_json_guard_bytes(&guard, length), "this scene");
+  status = hk_memory_require(made->memory_limit, hk_json_guard_bytes(&guard, length), "this scene");
   if (status) return finish(in_file(status, name), made, scene);
   made->text = hk_new(length + 1, 1);
   made->length = length;

@@ -4,7 +4,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/print.h"
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/file/place.h"
 
@@ -45,7 +45,7 @@ static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, in
     if (got == 0) break;
     if (guard && hk_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
-    if (guard && hk_room_require(guard->memory_limit, hk_json_guard_bytes(guard, *length), "this scene"))
+    if (guard && hk_memory_require(guard->memory_limit, hk_json_guard_bytes(guard, *length), "this scene"))
       return HOOKE_NO_MEMORY;
     if (*length > largest_file)
       return hk_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",

@@ -92,19 +92,19 @@ static double kinetic(const hooke_system *system, const double *v) {
 /* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as
  * would a free scene, and turn the springs. */
 static void start_randomly(struct hk_growth *growth, double *x, double *v) {
-  const hooke_system *system = growth->frozen->system;
+  const hooke_system *system = growth->twin->system;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
     x[k] = hk_random_uniform(&growth->random) * sqrt(system->inverse_mass[k / 3]);
-  hk_frozen_push(growth->frozen, x, v);
+  hk_twin_push(growth->twin, x, v);
 }
 
 /* Displacements of one step are at most 1 m. */
 static void start(struct hk_growth *growth, double step, int random_only) {
-  const hooke_system *system = growth->frozen->system;
+  const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
   const int64_t size = 3 * system->particle_count;
   start_randomly(growth, q, v);
-  memcpy(q, growth->frozen->place, (size_t)size * sizeof(double));
+  memcpy(q, growth->twin->place, (size_t)size * sizeof(double));
   if (growth->has_direction && !random_only) {
     const double have = kinetic(system, v), want = kinetic(system, growth->direction);
     const double share = have > 0.0 ? RANDOM_SHARE * sqrt(want / have) : 0.0;
@@ -118,13 +118,13 @@ static void start(struct hk_growth *growth, double step, int random_only) {
 }
 
 static double log_amplitude(const struct hk_growth *growth) {
-  return 0.5 * log(hk_frozen_energy(growth->frozen, hooke_state_position(growth->state),
-                                    hooke_state_velocity(growth->state)));
+  return 0.5 * log(hk_twin_energy(growth->twin, hooke_state_position(growth->state),
+                                  hooke_state_velocity(growth->state)));
 }
 
 /* Displacements stay where springs are linear. */
 static void scale(const struct hk_growth *growth, struct course *course) {
-  const double off = course->last - course->offset - course->first, *place = growth->frozen->place;
+  const double off = course->last - course->offset - course->first, *place = growth->twin->place;
   if (!isfinite(off) || off < SCALE_DOWN) return;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state);
   const double factor = exp(-off);
@@ -158,7 +158,7 @@ static int64_t least_steps(const struct hk_growth *growth) {
 static int judge(const struct hk_growth *growth, const struct course *course, int64_t taken, int thorough,
                  enum hk_verdict *verdict) {
   const double rise = course->last - course->first;
-  const double speed = kinetic(growth->frozen->system, hooke_state_velocity(growth->state));
+  const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
   if (rise > certain_rise(growth)) {
     *verdict = HOOKE_GROWS;
     return 1;
@@ -234,7 +234,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
                       enum hk_verdict *verdict) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_options_set_number(growth->run, "step", step);
-  if (status == HOOKE_OK) status = hooke_integrator_create(growth->frozen->system, growth->run, &integrator);
+  if (status == HOOKE_OK) status = hooke_integrator_create(growth->twin->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
   hooke_integrator_on_progress(integrator, 0.0, watch, growth);
   start(growth, step, thorough);
@@ -242,7 +242,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   hooke_integrator_destroy(integrator);
   if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction)) {
     const double *v = hooke_state_velocity(growth->state);
-    const double sum = kinetic(growth->frozen->system, v);
+    const double sum = kinetic(growth->twin->system, v);
     if (isfinite(sum) && sum > 0.0) {
       memcpy(growth->direction, v, (size_t)hooke_state_size(growth->state) * sizeof(double));
       growth->has_direction = 1;
@@ -253,22 +253,22 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
 
 /* ---- making ---- */
 
-int32_t hk_growth_create(const struct hk_frozen *frozen, const hooke_options *run, const char *method,
+int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth) {
-  const int64_t size = 3 * frozen->system->particle_count;
-  *growth = (struct hk_growth){.frozen = frozen, .accuracy = accuracy, .deadline = deadline, .random = 1};
+  const int64_t size = 3 * twin->system->particle_count;
+  *growth = (struct hk_growth){.twin = twin, .accuracy = accuracy, .deadline = deadline, .random = 1};
   int32_t status = run ? hooke_options_copy(run, &growth->run) : hooke_run_options_create(&growth->run);
   if (status == HOOKE_OK) status = hooke_options_set_text(growth->run, "method", method);
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "duration");
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "every");
-  if (status == HOOKE_OK) status = hooke_state_create(frozen->system, &growth->state);
+  if (status == HOOKE_OK) status = hooke_state_create(twin->system, &growth->state);
   if (status == HOOKE_OK) {
     growth->direction = hk_new(size, sizeof(double));
     if (growth->direction == NULL) status = HOOKE_NO_MEMORY;
   }
   if (status == HOOKE_OK && mode) {
     memcpy(growth->direction, mode, (size_t)size * sizeof(double));
-    const double sum = kinetic(frozen->system, mode);
+    const double sum = kinetic(twin->system, mode);
     growth->has_direction = isfinite(sum) && sum > 0.0;
   }
   if (status != HOOKE_OK) hk_growth_release(growth);

@@ -1,10 +1,10 @@
-/* Does the motion of a frozen system grow at a step? One run of the real integrator, seen through the energy
+/* Does the motion of a linear twin grow at a step? One run of the real integrator, seen through the energy
  * of the displacement. */
 #ifndef HOOKE_MEASURE_LIMIT_GROWTH_H
 #define HOOKE_MEASURE_LIMIT_GROWTH_H
 
 #include "hooke/measure.h"
-#include "measure/spectrum/frozen.h"
+#include "measure/spectrum/linear_twin.h"
 
 enum hk_verdict {
   HOOKE_GROWS,
@@ -15,7 +15,7 @@ enum hk_verdict {
 };
 
 struct hk_growth {
-  const struct hk_frozen *frozen;
+  const struct hk_twin *twin;
   hooke_options *run; /* its own copy, without frames */
   hooke_state *state;
   double *direction;     /* velocities to start with, 3n; all zeros: none known */
@@ -32,7 +32,7 @@ struct hk_growth {
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */
-int32_t hk_growth_create(const struct hk_frozen *frozen, const hooke_options *run, const char *method,
+int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth);
 void hk_growth_release(struct hk_growth *growth);
 

@@ -1,7 +1,7 @@
 #include "measure/limit/limit_blame.h"
 
 #include "core/memory.h"
-#include "measure/spectrum/frozen.h"
+#include "measure/spectrum/linear_twin.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -28,7 +28,7 @@ static void keep(void *list, int64_t *count, size_t size, size_t share_at, const
 /* x.Kx and x.Cx of one spring; particles that are held do not move. */
 static void weigh(const hooke_system *system, const struct hk_spring *spring, const double *q,
                   const double *mode, double *stiffness, double *damping) {
-  const struct hk_frozen_spring view = hk_frozen_view(spring, q);
+  const struct hk_twin_spring view = hk_twin_view(spring, q);
   double along = 0.0, square = 0.0;
   for (int a = 0; a < 3; a++) {
     const double d = (system->held[view.head] ? 0.0 : mode[3 * view.head + a]) -

@@ -21,7 +21,7 @@ static const char WITHOUT_DIRECTION[] =
 static const char TURNING[] =
     "springs of length 0 are damped along their motion, which the linearised system leaves out";
 
-/* ---- the frozen system ---- */
+/* ---- the linear twin ---- */
 
 enum { STEPS_OF_VIOLENCE = 300 };
 
@@ -51,9 +51,9 @@ static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
  * somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
 static int64_t steps_for(const struct hk_growth *growth, int slow) {
   const double accuracy = growth->accuracy;
-  const double steps = slow                     ? 4000.0 / accuracy
-                       : growth->frozen->damped ? 40.0 / accuracy
-                                                : 40.0 / sqrt(2.0 * accuracy);
+  const double steps = slow                   ? 4000.0 / accuracy
+                       : growth->twin->damped ? 40.0 / accuracy
+                                              : 40.0 / sqrt(2.0 * accuracy);
   return 1000 + (int64_t)fmin(steps, 1e15);
 }
 
@@ -105,7 +105,7 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
   if (!small) trial->most_steps = STEPS_OF_VIOLENCE;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
-    const double step = share[small][k] * trial->growth->frozen->slow_step;
+    const double step = share[small][k] * trial->growth->twin->slow_step;
     enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
     status = try_frozen(trial, step, &end);
     if (end == HOOKE_TRIAL_UNKNOWN) bracket->unknown = 1;
@@ -118,7 +118,7 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
 }
 
 static int32_t measure(struct trial *trial, double predicted, struct hk_measurement *out) {
-  const double slow_step = trial->growth->frozen->slow_step;
+  const double slow_step = trial->growth->twin->slow_step;
   struct hk_bracket bracket = {.try_step = try_frozen,
                                .ctx = trial,
                                .accuracy = trial->growth->accuracy,
@@ -166,11 +166,11 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
   *out = (struct hk_measurement){.step = NAN, .note = ""};
   int32_t status = check(method, accuracy);
   if (status != HOOKE_OK) return status;
-  struct hk_frozen frozen;
+  struct hk_twin twin;
   struct hk_growth growth;
-  status = hk_frozen_create(system, q, &frozen);
+  status = hk_twin_create(system, q, &twin);
   if (status != HOOKE_OK) return status;
-  status = hk_growth_create(&frozen, run, method, mode, accuracy, hk_clock_seconds() + budget, &growth);
+  status = hk_growth_create(&twin, run, method, mode, accuracy, hk_clock_seconds() + budget, &growth);
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
@@ -184,13 +184,13 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
       out->note = TOO_SLOW_WITHIN;
     else if (trial.note)
       out->note = trial.note;
-    else if (frozen.left_out > 0)
+    else if (twin.left_out > 0)
       out->note = WITHOUT_DIRECTION;
-    else if (frozen.turning > 0)
+    else if (twin.turning > 0)
       out->note = TURNING;
     hk_growth_release(&growth);
   }
-  hk_frozen_release(&frozen);
+  hk_twin_release(&twin);
   return status;
 }
 
@@ -254,13 +254,12 @@ static int32_t prepare(struct whole *whole, const hooke_options *run, const char
 
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
                              struct hk_measurement *out) {
-  struct hk_frozen frozen;
-  int32_t status =
-      hk_frozen_create(whole->system, hooke_state_position((hooke_state *)whole->start), &frozen);
+  struct hk_twin twin;
+  int32_t status = hk_twin_create(whole->system, hooke_state_position((hooke_state *)whole->start), &twin);
   if (status != HOOKE_OK) return status;
   const double guess =
-      fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : frozen.slow_step);
-  hk_frozen_release(&frozen);
+      fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : twin.slow_step);
+  hk_twin_release(&twin);
   struct hk_bracket bracket = {.try_step = try_whole,
                                .ctx = whole,
                                .accuracy = accuracy,

@@ -4,7 +4,7 @@
 #include "core/status.h"
 #include "hooke/integrator.h"
 #include "hooke/limit.h"
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static double symplectic_step(double k, double c) {
 static int32_t damping_of(struct hk_linearised *lin, const double *x, double *room, double *c) {
   *c = 0.0;
   if (!lin->damped) return HOOKE_OK;
-  hk_linearised_weigh(lin, 0.0, 1.0);
+  hk_linearised_combine(lin, 0.0, 1.0);
   hk_linearised_multiply(lin, x, room);
   *c = hk_linearised_dot(lin, x, room);
   return HOOKE_OK;
@@ -54,12 +54,12 @@ static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out
   double h = symplectic_step(s->stiffest, c);
   /* nothing stiff: the start is no mode at all */
   if (!(h < INFINITY)) {
-    status = hk_top_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
+    status = hk_dominant_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
     h = symplectic_step(0.0, c);
   }
   for (int k = 0; k < MOST_TURNS && status == HOOKE_OK && change > tolerance; k++) {
     memcpy(room, out->mode, (size_t)lin->size * sizeof(double));
-    status = hk_top_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
+    status = hk_dominant_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
     if (status == HOOKE_OK) status = damping_of(lin, out->mode, room, &c);
     const double next = symplectic_step(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c);
     change = fabs(next - h) / next;

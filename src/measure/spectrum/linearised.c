@@ -231,7 +231,7 @@ void hk_linearised_release(struct hk_linearised *lin) {
 
 /* A spring is g g^T + b I with g = sqrt(along - across) u: tension over length is below kappa, so nothing is
  * negative. */
-void hk_linearised_weigh(struct hk_linearised *lin, double a, double b) {
+void hk_linearised_combine(struct hk_linearised *lin, double a, double b) {
   const int64_t m = lin->system->springs.count;
   for (int64_t s = 0; s < m; s++) {
     const double along = a * (lin->kappa[s] - lin->across[s]) + b * lin->gamma[s];

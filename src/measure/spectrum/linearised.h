@@ -37,7 +37,7 @@ struct hk_linearised {
   int64_t tetrahedra;
   struct hk_altitude_tangent *tetrahedron;
   double *altitude_kappa, *altitude_gamma;
-  /* a K + b C, from the last hk_linearised_weigh() */
+  /* a K + b C, from the last hk_linearised_combine() */
   struct hk_tangent tangent;
   double *g[3], *g_across, brake, bent;
   /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with
@@ -56,7 +56,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
 void hk_linearised_release(struct hk_linearised *linearised);
 
 /* Makes products those with a K + b C; a, b >= 0. */
-void hk_linearised_weigh(struct hk_linearised *linearised, double a, double b);
+void hk_linearised_combine(struct hk_linearised *linearised, double a, double b);
 
 /* out += (a K + b C) x; what it has where a particle is held means nothing. */
 void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);

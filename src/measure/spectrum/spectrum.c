@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/spectrum/dense.h"
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -107,7 +107,7 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
   double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
   double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
   int32_t status = matrix && value && (vector || !modes) ? make_room(s, 2 * n, modes) : HOOKE_NO_MEMORY;
-  hk_linearised_weigh(lin, 1.0, 0.0);
+  hk_linearised_combine(lin, 1.0, 0.0);
   if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
   for (int64_t j = 0; j < n && status == HOOKE_OK; j++) {
@@ -134,9 +134,9 @@ struct refined {
 static struct refined refine(struct hk_linearised *lin, const double *re, const double *im) {
   const double size = hk_linearised_dot(lin, re, re) + hk_linearised_dot(lin, im, im);
   struct refined r = {0.0, 0.0};
-  hk_linearised_weigh(lin, 1.0, 0.0);
+  hk_linearised_combine(lin, 1.0, 0.0);
   r.k = (hk_linearised_energy(lin, re) + hk_linearised_energy(lin, im)) / size;
-  hk_linearised_weigh(lin, 0.0, 1.0);
+  hk_linearised_combine(lin, 0.0, 1.0);
   r.c = (hk_linearised_energy(lin, re) + hk_linearised_energy(lin, im)) / size;
   return r;
 }
@@ -198,7 +198,7 @@ static int32_t solve_damped(struct hk_spectrum *s) {
   struct hk_damped_modes found = {.count = 0};
   int32_t status = matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hk_linearised_weigh(lin, k == 0, k == 1);
+    hk_linearised_combine(lin, k == 0, k == 1);
     status = hk_linearised_assemble(lin, matrix + k * n * n);
   }
   if (status == HOOKE_OK) status = hk_dense_damped(n, matrix, matrix + n * n, &found);
@@ -239,8 +239,8 @@ static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *
   double *mode = hk_new(wanted * lin->size, sizeof(double)), value[MODES_OF_STIFFNESS];
   if (mode == NULL) return HOOKE_NO_MEMORY;
   hk_linearised_start(lin, mode);
-  hk_linearised_weigh(lin, !damping, damping);
-  int32_t status = hk_top_modes_arpack(lin, wanted, fmin(s->accuracy, 1e-3), value, mode);
+  hk_linearised_combine(lin, !damping, damping);
+  int32_t status = hk_dominant_modes_arpack(lin, wanted, fmin(s->accuracy, 1e-3), value, mode);
   for (int64_t j = 0; j < wanted && status == HOOKE_OK; j++)
     extend(lin, mode + j * lin->size, basis, count);
   hk_free(mode);
@@ -270,7 +270,7 @@ static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
   }
   if (status == HOOKE_OK && decaying) status = extend_by_arpack(s, 1, basis, &r);
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hk_linearised_weigh(lin, k == 0, k == 1);
+    hk_linearised_combine(lin, k == 0, k == 1);
     project(lin, r, basis, basis + MOST_OF_BASIS * lin->size, matrix + k * r * r);
   }
   if (status == HOOKE_OK) status = hk_dense_damped(r, matrix, matrix + r * r, &found);
@@ -348,7 +348,7 @@ static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {
   if (s->proportional) return HOOKE_OK;
   /* in large scenes only a figure, and a part of a part of the spectrum */
   const double accuracy = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
-  return hk_top_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
+  return hk_dominant_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }
 
 static int32_t solve(struct hk_spectrum *s, double *decaying) {
@@ -373,7 +373,7 @@ int32_t hk_spectrum_create(struct hk_linearised *lin, double accuracy, enum hk_s
   double *decaying = hk_new(lin->size, sizeof(double));
   int32_t status = s->stiffest_mode && decaying ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
-    status = hk_top_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
+    status = hk_dominant_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
   if (status == HOOKE_OK) compare_damping(s);
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_ALL) status = solve(s, decaying);
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_EXTREMES)

@@ -33,9 +33,9 @@ struct hk_lanes {
 int32_t hk_lanes_create(struct hk_springs *springs, int64_t particle_count, struct hk_lanes *lanes);
 void hk_lanes_release(struct hk_lanes *lanes);
 
-/* Rings of one pass at a time by `members` threads, for systems with lanes; NULL without memory. */
+/* Rings of one pass at a time by `workers` threads, for systems with lanes; NULL without memory. */
 struct hk_rings;
-struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t members);
+struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t workers);
 void hk_rings_destroy(struct hk_rings *rings);
 int64_t hk_rings_memory(const struct hk_rings *rings);
 

@@ -1,4 +1,4 @@
-/* The pass over lanes, by one thread or by a crew. Each member has the particles of a range. What others will
+/* The pass over lanes, by one thread or by a thread pool. Each worker has the particles of a range. What others will
  * have moved when it comes to it, it computes or copies before anyone moves: the springs that begin below its
  * range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
@@ -20,7 +20,7 @@ struct share {
 };
 
 struct hk_rings {
-  int32_t members;
+  int32_t workers;
   int64_t reach, border_stride, memory;
   double *block;
   struct share *share;
@@ -72,30 +72,30 @@ static int64_t ring_size(const struct hk_lane *lane) {
   return 3 * hk_ring_stride(ring_room(lane) - 1);
 }
 
-struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t members) {
+struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t workers) {
   struct hk_rings *rings = hk_new(1, sizeof *rings);
   if (rings == NULL) return NULL;
   int64_t numbers = 0;
   for (int32_t k = 0; k < lanes->count; k++)
     numbers += ring_size(&lanes->lane[k]);
-  rings->members = members;
+  rings->workers = workers;
   rings->reach = lanes->reach;
   rings->border_stride = 2 * lanes->reach + HOOKE_LANE_UNIT;
-  numbers += members > 1 ? 6 * rings->border_stride : 0;
-  rings->share = hk_new(members, sizeof *rings->share);
-  rings->block = hk_new(members * numbers, sizeof(double));
-  rings->memory = (int64_t)sizeof *rings + members * (int64_t)sizeof *rings->share +
-                  members * numbers * (int64_t)sizeof(double);
+  numbers += workers > 1 ? 6 * rings->border_stride : 0;
+  rings->share = hk_new(workers, sizeof *rings->share);
+  rings->block = hk_new(workers * numbers, sizeof(double));
+  rings->memory = (int64_t)sizeof *rings + workers * (int64_t)sizeof *rings->share +
+                  workers * numbers * (int64_t)sizeof(double);
   if (rings->share == NULL || rings->block == NULL) {
     hk_rings_destroy(rings);
     return NULL;
   }
   double *next = rings->block;
-  for (int32_t m = 0; m < members; m++) {
+  for (int32_t m = 0; m < workers; m++) {
     for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
       rings->share[m].view[k] = view_of(&lanes->lane[k], next);
     rings->share[m].border = next;
-    next += members > 1 ? 6 * rings->border_stride : 0;
+    next += workers > 1 ? 6 * rings->border_stride : 0;
   }
   return rings;
 }
@@ -180,10 +180,10 @@ static void copy(double *const q, double *const v, ptrdiff_t stride, double *con
   }
 }
 
-static void begin(const struct task *task, struct share *share, int32_t member, int32_t members) {
+static void begin(const struct task *task, struct share *share, int32_t worker, int32_t workers) {
   const struct hk_motion *m = task->motion;
-  share->from = hk_crew_share(m->n, HOOKE_TILE, member, members);
-  share->to = whole_units(hk_crew_share(m->n, HOOKE_TILE, member + 1, members));
+  share->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
+  share->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
   share->pass.stride = m->q[1] - m->q[0];
   share->pass.q = m->q[0];
   share->pass.v = m->v[0];
@@ -223,14 +223,14 @@ static void finish(const struct task *task, struct share *share) {
   copy(q, v, stride, m->q[0] + from, m->v[0] + from, m->q[1] - m->q[0], count);
 }
 
-static void go_over(int32_t member, int32_t members, void *ctx) {
+static void go_over(int32_t worker, int32_t workers, void *ctx) {
   const struct task *task = ctx;
   const struct hk_motion *m = task->motion;
-  struct share *share = &m->rings->share[member];
-  begin(task, share, member, members);
-  if (members > 1) {
+  struct share *share = &m->rings->share[worker];
+  begin(task, share, worker, workers);
+  if (workers > 1) {
     prepare(task, share);
-    hk_crew_meet(m->crew);
+    hk_pool_barrier(m->pool);
   }
   if (share->to >= m->n || task->move->kind == HOOKE_MOVE_KEEP) {
     go_on(task, share, task->move->kind, share->to);
@@ -244,8 +244,8 @@ static void go_over(int32_t member, int32_t members, void *ctx) {
 int64_t hk_lanes_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct task task = {system, motion, move};
   int64_t lost = 0;
-  hk_crew_run(motion->crew, go_over, &task);
-  for (int32_t m = 0; m < hk_crew_members(motion->crew); m++)
+  hk_pool_run(motion->pool, go_over, &task);
+  for (int32_t m = 0; m < hk_pool_members(motion->pool); m++)
     lost += motion->rings->share[m].lost;
   return lost;
 }

@@ -6,19 +6,19 @@
 
 #include <string.h>
 
-/* Springs for each member, so that what it does takes some ten times as long as meeting the others does; and
- * shares of what all members do at their borders. */
+/* Springs for each worker, so that what it does takes some ten times as long as meeting the others does; and
+ * shares of what all workers do at their borders. */
 enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hk_motion_members(const hooke_system *system, int32_t most) {
   const int64_t border =
       system->net.particles > 0 ? system->net.ring : system->lanes.count * system->lanes.reach;
-  int64_t members = 1;
+  int64_t workers = 1;
   if (system->net.particles > 0 || system->lanes.count > 0)
-    members = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
-  if (members > most) members = most;
-  if (members > hk_crew_processors()) members = hk_crew_processors();
-  return members > 1 ? (int32_t)members : 1;
+    workers = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
+  if (workers > most) workers = most;
+  if (workers > hk_pool_processors()) workers = hk_pool_processors();
+  return workers > 1 ? (int32_t)workers : 1;
 }
 
 static int64_t driven_count(const hooke_system *system) {
@@ -42,12 +42,12 @@ struct arrays {
   int64_t n, count, stride, rest; /* `count` arrays of n particles, and `rest` numbers after them */
 };
 
-/* Each member clears what it will go over, so that it is near; the last one all that follows. */
-static void clear(int32_t member, int32_t members, void *ctx) {
+/* Each worker clears what it will go over, so that it is near; the last one all that follows. */
+static void clear(int32_t worker, int32_t workers, void *ctx) {
   const struct arrays *arrays = ctx;
-  const int last = member + 1 == members;
-  const int64_t from = hk_crew_share(arrays->n, HOOKE_TILE, member, members),
-                to = last ? arrays->stride : hk_crew_share(arrays->n, HOOKE_TILE, member + 1, members);
+  const int last = worker + 1 == workers;
+  const int64_t from = hk_pool_share(arrays->n, HOOKE_TILE, worker, workers),
+                to = last ? arrays->stride : hk_pool_share(arrays->n, HOOKE_TILE, worker + 1, workers);
   for (int64_t k = 0; k < arrays->count; k++)
     memset(arrays->block + k * arrays->stride + from, 0, (size_t)(to - from) * sizeof(double));
   if (last) memset(arrays->block + arrays->count * arrays->stride, 0, (size_t)arrays->rest * sizeof(double));
@@ -66,7 +66,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   double *block = hk_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   struct arrays cleared = {block, n, arrays, stride, numbers - components};
-  hk_crew_run(motion->crew, clear, &cleared);
+  hk_pool_run(motion->pool, clear, &cleared);
   motion->n = n;
   motion->memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
@@ -114,22 +114,22 @@ static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion)
 
 static int32_t new_scratch(const hooke_system *system, struct hk_motion *motion) {
   if (system->lanes.count > 0) {
-    motion->rings = hk_rings_create(&system->lanes, hk_crew_members(motion->crew));
+    motion->rings = hk_rings_create(&system->lanes, hk_pool_members(motion->pool));
     if (motion->rings == NULL) return HOOKE_NO_MEMORY;
   }
   if (system->net.particles > 0) {
-    motion->net = hk_net_scratch_create(&system->net, hk_crew_members(motion->crew));
+    motion->net = hk_net_scratch_create(&system->net, hk_pool_members(motion->pool));
     if (motion->net == NULL) return HOOKE_NO_MEMORY;
   }
   motion->memory += hk_rings_memory(motion->rings) + hk_net_scratch_memory(motion->net);
   return HOOKE_OK;
 }
 
-int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_crew *crew,
+int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_pool *pool,
                          struct hk_motion **out) {
   struct hk_motion *motion = hk_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
-  motion->crew = crew;
+  motion->pool = pool;
   motion->order = by_tiles ? system->net.order : NULL;
   motion->w = motion->order ? system->net.inverse_mass : system->inverse_mass;
   int32_t status = new_arrays(system, by_tiles, motion);
@@ -243,11 +243,11 @@ struct copying {
   int32_t back;
 };
 
-static void copy_share(int32_t member, int32_t members, void *ctx) {
+static void copy_share(int32_t worker, int32_t workers, void *ctx) {
   const struct copying *copying = ctx;
   const struct hk_motion *m = copying->motion;
-  const int64_t from = hk_crew_share(m->n, HOOKE_TILE, member, members),
-                count = hk_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  const int64_t from = hk_pool_share(m->n, HOOKE_TILE, worker, workers),
+                count = hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers) - from;
   for (int a = 0; a < 6; a++) {
     double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->place + a * m->n + from;
     memcpy(copying->back ? here : there, copying->back ? there : here, (size_t)count * sizeof(double));
@@ -255,17 +255,17 @@ static void copy_share(int32_t member, int32_t members, void *ctx) {
 }
 
 void hk_motion_save(const struct hk_motion *motion, double *place) {
-  hk_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 0});
+  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, place, 0});
 }
 
 void hk_motion_restore(struct hk_motion *motion, double *place) {
-  hk_crew_run(motion->crew, copy_share, &(struct copying){motion, place, 1});
+  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, place, 1});
 }
 
-static void clear_forces(int32_t member, int32_t members, void *ctx) {
+static void clear_forces(int32_t worker, int32_t workers, void *ctx) {
   const struct hk_motion *m = ctx;
-  const int64_t from = hk_crew_share(m->n, HOOKE_TILE, member, members),
-                count = hk_crew_share(m->n, HOOKE_TILE, member + 1, members) - from;
+  const int64_t from = hk_pool_share(m->n, HOOKE_TILE, worker, workers),
+                count = hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers) - from;
   for (int a = 0; a < 3; a++)
     memset(m->f[a] + from, 0, (size_t)count * sizeof(double));
 }
@@ -276,7 +276,7 @@ int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, d
 
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
                                  const struct hk_force_row *left_out) {
-  hk_crew_run(motion->crew, clear_forces, motion);
+  hk_pool_run(motion->pool, clear_forces, motion);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add == NULL || row == left_out) continue;

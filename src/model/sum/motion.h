@@ -4,7 +4,7 @@
 #ifndef HOOKE_MODEL_SUM_MOTION_H
 #define HOOKE_MODEL_SUM_MOTION_H
 
-#include "core/crew.h"
+#include "core/thread_pool.h"
 #include "model/system.h"
 
 struct hk_force_row;
@@ -13,7 +13,7 @@ struct hk_net_scratch;
 
 struct hk_motion {
   int64_t n;
-  struct hk_crew *crew;       /* that goes over tiles; NULL: the caller alone */
+  struct hk_pool *pool;       /* that goes over tiles; NULL: the caller alone */
   double *q[3], *v[3], *f[3]; /* n each, in one block; f NULL if particles are moved by tiles */
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
   const double *w;            /* inverse masses */
@@ -36,8 +36,8 @@ int32_t hk_goes_by_tiles(const hooke_system *system);
 int32_t hk_motion_members(const hooke_system *system, int32_t most);
 
 /* With `by_tiles` the motion may be moved by hk_motion_pass() alone; only for systems that go by tiles. The
- * crew (NULL: none) has to outlive the motion. */
-int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_crew *crew,
+ * pool (NULL: none) has to outlive the motion. */
+int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_pool *pool,
                          struct hk_motion **motion);
 void hk_motion_destroy(struct hk_motion *motion);
 

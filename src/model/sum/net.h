@@ -5,7 +5,7 @@
  * the springs that begin in a tile go, on their lower ends, into a list of the tile and, on their upper ends,
  * into a ring, which reaches back to the first spring that ends in it; each particle then takes its springs
  * from both in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the
- * particles of a tile after that, so its positions may move at once. Members of a crew have ranges of tiles:
+ * particles of a tile after that, so its positions may move at once. Workers of a thread pool have ranges of tiles:
  * they do the springs that end in their range from earlier ones too, and save what they need of later ones,
  * before anything moves. */
 #ifndef HOOKE_MODEL_SUM_NET_H
@@ -72,9 +72,9 @@ void hk_net_classify(const struct hk_springs *springs, struct hk_net *net, int32
 /* Numbers in window, list and ring. */
 int64_t hk_net_numbers(const struct hk_net *net);
 
-/* Windows and rings of one pass at a time by so many members of a crew. NULL without memory. */
+/* Windows and rings of one pass at a time by so many workers of a thread pool. NULL without memory. */
 struct hk_net_scratch;
-struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t members);
+struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t workers);
 void hk_net_scratch_destroy(struct hk_net_scratch *scratch);
 int64_t hk_net_scratch_memory(const struct hk_net_scratch *scratch);
 
@@ -84,7 +84,7 @@ typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx)
 struct hk_motion;
 
 /* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a
- * rest length but no direction. Members of its crew go over tiles of their own at the same time, each in
+ * rest length but no direction. Workers of its pool go over tiles of their own at the same time, each in
  * ascending order. */
 int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx);
 

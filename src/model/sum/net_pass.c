@@ -97,15 +97,15 @@ static void prepare(const struct pass *pass, struct hk_net_share *share) {
   if (from < share->saved_end) copy_rows(pass, from, share->saved_end, share->saved);
 }
 
-static void go_over(int32_t member, int32_t members, void *ctx) {
-  (void)members;
+static void go_over(int32_t worker, int32_t workers, void *ctx) {
+  (void)workers;
   const struct pass *pass = ctx;
   const struct hk_net *net = pass->net;
   struct hk_motion *m = pass->motion;
-  struct hk_net_share *share = &m->net->share[member];
+  struct hk_net_share *share = &m->net->share[worker];
   const void *place = share->place;
   prepare(pass, share);
-  hk_crew_meet(m->crew);
+  hk_pool_barrier(m->pool);
   for (int64_t t = share->first; t < share->end; t++) {
     const int64_t from = t * HOOKE_TILE, end = least(from + HOOKE_TILE, net->particles);
     fill_tile(pass, share, t, share->end * HOOKE_TILE);
@@ -117,8 +117,8 @@ static void go_over(int32_t member, int32_t members, void *ctx) {
 int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx) {
   struct pass pass = {net, motion, tile, ctx};
   int64_t lost = 0;
-  hk_crew_run(motion->crew, go_over, &pass);
-  for (int32_t m = 0; m < motion->net->members; m++)
+  hk_pool_run(motion->pool, go_over, &pass);
+  for (int32_t m = 0; m < motion->net->workers; m++)
     lost += motion->net->share[m].lost;
   return lost;
 }

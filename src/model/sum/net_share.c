@@ -42,10 +42,10 @@ static const void *place_of(const struct hk_net *net, int64_t particle) {
                    : (const void *)((const uint16_t *)net->force + at);
 }
 
-static void place(const struct hk_net *net, int32_t member, int32_t members, struct hk_net_share *share) {
+static void place(const struct hk_net *net, int32_t worker, int32_t workers, struct hk_net_share *share) {
   const int64_t work = work_before(net, net->tiles);
-  share->first = tile_at(net, work * member / members);
-  share->end = tile_at(net, work * (member + 1) / members);
+  share->first = tile_at(net, work * worker / workers);
+  share->end = tile_at(net, work * (worker + 1) / workers);
   share->begin = begin_of(net, share->first, share->end);
   const int64_t first = share->first * HOOKE_TILE; /* past the last particle if no tile is left */
   share->place = place_of(net, first < net->particles ? first : net->particles);
@@ -57,7 +57,7 @@ static int64_t saved_rows(const struct hk_net_share *share) {
   return rows > 0 ? rows : 0;
 }
 
-/* A block of its own for each member, so that no two write to one page. */
+/* A block of its own for each worker, so that no two write to one page. */
 static int32_t new_block(const struct hk_net *net, struct hk_net_share *share, int64_t *memory) {
   const int64_t numbers = hk_net_numbers(net) + HOOKE_NET_ROW * saved_rows(share) + (int64_t)3 * HOOKE_TILE;
   double *block = hk_new(numbers, sizeof(double));
@@ -71,18 +71,18 @@ static int32_t new_block(const struct hk_net *net, struct hk_net_share *share, i
   return 1;
 }
 
-struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t members) {
+struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t workers) {
   struct hk_net_scratch *scratch = hk_new(1, sizeof *scratch);
   if (scratch == NULL) return NULL;
-  scratch->members = members;
+  scratch->workers = workers;
   scratch->loops = hk_spring_set(0)->net;
   for (int32_t c = 0; c < net->classes; c++)
     scratch->damped |= net->class[c].shape & HOOKE_NET_DAMPED;
-  scratch->share = hk_new(members, sizeof *scratch->share);
-  scratch->memory = (int64_t)sizeof *scratch + members * (int64_t)sizeof *scratch->share;
+  scratch->share = hk_new(workers, sizeof *scratch->share);
+  scratch->memory = (int64_t)sizeof *scratch + workers * (int64_t)sizeof *scratch->share;
   int there = scratch->share != NULL;
-  for (int32_t m = 0; m < members && there; m++) {
-    place(net, m, members, &scratch->share[m]);
+  for (int32_t m = 0; m < workers && there; m++) {
+    place(net, m, workers, &scratch->share[m]);
     there = new_block(net, &scratch->share[m], &scratch->memory);
   }
   if (there) return scratch;
@@ -92,7 +92,7 @@ struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t m
 
 void hk_net_scratch_destroy(struct hk_net_scratch *scratch) {
   if (scratch == NULL) return;
-  for (int32_t m = 0; m < scratch->members && scratch->share; m++)
+  for (int32_t m = 0; m < scratch->workers && scratch->share; m++)
     hk_free(scratch->share[m].rows);
   hk_free(scratch->share);
   hk_free(scratch);

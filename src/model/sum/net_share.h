@@ -1,10 +1,10 @@
-/* What the members of a crew go over and keep in a pass over a net. */
+/* What the workers of a thread pool go over and keep in a pass over a net. */
 #ifndef HOOKE_MODEL_SUM_NET_SHARE_H
 #define HOOKE_MODEL_SUM_NET_SHARE_H
 
 #include "model/sum/net.h"
 
-/* A member has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles
+/* A worker has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles
  * from `begin` on, which end in its own, and saves the rows of the particles from its last one to `saved_end`
  * - 1, which others move. */
 struct hk_net_share {
@@ -16,7 +16,7 @@ struct hk_net_share {
 };
 
 struct hk_net_scratch {
-  int32_t members, damped;
+  int32_t workers, damped;
   struct hk_net_share *share;
   const struct hk_net_loops *loops;
   int64_t memory;

@@ -10,24 +10,24 @@
  * its rest length is its length. One that only pulls counts as taut. One of length 0 is linear as it is if it
  * wants to be of length 0, and else has no force and is left out. Bending is linear as it is. A constant
  * force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. */
-#ifndef HOOKE_MEASURE_SPECTRUM_FROZEN_H
-#define HOOKE_MEASURE_SPECTRUM_FROZEN_H
+#ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
+#define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 
 #include "model/system.h"
 
 /* A spring as its displacements see it. */
-struct hk_frozen_spring {
+struct hk_twin_spring {
   int64_t head, tail;
   double u[3];                 /* direction; zeros where it has none */
   double kappa, across, gamma; /* stiffness along and across it, damping along it */
 };
 
-struct hk_frozen {
+struct hk_twin {
   hooke_system *system; /* committed */
   double *place;        /* where it rests, 3n */
   double *balance;      /* the constant force, 3n; NULL: none is needed */
   int64_t spring_count;
-  struct hk_frozen_spring *spring; /* those with a free end */
+  struct hk_twin_spring *spring; /* those with a free end */
   int64_t altitude_count;
   struct hk_altitude_view *altitude; /* those with a free corner */
   int64_t clamped, left_out,
@@ -37,17 +37,17 @@ struct hk_frozen {
 };
 
 /* `q`: 3n positions of a committed system. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hk_frozen_create(const hooke_system *system, const double *q, struct hk_frozen *frozen);
-void hk_frozen_release(struct hk_frozen *frozen);
+int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin);
+void hk_twin_release(struct hk_twin *twin);
 
 /* Twice the energy of the displacement from `place` and the velocity (3n each): x.Kx + v.Mv. */
-double hk_frozen_energy(const struct hk_frozen *frozen, const double *q, const double *v);
+double hk_twin_energy(const struct hk_twin *twin, const double *q, const double *v);
 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act
  * on. */
-void hk_frozen_push(const struct hk_frozen *frozen, const double *x, double *out);
+void hk_twin_push(const struct hk_twin *twin, const double *x, double *out);
 
 /* A spring at q as its displacements see it, clamped as above; one of length 0 is stiff in all directions. */
-struct hk_frozen_spring hk_frozen_view(const struct hk_spring *spring, const double *q);
+struct hk_twin_spring hk_twin_view(const struct hk_spring *spring, const double *q);
 
 #endif

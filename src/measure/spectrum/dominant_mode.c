@@ -1,4 +1,4 @@
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -41,25 +41,25 @@ static void begin(const struct hk_linearised *lin, const double *start, double *
     mode[k] = start[k] / length + NOISE * mode[k] / size;
 }
 
-int32_t hk_top_mode(struct hk_linearised *lin, double a, double b, const double *start, double accuracy,
-                    double *value, double *mode) {
+int32_t hk_dominant_mode(struct hk_linearised *lin, double a, double b, const double *start, double accuracy,
+                         double *value, double *mode) {
   *value = 0.0;
   memset(mode, 0, (size_t)lin->size * sizeof(double));
   if (lin->unknowns == 0) return HOOKE_OK;
-  hk_linearised_weigh(lin, a, b);
+  hk_linearised_combine(lin, a, b);
   if (lin->unknowns <= DENSE_UNKNOWNS) return dense(lin, value, mode);
   double *room = hk_new(lin->size, sizeof(double));
   if (room == NULL) return HOOKE_NO_MEMORY;
   begin(lin, start, room);
   int32_t status = HOOKE_SOLVER_FAILED;
   if (HOOKE_HAVE_ARPACK && lin->unknowns <= HOOKE_ARPACK_UNKNOWNS)
-    status = hk_top_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
+    status = hk_dominant_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
   if (status == HOOKE_SOLVER_FAILED) {
     begin(lin, start, room);
     /* few unknowns, many digits: turns are cheap, and far beyond the accuracy they converge quickly */
     const int few = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS;
-    status =
-        hk_top_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value, room);
+    status = hk_dominant_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value,
+                                      room);
   }
   memcpy(mode, room, (size_t)lin->size * sizeof(double));
   hk_free(room);

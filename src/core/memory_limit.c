@@ -1,4 +1,4 @@
-#include "core/room.h"
+#include "core/memory_limit.h"
 
 #include "core/print.h"
 #include "core/status.h"
@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-double hk_room(const char **which) {
+double hk_memory_limit(const char **which) {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   const double physical = pages > 0 && page > 0 ? (double)pages * (double)page : (double)INFINITY;
   struct rlimit space;
@@ -29,9 +29,9 @@ const char *hk_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]) {
   return shown;
 }
 
-int32_t hk_room_require(double limit, double bytes, const char *what) {
+int32_t hk_memory_require(double limit, double bytes, const char *what) {
   const char *which = "the limit that was set";
-  const double room = limit > 0.0 ? limit : hk_room(&which);
+  const double room = limit > 0.0 ? limit : hk_memory_limit(&which);
   if (bytes <= room) return HOOKE_OK;
   char needed[HOOKE_BYTES_SHOWN], there[HOOKE_BYTES_SHOWN];
   return hk_fail(HOOKE_NO_MEMORY, NULL,

@@ -1,5 +1,5 @@
 /* ARPACK-NG: implicitly restarted Lanczos, fully orthogonalised (Lehoucq, Sorensen and Yang 1998). */
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -87,8 +87,8 @@ static int32_t run(struct search *s) {
   return s->info == 0 && s->parameter[4] >= s->count ? HOOKE_OK : HOOKE_SOLVER_FAILED;
 }
 
-int32_t hk_top_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
-                            double *mode) {
+int32_t hk_dominant_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
+                                 double *mode) {
   struct search s = {.tolerance = tolerance};
   if (lin->unknowns <= count) return HOOKE_SOLVER_FAILED;
   int32_t status = make_room(lin, count, &s);
@@ -110,8 +110,8 @@ int32_t hk_top_modes_arpack(struct hk_linearised *lin, int64_t count, double tol
 
 #else
 
-int32_t hk_top_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
-                            double *mode) {
+int32_t hk_dominant_modes_arpack(struct hk_linearised *lin, int64_t count, double tolerance, double *value,
+                                 double *mode) {
   (void)lin, (void)count, (void)tolerance, (void)value, (void)mode;
   return hk_fail(HOOKE_NOT_BUILT, NULL, "this build is without ARPACK");
 }

@@ -4,7 +4,7 @@
 #include "check.h"
 #include "sanitized.h"
 
-#include "core/room.h"
+#include "core/memory_limit.h"
 #include "io/scene/json_scan.h"
 #include "model/system.h"
 
@@ -263,8 +263,8 @@ static void bytes_are_shown_in_three_digits(void **unused) {
                {999.6e9, "1 TB"}, {2.5e25, "2.5e+07 EB"}, {1.5e6, "1.5 MB"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
     assert_string_equal(hk_show_bytes(cases[k].bytes, shown), cases[k].text);
-  check_ok(hk_room_require(100.0, 100.0, "it"));
-  check_status(hk_room_require(100.0, 101.0, "it"), HOOKE_NO_MEMORY);
+  check_ok(hk_memory_require(100.0, 100.0, "it"));
+  check_status(hk_memory_require(100.0, 101.0, "it"), HOOKE_NO_MEMORY);
   assert_string_equal(
       hooke_last_error(),
       "it needs 101 bytes of memory; there are 100 bytes (the limit that was set); allowed: less "
@@ -277,7 +277,7 @@ static void a_limit_on_the_address_space_counts(void **unused) {
   struct rlimit before;
   const char *which = NULL;
   assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
-  const double all = hk_room(&which);
+  const double all = hk_memory_limit(&which);
   assert_true(all > 1e6);
   if (HOOKE_SANITIZED) return; /* which reserves a great deal of it */
   struct rlimit less = before;
@@ -286,7 +286,7 @@ static void a_limit_on_the_address_space_counts(void **unused) {
   struct rlimit now;
   assert_int_equal(getrlimit(RLIMIT_AS, &now), 0);
   if (now.rlim_cur != less.rlim_cur) return; /* an emulator that keeps none */
-  check_close(hk_room(&which), (double)less.rlim_cur, 0.0);
+  check_close(hk_memory_limit(&which), (double)less.rlim_cur, 0.0);
   assert_string_equal(which, "the limit on the address space");
   assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
 }

@@ -1,5 +1,5 @@
 /* Lanczos's recurrence, restarted from its best vector when its memory is full. */
-#include "measure/spectrum/top_mode.h"
+#include "measure/spectrum/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -114,7 +114,7 @@ static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *
   return status;
 }
 
-int32_t hk_top_mode_lanczos(struct hk_linearised *lin, double accuracy, double *value, double *mode) {
+int32_t hk_dominant_mode_lanczos(struct hk_linearised *lin, double accuracy, double *value, double *mode) {
   struct lanczos z;
   int done = 0;
   const int64_t begun = lin->products;
