@@ -4,6 +4,8 @@
 #include "core/keep_errno.h"
 #include "core/status.h"
 
+#include <stddef.h>
+
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
