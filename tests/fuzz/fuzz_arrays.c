@@ -2,7 +2,8 @@
  * message.
  *
  * Lines of: src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c
- * src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c Longest input: 148 */
+ *           src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c
+ * Longest input: 148 */
 #include "container.h"
 #include "fuzz.h"
 
