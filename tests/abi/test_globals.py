@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 # The message of the thread, and a lock around each library that takes one thread at a time.
-VARIABLES = {"status.c.o": {"last"}, "file_h5.c.o": {"alone", "guards"}, "top_modes_arpack.c.o": {"alone"},
+VARIABLES = {"status.c.o": {"last"}, "file_h5.c.o": {"alone", "guards"}, "dominant_modes_arpack.c.o": {"alone"},
              "handle.c.o": {"alive", "mutex"}}  # of builds that check handles
 
 FORBIDDEN = set(

@@ -1,5 +1,5 @@
 """Exported symbols: the shared library has those of symbols.txt, which are those that the headers declare; the static
-one has no global name outside hooke_."""
+one has no global name outside hooke_ and hk_."""
 
 import os
 import re
@@ -29,9 +29,9 @@ def exported(text):
 
 
 def strangers(text):
-    """Global names in the output of nm -g that do not start with hooke_."""
+    """Global names in the output of nm -g that start neither with hooke_ nor with hk_."""
     names = re.findall(r"^[0-9a-f]{8,} [A-Z] (\S+)$", text, flags=re.MULTILINE)
-    return sorted({n for n in names if not n.startswith("hooke_")})
+    return sorted({n for n in names if not n.startswith(("hooke_", "hk_"))})
 
 
 def differences(have, want, what):

@@ -308,7 +308,7 @@ static void unknown_names_are_answered_with_names(void **state) {
   check_status(hooke_options_set_number(o, "velocity_of_light", 1), HOOKE_BAD_VALUE);
   assert_null(strstr(hooke_last_error(), "did you mean"));
   check_status(hooke_options_set_number(o, "step.size", 1), HOOKE_BAD_VALUE);
-  check_message("step.size: step has no workers");
+  check_message("step.size: step has no members");
   check_status(hooke_options_set_number(o, "\x1b[2J", 1), HOOKE_BAD_VALUE);
   assert_null(strchr(hooke_last_error(), '\x1b'));
 }

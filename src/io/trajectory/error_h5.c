@@ -16,9 +16,6 @@
 
 #include <stdio.h>
 
-const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
-                                                        "energy_rise", "wanted",     "met"};
-
 struct places {
   int64_t numbers, by, note;
 };

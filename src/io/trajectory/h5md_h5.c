@@ -17,6 +17,9 @@
 #include <string.h>
 #include <unistd.h>
 
+const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
+                                                        "energy_rise", "wanted",     "met"};
+
 enum { STATUS_LENGTH = 16 }; /* less than a page, and on a multiple of it: never torn */
 
 static const char units[] =
