@@ -84,7 +84,7 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
   arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
   if (!arguments->all || !has_words(arguments->run) || !has_words(arguments->more) ||
       !has_words(arguments->limits) || !has_words(arguments->of_kind))
-    return hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
   add_table(arguments, arguments->more, NULL);
   for (int32_t i = 0; i < verb->row_count; i++)
@@ -108,9 +108,9 @@ static int unknown_flag(const struct cli_arguments *arguments, const char *word)
   snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
   flag[strcspn(flag, "=")] = '\0';
   const char *near = cli_suggest(flag, next_flag, arguments);
-  return hk_report(arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them",
-                   word, near ? ", did you mean --" : "", near ? near : "", near ? "?" : "",
-                   arguments->verb->name);
+  return cli_report(arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them",
+                    word, near ? ", did you mean --" : "", near ? near : "", near ? "?" : "",
+                    arguments->verb->name);
 }
 
 /* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
@@ -158,16 +158,16 @@ static int take_operand(struct cli_arguments *arguments, int argc, char **argv) 
   if (instead) {
     arguments->scene = instead;
     if (optind >= argc) return HOOKE_EXIT_DONE;
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %s has a scene of its own; leave out '%s'", name,
-                     instead, argv[optind]);
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s has a scene of its own; leave out '%s'", name,
+                      instead, argv[optind]);
   }
   if (optind >= argc) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
-                     input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb));
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
+                      input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb));
   }
   if (optind + 1 < argc) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
-                     input ? "file" : "scene", argv[optind], argv[optind + 1]);
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
+                      input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }
   arguments->scene = argv[optind];
   return HOOKE_EXIT_DONE;
@@ -185,8 +185,8 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
       return unknown_flag(arguments, optopt ? letter : argv[optind - 1]);
     }
     if (code == ':')
-      return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
-    if (code == '?') return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s takes no value", argument->flag);
+      return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
+    if (code == '?') return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s takes no value", argument->flag);
     int answer = take(arguments, argument, optarg);
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
@@ -196,8 +196,8 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
   if (answer != HOOKE_EXIT_DONE) return answer;
   if (arguments->verb->kind_options) {
     if (optind + 1 >= argc) return HOOKE_EXIT_DONE;
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
-                     argv[optind + 1], arguments->scene);
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
+                      argv[optind + 1], arguments->scene);
   }
   return take_operand(arguments, argc, argv);
 }
@@ -216,7 +216,7 @@ static int find_kind(struct cli_arguments *arguments, int argc, char **argv, con
   *kind = NULL;
   if (!arguments->verb->kind_options || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
   if (argc < 2 || argv[1][0] == '-') {
-    return hk_report(
+    return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
         arguments->verb->name, arguments->verb->name);
@@ -226,9 +226,9 @@ static int find_kind(struct cli_arguments *arguments, int argc, char **argv, con
   }
   if (*kind) return HOOKE_EXIT_DONE;
   const char *near = cli_suggest(argv[1], next_kind, NULL);
-  return hk_report(arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them",
-                   argv[1], near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
-                   arguments->verb->name);
+  return cli_report(arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them",
+                    argv[1], near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
+                    arguments->verb->name);
 }
 
 int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments) {
@@ -262,7 +262,7 @@ int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, stru
     arguments->json = cli_arguments_text(arguments, "json") != NULL;
     arguments->quiet = cli_arguments_text(arguments, "quiet") != NULL;
   } else {
-    answer = hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+    answer = cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   }
   free(letters);
   free(longs);

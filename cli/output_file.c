@@ -17,10 +17,10 @@ int cli_output_file_check(const struct cli_arguments *arguments, const char *fla
   const char *slash = strrchr(file, '/');
   if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
   if (access(folder, W_OK) != 0) {
-    return hk_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file, strerror(errno));
+    return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file, strerror(errno));
   }
   if (stat(file, &there) == 0 && !S_ISREG(there.st_mode)) {
-    return hk_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
+    return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
   }
   return cli_setup_check_other_file(arguments, file);
 }
@@ -29,7 +29,7 @@ int cli_output_file_check_report(const struct cli_arguments *arguments, const ch
   if (!report) return HOOKE_EXIT_DONE;
   const char *library = hooke_build_fact("chartjs");
   if (!library || !library[0]) {
-    return hk_report(
+    return cli_report(
         arguments, HOOKE_EXIT_NOT_BUILT,
         "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and writes no "
         "reports; run without --report",

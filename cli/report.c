@@ -35,7 +35,7 @@ static void say(const struct cli_arguments *arguments, const char *message) {
   fputc('\n', stderr);
 }
 
-int hk_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
+int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
@@ -55,7 +55,7 @@ int hk_report(const struct cli_arguments *arguments, int code, const char *forma
 
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
   const char *message = hooke_last_error();
-  return hk_report(arguments, cli_exit_code(status), "%s", message[0] ? message : hooke_status_name(status));
+  return cli_report(arguments, cli_exit_code(status), "%s", message[0] ? message : hooke_status_name(status));
 }
 
 void cli_report_words(const struct cli_arguments *arguments, const char *format, ...) {
@@ -166,6 +166,6 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   cli_report_methods(list, sizeof list);
   const char *near = cli_suggest(name, next_method, NULL);
-  return hk_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
-                   flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
+  return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
+                    flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
 }

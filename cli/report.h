@@ -15,7 +15,7 @@ int cli_refusal(const struct cli_arguments *arguments);
 
 /* Prints "hooke VERB: message" on standard error and, with --json, {"error": {"exit", "message"}} on standard
  * output. Returns `code`. */
-int hk_report(const struct cli_arguments *arguments, int code, const char *format, ...)
+int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* The same with the library's message about `status`. */

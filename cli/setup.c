@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
 #include "report.h"
+#include "unit.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -50,7 +51,7 @@ static void give_back(void) {
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
-  if (ferror(stdin)) return hk_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
+  if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   setup->options = hooke_scene_run_options(setup->scene);
   status = cli_arguments_apply(arguments, setup->options);
@@ -69,29 +70,29 @@ void cli_setup_destroy(struct cli_setup *setup) {
 
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
   if (hooke_options_number_count(setup->options, "duration") > 0) return HOOKE_EXIT_DONE;
-  return hk_report(arguments, HOOKE_EXIT_USAGE,
-                   "no duration: the scene's run names none; give one in seconds, such as --duration 1");
+  return cli_report(arguments, HOOKE_EXIT_USAGE,
+                    "no duration: the scene's run names none; give one in seconds, such as --duration 1");
 }
 
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method) {
   if (hooke_method_is_adaptive(method) < 0) { /* one given as an option was refused before */
-    return hk_report(arguments, HOOKE_EXIT_BAD_INPUT,
-                     "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
-                     method);
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                      "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
+                      method);
   }
   if (!hooke_method_is_built(method)) {
-    return hk_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                     "%s is not in this build of hooke; 'hooke --version' says what it was built with",
-                     method);
+    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                      method);
   }
   int code = cli_setup_require_duration(arguments, setup);
   if (code != HOOKE_EXIT_DONE) return code;
   if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(setup->options, "step") == 0) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
-                     "seconds, such as --step 1e-3",
-                     method);
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
+                      "seconds, such as --step 1e-3",
+                      method);
   }
   return HOOKE_EXIT_DONE;
 }
@@ -101,8 +102,8 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
   struct stat in, out;
   if (output && stat(input, &in) == 0 && stat(output, &out) == 0 && in.st_dev == out.st_dev &&
       in.st_ino == out.st_ino) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output", output,
-                     what);
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output",
+                      output, what);
   }
   return HOOKE_EXIT_DONE;
 }
@@ -119,18 +120,38 @@ static int is_written(const char *file) {
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
   const int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
   if (code != HOOKE_EXIT_DONE || !output || !is_written(output)) return code;
-  return hk_report(arguments, HOOKE_EXIT_IO,
-                   "%s: another run is writing this file; wait for it to end, or name another file", output);
+  return cli_report(arguments, HOOKE_EXIT_IO,
+                    "%s: another run is writing this file; wait for it to end, or name another file", output);
 }
 
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output) {
   const char *hdf5 = hooke_build_fact("hdf5");
   if (output && (!hdf5 || !hdf5[0])) {
-    return hk_report(
+    return cli_report(
         arguments, HOOKE_EXIT_NOT_BUILT,
         "-o %s: this build of hooke has no HDF5 and writes no trajectories; run without -o, or build "
         "hooke with HDF5",
         output);
   }
   return cli_setup_check_other_file(arguments, output);
+}
+
+int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, const char *base,
+                         double *value) {
+  const char *text = cli_arguments_text(arguments, name);
+  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
+  hooke_options *options = NULL;
+  if (!text) return HOOKE_EXIT_DONE;
+  char *plain = cli_unit_read(text, base, word);
+  if (!plain) {
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name, text,
+                      word, cli_unit_list(base, list));
+  }
+  int32_t status = hooke_study_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
+  if (status == HOOKE_OK) *value = hooke_options_number(options, name);
+  hooke_options_destroy(options);
+  free(plain);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE
+                            : cli_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
 }

@@ -30,4 +30,10 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output);
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
+/* The number in `base` ("m" or "s") given as --`name`, an option of studies, whose table knows what is
+ * allowed, where the verb has it as words; `value` stays as it is where it is not given. A failure is
+ * reported and gives the exit code. */
+int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, const char *base,
+                         double *value);
+
 #endif

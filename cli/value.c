@@ -41,10 +41,10 @@ static int check_rows(const struct cli_arguments *arguments, const struct cli_ar
     const size_t length = strcspn(at, ";");
     const int64_t count = length ? count_pieces(at, length) : 0;
     if (count != columns) {
-      return hk_report(arguments, cli_refusal(arguments),
-                       "--%s %s: row [%lld] has %lld number%s; allowed: %s", argument->flag, argument->text,
-                       (long long)row, (long long)count, count == 1 ? "" : "s",
-                       hooke_options_row(argument->table, argument->row, "allowed"));
+      return cli_report(arguments, cli_refusal(arguments),
+                        "--%s %s: row [%lld] has %lld number%s; allowed: %s", argument->flag, argument->text,
+                        (long long)row, (long long)count, count == 1 ? "" : "s",
+                        hooke_options_row(argument->table, argument->row, "allowed"));
     }
     at += length;
     if (*at++ == '\0') break;
@@ -64,7 +64,7 @@ static char *with_commas(const struct cli_argument *argument) {
 }
 
 static int out_of_memory(const struct cli_arguments *arguments) {
-  return hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
 }
 
 static int in_si_units(const struct cli_arguments *arguments, const struct cli_argument *argument,
@@ -75,9 +75,9 @@ static int in_si_units(const struct cli_arguments *arguments, const struct cli_a
   char *read = cli_unit_read(*text, unit, word);
   if (!read && !word[0]) return out_of_memory(arguments);
   if (!read) {
-    return hk_report(arguments, cli_refusal(arguments),
-                     "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
-                     argument->flag, argument->text, word, cli_unit_list(unit, list), unit);
+    return cli_report(arguments, cli_refusal(arguments),
+                      "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
+                      argument->flag, argument->text, word, cli_unit_list(unit, list), unit);
   }
   free(*text);
   *text = read;
@@ -123,8 +123,8 @@ int cli_value_set(const struct cli_arguments *arguments, const struct cli_argume
   const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
-  return hk_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
-                   without_name(hooke_last_error(), argument->name));
+  return cli_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
+                    without_name(hooke_last_error(), argument->name));
 }
 
 /* ---- examples ---- */
@@ -140,24 +140,4 @@ const char *cli_value_example(const hooke_options *table, int64_t row, char text
     if (is_size(table, row)) *at = 'x';
   }
   return text;
-}
-
-int cli_value_of_study(const struct cli_arguments *arguments, const char *name, const char *base,
-                       double *value) {
-  const char *text = cli_arguments_text(arguments, name);
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  hooke_options *options = NULL;
-  if (!text) return HOOKE_EXIT_DONE;
-  char *plain = cli_unit_read(text, base, word);
-  if (!plain) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name, text,
-                     word, cli_unit_list(base, list));
-  }
-  int32_t status = hooke_study_options_create(&options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
-  if (status == HOOKE_OK) *value = hooke_options_number(options, name);
-  hooke_options_destroy(options);
-  free(plain);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : hk_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
 }

@@ -15,12 +15,6 @@ int cli_value_read(const struct cli_arguments *arguments, struct cli_argument *a
 /* Gives `argument->value` to its table. */
 int cli_value_set(const struct cli_arguments *arguments, const struct cli_argument *argument);
 
-/* The number in `base` ("m" or "s") given as --`name`, an option of studies, whose table knows what is
- * allowed, where the verb has it as words; `value` stays as it is where it is not given. A failure is
- * reported and gives the exit code. */
-int cli_value_of_study(const struct cli_arguments *arguments, const char *name, const char *base,
-                       double *value);
-
 enum { HOOKE_EXAMPLE_SIZE = 128 };
 
 /* The example of a row as it is typed ("1,0,0;0,0,1", "16x16"), "" if it has none. Returns `text`. */

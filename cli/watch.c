@@ -30,7 +30,7 @@ static double seconds_since(const struct timespec *from, const struct timespec *
   return (double)(now->tv_sec - from->tv_sec) + 1e-9 * (double)(now->tv_nsec - from->tv_nsec);
 }
 
-void cli_watch_start(struct hk_watch *watch, const struct cli_arguments *arguments) {
+void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments) {
   watch->show = !arguments->quiet && isatty(STDERR_FILENO);
   watch->shown = 0;
   clock_gettime(CLOCK_MONOTONIC, &watch->start);
@@ -51,7 +51,7 @@ static void print_left(double seconds) {
   }
 }
 
-static void show(struct hk_watch *watch, double done, const char *what, double elapsed) {
+static void show(struct cli_watch *watch, double done, const char *what, double elapsed) {
   char bar[BAR + 1];
   for (int i = 0; i < BAR; i++)
     bar[i] = (double)i < done * BAR ? '#' : '.';
@@ -64,7 +64,7 @@ static void show(struct hk_watch *watch, double done, const char *what, double e
   watch->shown = 1;
 }
 
-int32_t cli_watch_tell(struct hk_watch *watch, double done, const char *what) {
+int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what) {
   if (interrupted) return 1;
   if (!watch->show) return 0;
   struct timespec now;
@@ -80,7 +80,7 @@ int32_t cli_watch_progress(double done, const char *what, void *watch) {
   return cli_watch_tell(watch, done, what);
 }
 
-void cli_watch_end(struct hk_watch *watch) {
+void cli_watch_end(struct cli_watch *watch) {
   if (watch->shown) fputs("\r\033[K", stderr);
   watch->shown = 0;
 }

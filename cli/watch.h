@@ -9,23 +9,23 @@
 
 #define HOOKE_BETWEEN_LOOKS 0.01 /* [s] at signals, while a run goes on */
 
-struct hk_watch {
+struct cli_watch {
   int32_t show; /* standard error is a terminal, and words are wanted */
   int32_t shown;
   struct timespec start, last;
 };
 
 /* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; no number of them kills. */
-void cli_watch_start(struct hk_watch *watch, const struct cli_arguments *arguments);
+void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments);
 
 /* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */
-int32_t cli_watch_tell(struct hk_watch *watch, double done, const char *what);
+int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what);
 
 /* The same as a hooke_progress of the library, with the watch as its context. */
 int32_t cli_watch_progress(double done, const char *what, void *watch);
 
 /* Takes the line of progress away. Signals stay caught, so that what was computed can be put away. */
-void cli_watch_end(struct hk_watch *watch);
+void cli_watch_end(struct cli_watch *watch);
 
 /* 1 if a signal came. */
 int32_t cli_watch_interrupted(void);

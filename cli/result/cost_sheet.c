@@ -11,7 +11,7 @@ enum { LEAST_WIDTH = 16 };
 
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
                         hooke_cost **cost) {
-  struct hk_watch watch;
+  struct cli_watch watch;
   int32_t status = hooke_cost_create(setup->system, setup->options, arguments->more, cost);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);

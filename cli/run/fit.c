@@ -52,14 +52,15 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
   if (safe == 0.0)
-    return hk_report(fit->arguments, HOOKE_EXIT_USAGE,
-                     "no step: %s is certain to be stable here at no step; give one with --step, or take "
-                     "another method",
-                     method);
-  return hk_report(fit->arguments, HOOKE_EXIT_USAGE,
-                   "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
-                   "give one with --step, or take another method",
-                   method, safe);
+    return cli_report(fit->arguments, HOOKE_EXIT_USAGE,
+                      "no step: %s is certain to be stable here at no step; give one with --step, or take "
+                      "another method",
+                      method);
+  return cli_report(
+      fit->arguments, HOOKE_EXIT_USAGE,
+      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
+      "give one with --step, or take another method",
+      method, safe);
 }
 
 static int choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {

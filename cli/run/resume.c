@@ -20,13 +20,13 @@ static int32_t may_be_given(const char *name) {
 int cli_resume_check(const struct cli_arguments *arguments) {
   const char *file = cli_arguments_text(arguments, "resume");
   if (!file && cli_arguments_text(arguments, "checkpoint") && !cli_arguments_text(arguments, "output")) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "--checkpoint keeps places to go on from beside the output; give one with -o OUT.h5");
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "--checkpoint keeps places to go on from beside the output; give one with -o OUT.h5");
   }
   for (int32_t i = 0; file && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || may_be_given(argument->name)) continue;
-    return hk_report(
+    return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "--resume goes on with the scene and the options of %s, so that the bits are those of a run that "
         "never stopped; leave out --%s",

@@ -8,39 +8,39 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double *position_of(const struct hk_run *run) {
+static const double *position_of(const struct cli_run *run) {
   return hooke_state_position(run->setup.state);
 }
 
-static const double *velocity_of(const struct hk_run *run) {
+static const double *velocity_of(const struct cli_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
 
-static const hooke_options *options_of(const struct hk_run *run) {
+static const hooke_options *options_of(const struct cli_run *run) {
   return hooke_integrator_options(run->integrator);
 }
 
-const char *cli_run_method(const struct hk_run *run) {
+const char *cli_run_method(const struct cli_run *run) {
   return hooke_options_text(options_of(run), "method");
 }
 
-static double option_of(const struct hk_run *run, const char *name) {
+static double option_of(const struct cli_run *run, const char *name) {
   return hooke_options_number(options_of(run), name);
 }
 
-static int is_adaptive(const struct hk_run *run) {
+static int is_adaptive(const struct cli_run *run) {
   return hooke_method_is_adaptive(cli_run_method(run)) != 0;
 }
 
 /* -1: not known, as a file keeps no count but that of steps. */
-static int64_t count_of(const struct hk_run *run, const char *what) {
+static int64_t count_of(const struct cli_run *run, const char *what) {
   if (!run->was_finished) return hooke_integrator_count(run->integrator, what);
   return strcmp(what, "steps") == 0 ? run->finished_steps : -1;
 }
 
 /* ---- for a program ---- */
 
-static void print_json_count(struct cli_json *json, const struct hk_run *run, const char *what) {
+static void print_json_count(struct cli_json *json, const struct cli_run *run, const char *what) {
   const int64_t count = count_of(run, what);
   if (count < 0)
     cli_json_number(json, what, NAN);
@@ -48,7 +48,7 @@ static void print_json_count(struct cli_json *json, const struct hk_run *run, co
     cli_json_count(json, what, count);
 }
 
-static void print_json_motion(struct cli_json *json, const struct hk_run *run) {
+static void print_json_motion(struct cli_json *json, const struct cli_run *run) {
   double momentum[3];
   cli_json_open(json, "energy", '{');
   cli_json_number(json, "initial", run->energy_before);
@@ -61,7 +61,7 @@ static void print_json_motion(struct cli_json *json, const struct hk_run *run) {
   cli_json_close(json);
 }
 
-static void print_json(const struct hk_run *run, int32_t with_final) {
+static void print_json(const struct cli_run *run, int32_t with_final) {
   const hooke_system *system = run->setup.system;
   const int32_t outcome = run->outcome;
   struct cli_json json;
@@ -108,14 +108,14 @@ static void print_quantity(double value, const char *unit) {
   printf("%s %s", cli_format_rounded(value, text), unit);
 }
 
-static void print_count(const struct hk_run *run, const char *label, const char *what) {
+static void print_count(const struct cli_run *run, const char *label, const char *what) {
   const int64_t count = count_of(run, what);
   if (count <= 0) return;
   print_row(label);
   printf("%" PRId64 "\n", count);
 }
 
-static void print_work(const struct hk_run *run) {
+static void print_work(const struct cli_run *run) {
   const int64_t springs = hooke_system_spring_count(run->setup.system);
   const int64_t steps = count_of(run, "steps");
   const double seconds = hooke_integrator_wall_seconds(run->integrator);
@@ -135,7 +135,7 @@ static void print_work(const struct hk_run *run) {
   printf("\n");
 }
 
-static void print_method(const struct hk_run *run) {
+static void print_method(const struct cli_run *run) {
   char text[HOOKE_NUMBER_SIZE];
   print_row("method");
   printf("%s, ", cli_run_method(run));
@@ -148,7 +148,7 @@ static void print_method(const struct hk_run *run) {
   }
 }
 
-static void print_motion(const struct hk_run *run) {
+static void print_motion(const struct cli_run *run) {
   double momentum[3];
   char text[HOOKE_NUMBER_SIZE];
   print_row("energy");
@@ -162,7 +162,7 @@ static void print_motion(const struct hk_run *run) {
   printf("kg m/s\n");
 }
 
-static void print_words(const struct hk_run *run) {
+static void print_words(const struct cli_run *run) {
   const hooke_system *system = run->setup.system;
   const char *title = hooke_scene_title(run->setup.scene);
   const int64_t particles = hooke_system_particle_count(system);
@@ -187,7 +187,7 @@ static void print_words(const struct hk_run *run) {
   }
 }
 
-static void print_final(const struct hk_run *run) {
+static void print_final(const struct cli_run *run) {
   const double *q = position_of(run), *v = velocity_of(run);
   char text[HOOKE_NUMBER_SIZE];
   printf("\nparticle x y z [m] vx vy vz [m/s]\n");
@@ -201,7 +201,7 @@ static void print_final(const struct hk_run *run) {
   }
 }
 
-void cli_run_print(const struct hk_run *run) {
+void cli_run_print(const struct cli_run *run) {
   if (run->arguments->json)
     print_json(run, cli_arguments_text(run->arguments, "final") != NULL);
   else
@@ -209,7 +209,7 @@ void cli_run_print(const struct hk_run *run) {
   cli_print_flush();
 }
 
-void cli_run_print_final(const struct hk_run *run) {
+void cli_run_print_final(const struct cli_run *run) {
   if (run->arguments->json || !cli_arguments_text(run->arguments, "final")) return;
   print_final(run);
   cli_print_flush();

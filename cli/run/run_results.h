@@ -7,7 +7,7 @@
 #include "watch.h"
 
 /* A run and what is kept of it. */
-struct hk_run {
+struct cli_run {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   hooke_integrator *integrator;
@@ -17,7 +17,7 @@ struct hk_run {
   int32_t was_finished;   /* 1: there was nothing to go on with */
   int64_t finished_steps; /* that such a run took; -1: its file does not say */
   int32_t kept_place;     /* 1: of an interrupted run, a checkpoint or a frame to go on from */
-  struct hk_watch watch;
+  struct cli_watch watch;
   double duration;
   int64_t frames;       /* reported so far */
   int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
@@ -30,10 +30,10 @@ struct hk_run {
   int64_t coincident_before; /* springs with both ends at one place at the start */
 };
 
-const char *cli_run_method(const struct hk_run *run);
+const char *cli_run_method(const struct cli_run *run);
 
 /* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
-void cli_run_print(const struct hk_run *run);
-void cli_run_print_final(const struct hk_run *run);
+void cli_run_print(const struct cli_run *run);
+void cli_run_print_final(const struct cli_run *run);
 
 #endif

@@ -1,7 +1,7 @@
 #include "want.h"
 
 #include "report.h"
-#include "value.h"
+#include "setup.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,14 +17,14 @@ static int refuse_typed(const struct cli_arguments *arguments) {
   char flag[HOOKE_FLAG_SIZE];
   for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++) {
     if (!cli_arguments_text(arguments, chosen[k])) continue;
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "--want picks the step or the tolerance; leave out --%s, or --want",
-                     cli_arguments_flag(chosen[k], flag));
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "--want picks the step or the tolerance; leave out --%s, or --want",
+                      cli_arguments_flag(chosen[k], flag));
   }
   return HOOKE_EXIT_DONE;
 }
 
-static void tell_choice(const struct hk_run *run, const char *done, const char *want) {
+static void tell_choice(const struct cli_run *run, const char *done, const char *want) {
   const hooke_options *options = run->setup.options;
   const char *method = hooke_options_text(options, "method");
   const int adaptive = hooke_method_is_adaptive(method);
@@ -35,13 +35,13 @@ static void tell_choice(const struct hk_run *run, const char *done, const char *
                    adaptive ? "" : " s");
 }
 
-int cli_want_pick(struct hk_run *run) {
+int cli_want_pick(struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   const char *text = cli_arguments_text(arguments, "want");
   double want = NAN;
   int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = cli_value_of_study(arguments, "want", "m", &want);
+  if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", "m", &want);
   if (code != HOOKE_EXIT_DONE) return code;
   if (!text && (run->resumed || cli_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
   int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);
@@ -58,7 +58,7 @@ int cli_want_pick(struct hk_run *run) {
 
 /* ---- after the run ---- */
 
-int32_t cli_want_measure(struct hk_run *run) {
+int32_t cli_want_measure(struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
   const int32_t status = hooke_estimate_measure(run->estimate, run->integrator, run->setup.state);
@@ -66,15 +66,15 @@ int32_t cli_want_measure(struct hk_run *run) {
   return status;
 }
 
-static double number_of(const struct hk_run *run, const char *what) {
+static double number_of(const struct cli_run *run, const char *what) {
   return hooke_estimate_number(run->estimate, what);
 }
 
-static int is_wanted(const struct hk_run *run) {
+static int is_wanted(const struct cli_run *run) {
   return run->estimate && !isnan(number_of(run, "wanted"));
 }
 
-int32_t cli_want_goes_on(struct hk_run *run) {
+int32_t cli_want_goes_on(struct cli_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
   if (cli_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
@@ -89,7 +89,7 @@ int32_t cli_want_goes_on(struct hk_run *run) {
 }
 
 /* "against the same method at half the step" and the like. */
-static const char *source_of(const struct hk_run *run, const char *by) {
+static const char *source_of(const struct cli_run *run, const char *by) {
   if (strcmp(by, "reference") == 0) return "against a reference that was checked by another";
   if (is_wanted(run))
     return strcmp(by, "tolerance") == 0 ? "against the same method at a hundredth of the tolerance"
@@ -98,7 +98,7 @@ static const char *source_of(const struct hk_run *run, const char *by) {
   return strcmp(by, "tolerance") == 0 ? "from runs at looser tolerances" : "from runs at larger steps";
 }
 
-static void warn(const struct hk_run *run) {
+static void warn(const struct cli_run *run) {
   const double rise = number_of(run, "energy_rise");
   if (rise > MOST_RISE && !run->arguments->quiet)
     cli_report_words(run->arguments,
@@ -107,7 +107,7 @@ static void warn(const struct hk_run *run) {
                      100.0 * rise);
 }
 
-static void print_verdict(const struct hk_run *run) {
+static void print_verdict(const struct cli_run *run) {
   const double met = number_of(run, "met");
   const char *note = hooke_estimate_text(run->estimate, "note");
   if (!is_wanted(run)) return;
@@ -118,7 +118,7 @@ static void print_verdict(const struct hk_run *run) {
   printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
 }
 
-void cli_want_print(const struct hk_run *run) {
+void cli_want_print(const struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return;
   const char *by = hooke_estimate_text(run->estimate, "by");
   const double from = number_of(run, "known_from"), until = number_of(run, "known_until");
@@ -139,7 +139,7 @@ void cli_want_print(const struct hk_run *run) {
   warn(run);
 }
 
-static void print_json_error(const struct hk_run *run, struct cli_json *json) {
+static void print_json_error(const struct cli_run *run, struct cli_json *json) {
   const char *by = hooke_estimate_text(run->estimate, "by");
   cli_json_open(json, "error", '{');
   cli_json_number(json, "estimate", number_of(run, "estimate"));
@@ -151,7 +151,7 @@ static void print_json_error(const struct hk_run *run, struct cli_json *json) {
   cli_json_close(json);
 }
 
-void cli_want_print_json(const struct hk_run *run, struct cli_json *json) {
+void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
   if (!run->estimate) return;
   const double met = number_of(run, "met");
   if (run->outcome == HOOKE_OK) print_json_error(run, json);
@@ -166,7 +166,7 @@ void cli_want_print_json(const struct hk_run *run, struct cli_json *json) {
   cli_json_close(json);
 }
 
-int cli_want_exit_code(const struct hk_run *run) {
+int cli_want_exit_code(const struct cli_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return HOOKE_EXIT_DONE;
   return cli_watch_interrupted() ? HOOKE_EXIT_INTERRUPTED : HOOKE_EXIT_NOT_MET;
 }

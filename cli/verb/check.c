@@ -259,7 +259,7 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (status == HOOKE_OK) warn_of_method(check);
   warn_of_coincident_springs(check);
   if (status == HOOKE_OK) status = warn_of_loose_particles(check);
-  if (status != HOOKE_OK) return hk_report(check->arguments, cli_exit_code(status), "out of memory");
+  if (status != HOOKE_OK) return cli_report(check->arguments, cli_exit_code(status), "out of memory");
   if (cli_arguments_text(check->arguments, "cost"))
     code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;

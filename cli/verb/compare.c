@@ -19,7 +19,7 @@ struct compare {
   hooke_comparison *comparison;
   hooke_comparison_file *file; /* NULL without -o */
   const char *output;
-  struct hk_watch watch;
+  struct cli_watch watch;
 };
 
 /* ---- running ---- */
@@ -53,7 +53,7 @@ static int run_all(struct compare *compare) {
   if (status != HOOKE_OK && outcome >= 0) return cli_report_status(compare->arguments, status);
   if (outcome == HOOKE_STOPPED && cli_watch_interrupted()) return HOOKE_EXIT_INTERRUPTED;
   if (outcome == HOOKE_OK) return HOOKE_EXIT_DONE;
-  return hk_report(compare->arguments, cli_exit_code(outcome), "the reference: %s", message);
+  return cli_report(compare->arguments, cli_exit_code(outcome), "the reference: %s", message);
 }
 
 /* ---- results ---- */

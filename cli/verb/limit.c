@@ -33,7 +33,7 @@ static int read_state(struct limit *l, const char *at) {
   errno = 0;
   const long long frame = colon ? strtoll(colon + 1, &end, 10) : -1;
   if (colon && (end == colon + 1 || *end || errno)) {
-    return hk_report(
+    return cli_report(
         l->arguments, HOOKE_EXIT_USAGE,
         "--at %s: allowed: a trajectory and a frame of it, FILE:FRAME, counted from 0, or from -1 "
         "backwards; the last one if not given",
@@ -41,7 +41,7 @@ static int read_state(struct limit *l, const char *at) {
   }
   hooke_record *record = NULL;
   char *file = strndup(at, colon ? (size_t)(colon - at) : strlen(at));
-  if (!file) return hk_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  if (!file) return cli_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   const char *report = cli_arguments_text(l->arguments, "report");
   const int code = cli_setup_check_apart(l->arguments, file, "the trajectory of --at", report);
   int32_t status = code == HOOKE_EXIT_DONE ? hooke_record_open(file, &record) : HOOKE_OK;
@@ -69,7 +69,7 @@ static int check_needs(const struct limit *l) {
 }
 
 static int find(struct limit *l) {
-  struct hk_watch watch;
+  struct cli_watch watch;
   int32_t status = hooke_limit_create(l->setup.system, l->setup.options, l->arguments->more, &l->limit);
   if (status != HOOKE_OK) return cli_report_status(l->arguments, status);
   cli_watch_start(&watch, l->arguments);

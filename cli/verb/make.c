@@ -48,7 +48,7 @@ static int check_required(const struct make *make) {
                quote);
   }
   if (!list[0]) return HOOKE_EXIT_DONE;
-  return hk_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
+  return cli_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
 }
 
 /* The row of `table` whose name the message begins with; -1: none. */
@@ -71,13 +71,13 @@ static int report_option(const struct make *make, const hooke_options *table, in
   const int64_t row = row_of_message(table, message);
   char flag[HOOKE_FLAG_SIZE], example[HOOKE_DOC_SIZE];
   if (row < 0 && status == HOOKE_BAD_VALUE) {
-    return hk_report(make->arguments, cli_exit_code(status), "%s; for example: %s", message,
-                     cli_describe_example(make->arguments, example));
+    return cli_report(make->arguments, cli_exit_code(status), "%s; for example: %s", message,
+                      cli_describe_example(make->arguments, example));
   }
   if (row < 0) return cli_report_status(make->arguments, status);
   const char *name = hooke_options_row(table, row, "name");
   cli_arguments_flag(name, flag);
-  return hk_report(make->arguments, cli_exit_code(status), "--%s%s", flag, message + strlen(name));
+  return cli_report(make->arguments, cli_exit_code(status), "--%s%s", flag, message + strlen(name));
 }
 
 /* ---- making ---- */
@@ -89,7 +89,7 @@ static int read_file(const struct make *make) {
   const int32_t status = hooke_mesh_read(hooke_options_text(part, "file"), part);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   if (row_of_message(part, hooke_last_error()) >= 0) return report_option(make, part, status);
-  return hk_report(make->arguments, cli_exit_code(status), "--file %s", hooke_last_error());
+  return cli_report(make->arguments, cli_exit_code(status), "--file %s", hooke_last_error());
 }
 
 static const char *text_of(const struct make *make, const char *name, const char *otherwise) {
@@ -133,7 +133,7 @@ static int read_back(struct make *make) {
   const char *name = make->output ? make->output : "standard output";
   const char *slash = make->output ? strrchr(make->output, '/') : NULL;
   char *folder = slash ? strndup(make->output, (size_t)(slash - make->output + 1)) : strdup(".");
-  if (!folder) return hk_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  if (!folder) return cli_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   int32_t status = hooke_scene_of_system(make->system, hooke_options_text(make->arguments->more, "title"),
                                          make->run, name, folder, &make->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(make->scene);

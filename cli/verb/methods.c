@@ -14,12 +14,13 @@ static const char *find_method(const char *word, size_t length) {
 
 static int add_method(const struct cli_arguments *arguments, struct cli_methods *methods, const char *name) {
   if (!hooke_method_is_built(name)) {
-    return hk_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                     "%s is not in this build of hooke; 'hooke --version' says what it was built with", name);
+    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                      name);
   }
   for (int32_t i = 0; i < methods->count; i++) {
     if (methods->name[i] == name) {
-      return hk_report(arguments, HOOKE_EXIT_USAGE, "--methods: %s is named twice", name);
+      return cli_report(arguments, HOOKE_EXIT_USAGE, "--methods: %s is named twice", name);
     }
   }
   if (methods->count < HOOKE_MOST_METHODS) methods->name[methods->count++] = name;

@@ -14,12 +14,13 @@ static int check_files(const struct cli_arguments *arguments) {
   const char *report = cli_arguments_text(arguments, "report");
   int code = HOOKE_EXIT_DONE;
   if (!cli_arguments_text(arguments, "want")) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "no want: give the error that you can live with, such as --want 1mm");
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "no want: give the error that you can live with, such as --want 1mm");
   }
   if (output && cli_arguments_text(arguments, "refine")) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
+    return cli_report(
+        arguments, HOOKE_EXIT_USAGE,
+        "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
   if (output) code = cli_output_file_check(arguments, "-o", output);
   return code == HOOKE_EXIT_DONE ? cli_output_file_check_report(arguments, report) : code;
@@ -27,7 +28,7 @@ static int check_files(const struct cli_arguments *arguments) {
 
 static int find(struct cli_needs_results *results, int32_t *stopped) {
   const struct cli_arguments *arguments = results->arguments;
-  struct hk_watch watch;
+  struct cli_watch watch;
   int32_t status =
       hooke_needs_create(results->setup.system, results->setup.options, arguments->more, &results->needs);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);

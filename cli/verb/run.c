@@ -13,30 +13,30 @@
 
 enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
 
-static double state_energy(const struct hk_run *run) {
+static double state_energy(const struct cli_run *run) {
   return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
                              hooke_state_velocity(run->setup.state));
 }
 
 /* ---- running ---- */
 
-static void keep_message(struct hk_run *run) {
+static void keep_message(struct cli_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
 }
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
-  struct hk_run *run = ctx;
+  struct cli_run *run = ctx;
   return run->estimate ? hooke_estimate_see(step, state, run->estimate) : 0;
 }
 
 static int32_t see_progress(double done, const char *method, void *ctx) {
-  struct hk_run *run = ctx;
+  struct cli_run *run = ctx;
   (void)method;
   return cli_watch_tell(&run->watch, done, NULL);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
-  struct hk_run *run = ctx;
+  struct cli_run *run = ctx;
   if (run->trajectory) run->write_status = hooke_trajectory_write(run->trajectory, step, state);
   if (run->write_status != HOOKE_OK) {
     keep_message(run);
@@ -47,7 +47,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
-  struct hk_run *run = ctx;
+  struct cli_run *run = ctx;
   (void)step;
   if (run->trajectory)
     run->write_status = hooke_trajectory_checkpoint(run->trajectory, run->integrator, state);
@@ -58,7 +58,7 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
 
 /* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs
  * nothing, and a hundredth of the run at most. */
-static int64_t stride(const struct hk_run *run) {
+static int64_t stride(const struct cli_run *run) {
   if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
@@ -72,13 +72,13 @@ static int64_t stride(const struct hk_run *run) {
 /* The library tells of each kind once a run. */
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
-  const struct hk_run *run = ctx;
+  const struct cli_run *run = ctx;
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
   cli_report_words(run->arguments, "warning: %s", sentence);
   return 0;
 }
 
-static int32_t prepare(struct hk_run *run) {
+static int32_t prepare(struct cli_run *run) {
   int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
   if (status != HOOKE_OK) return status;
   run->duration = hooke_options_number(hooke_integrator_options(run->integrator), "duration");
@@ -104,7 +104,7 @@ static int32_t prepare(struct hk_run *run) {
 
 /* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and
  * nobody from numbers that are not finite. */
-static void keep_place(struct hk_run *run) {
+static void keep_place(struct cli_run *run) {
   if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
   if (run->kept_place != HOOKE_IO_FAILED && run->kept_place != HOOKE_NO_MEMORY) return;
@@ -113,7 +113,7 @@ static void keep_place(struct hk_run *run) {
 }
 
 /* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
-static int32_t write_companion(struct hk_run *run) {
+static int32_t write_companion(struct cli_run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
   if (status == HOOKE_OK) run->frames = hooke_record_frame_count(record);
@@ -125,7 +125,7 @@ static int32_t write_companion(struct hk_run *run) {
 }
 
 /* The outcome stays what it is without an explanation. */
-static void find_why(struct hk_run *run) {
+static void find_why(struct cli_run *run) {
   if (cli_arguments_text(run->arguments, "no-why")) return;
   cli_watch_start(&run->watch, run->arguments);
   const int32_t status = cli_watch_interrupted() ? HOOKE_STOPPED
@@ -141,7 +141,7 @@ static void find_why(struct hk_run *run) {
 }
 
 /* The end of a run that had finished. */
-static int take_finished(struct hk_run *run) {
+static int take_finished(struct cli_run *run) {
   const int32_t status =
       cli_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
@@ -153,7 +153,7 @@ static int take_finished(struct hk_run *run) {
 }
 
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
-static int integrate(struct hk_run *run) {
+static int integrate(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
   run->coincident_before =
@@ -175,21 +175,21 @@ static int integrate(struct hk_run *run) {
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
   if (run->write_status != HOOKE_OK)
-    return hk_report(run->arguments, cli_exit_code(run->write_status), "%s", run->message);
+    return cli_report(run->arguments, cli_exit_code(run->write_status), "%s", run->message);
   int code = cli_exit_code(run->outcome);
   if (status != HOOKE_OK && (run->outcome >= 0 || code == HOOKE_EXIT_DIVERGED)) {
     if (run->outcome != HOOKE_OK) cli_report_words(run->arguments, "%s", run->message);
     return cli_report_status(run->arguments, status);
   }
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
-    return hk_report(run->arguments, code, "%s", run->message);
+    return cli_report(run->arguments, code, "%s", run->message);
   }
   if (run->output) status = write_companion(run);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 /* On standard error: that a run ended early, and what is kept. */
-static void tell_end(const struct hk_run *run) {
+static void tell_end(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
@@ -209,7 +209,7 @@ static void tell_end(const struct hk_run *run) {
 }
 
 /* On standard error: why, and what to do. */
-static void explain(const struct hk_run *run) {
+static void explain(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
   const char *left_out = hooke_why_text(run->why, "left_out");
@@ -219,7 +219,7 @@ static void explain(const struct hk_run *run) {
   fputs("'hooke why' on the same says more\n", stderr);
 }
 
-static void tell_coincident(const struct hk_run *run) {
+static void tell_coincident(const struct cli_run *run) {
   const int64_t before = run->coincident_before,
                 after = hooke_integrator_count(run->integrator, "coincident_springs");
   if (before > 0) {
@@ -239,7 +239,7 @@ static void tell_coincident(const struct hk_run *run) {
 }
 
 /* As at the beginning, for another run. */
-static int begin_again(struct hk_run *run) {
+static int begin_again(struct cli_run *run) {
   hooke_integrator_destroy(run->integrator);
   hooke_state_destroy(run->setup.state);
   run->integrator = NULL;
@@ -250,7 +250,7 @@ static int begin_again(struct hk_run *run) {
 }
 
 /* Runs, with a wanted error until it is met or nothing finer is known to help. */
-static int integrate_to_want(struct hk_run *run) {
+static int integrate_to_want(struct cli_run *run) {
   int code = integrate(run);
   if (!cli_arguments_text(run->arguments, "want")) return code;
   while (code == HOOKE_EXIT_DONE) {
@@ -264,7 +264,7 @@ static int integrate_to_want(struct hk_run *run) {
 }
 
 /* The error of a run that is over, after all else was told. */
-static void estimate(struct hk_run *run) {
+static void estimate(struct cli_run *run) {
   const int wanted = cli_arguments_text(run->arguments, "want") != NULL;
   const int32_t status = wanted ? HOOKE_OK : cli_want_measure(run);
   if (status == HOOKE_STOPPED)
@@ -274,13 +274,13 @@ static void estimate(struct hk_run *run) {
 }
 
 /* Into the output, which is whole already. */
-static int write_estimate(const struct hk_run *run) {
+static int write_estimate(const struct cli_run *run) {
   if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
-static int run_and_tell(struct hk_run *run) {
+static int run_and_tell(struct cli_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
   /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
@@ -299,9 +299,9 @@ static int run_and_tell(struct hk_run *run) {
 }
 
 static int do_run(const struct cli_arguments *arguments) {
-  struct hk_run run = {.arguments = arguments,
-                       .output = cli_arguments_text(arguments, "output"),
-                       .resumed = cli_arguments_text(arguments, "resume")};
+  struct cli_run run = {.arguments = arguments,
+                        .output = cli_arguments_text(arguments, "output"),
+                        .resumed = cli_arguments_text(arguments, "resume")};
   int code = cli_resume_check(arguments);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;

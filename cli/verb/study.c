@@ -22,10 +22,10 @@ static int ends_in(const char *name, const char *ending) {
 static int check_output(const struct cli_arguments *arguments, const char *output) {
   if (!output) return HOOKE_EXIT_DONE;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE,
-                     "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
-                     "whole study",
-                     output);
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
+                      "whole study",
+                      output);
   }
   const int code = ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
   return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
@@ -49,7 +49,7 @@ static int write_report(const struct cli_study_results *results, const char *rep
 
 static int run_study(struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  struct hk_watch watch;
+  struct cli_watch watch;
   cli_watch_start(&watch, arguments);
   int32_t status =
       hooke_study_create(results->setup.system, results->setup.options, arguments->more, &results->study);

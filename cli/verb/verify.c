@@ -110,7 +110,7 @@ static void print_json(const struct cli_arguments *arguments, const hooke_verify
 
 static int do_verify(const struct cli_arguments *arguments) {
   hooke_verify *verify = NULL;
-  struct hk_watch watch;
+  struct cli_watch watch;
   int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);

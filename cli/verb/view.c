@@ -56,7 +56,7 @@ static int write_page(const struct cli_arguments *arguments, const hooke_record 
 static int do_view(const struct cli_arguments *arguments) {
   const char *output = cli_arguments_text(arguments, "output");
   if (!output) {
-    return hk_report(arguments, HOOKE_EXIT_USAGE, "no page named; give one, such as -o page.html");
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "no page named; give one, such as -o page.html");
   }
   int code = cli_output_file_check(arguments, "-o", output);
   if (code != HOOKE_EXIT_DONE) return code;
@@ -65,7 +65,7 @@ static int do_view(const struct cli_arguments *arguments) {
   if (status == HOOKE_OK)
     code = write_page(arguments, record, output);
   else if (status == HOOKE_IO_FAILED) /* no file, or no HDF5 */
-    code = hk_report(arguments, HOOKE_EXIT_BAD_INPUT, "%s", hooke_last_error());
+    code = cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "%s", hooke_last_error());
   else
     code = cli_report_status(arguments, status);
   hooke_record_close(record);

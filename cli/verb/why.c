@@ -4,7 +4,6 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "value.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -38,7 +37,7 @@ static int32_t see_run(double done, const char *method, void *watch) {
 /* Runs the scene and asks why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
-  struct hk_watch watch;
+  struct cli_watch watch;
   int32_t status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
   if (status != HOOKE_OK) return status;
   cli_watch_start(&watch, why->arguments);
@@ -59,7 +58,7 @@ static int32_t blew_up(const char *status) {
 }
 
 static int32_t explain_kept(struct why *why, const hooke_state *first, const hooke_state *last) {
-  struct hk_watch watch;
+  struct cli_watch watch;
   cli_watch_start(&watch, why->arguments);
   const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last,
                                                why->budget, cli_watch_progress, &watch, &why->why);
@@ -81,11 +80,11 @@ static int32_t read_output(struct why *why) {
   hooke_state_destroy(first);
   hooke_state_destroy(last);
   if (status != HOOKE_BAD_CALL) return status;
-  why->code =
-      hk_report(why->arguments, HOOKE_EXIT_BAD_INPUT,
-                "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
-                "such as a callback",
-                why->arguments->scene);
+  why->code = cli_report(
+      why->arguments, HOOKE_EXIT_BAD_INPUT,
+      "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
+      "such as a callback",
+      why->arguments->scene);
   return status;
 }
 
@@ -211,7 +210,7 @@ static int find_out(struct why *why) {
     status = run_again(why);
   }
   if (why->code != HOOKE_EXIT_DONE) return why->code;
-  if (status == HOOKE_STOPPED) return hk_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
+  if (status == HOOKE_STOPPED) return cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = arguments->json ? print_json(why) : print_words(why);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
@@ -219,7 +218,7 @@ static int find_out(struct why *why) {
 
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
-  int code = cli_value_of_study(arguments, "budget", "s", &why.budget);
+  int code = cli_setup_read_study(arguments, "budget", "s", &why.budget);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_why_destroy(why.why);

@@ -10,6 +10,8 @@ import h5py
 import pytest
 from conftest import interrupt
 
+pytestmark = pytest.mark.everything
+
 SIDE = 40
 ALL = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 CLOTH = {

@@ -193,7 +193,7 @@ static const struct cli_verb verbs[] = {
 };
 
 /* What the program prints is formed, and goes nowhere. */
-int hk_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
+int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
   char message[4096];
   va_list args;
   va_start(args, format);
@@ -205,13 +205,13 @@ int hk_report(const struct cli_arguments *arguments, int code, const char *forma
 }
 
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
-  return hk_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
+  return cli_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
                    hooke_last_error());
 }
 
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
                               size_t length) {
-  return hk_report(arguments, HOOKE_EXIT_USAGE, "--%s %.*s", flag, (int)length, word);
+  return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %.*s", flag, (int)length, word);
 }
 
 int cli_refusal(const struct cli_arguments *arguments) {
