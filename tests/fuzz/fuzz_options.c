@@ -206,7 +206,7 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
 
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
   return cli_report(arguments, status == HOOKE_OK ? HOOKE_EXIT_DONE : HOOKE_EXIT_BAD_INPUT, "%s",
-                   hooke_last_error());
+                    hooke_last_error());
 }
 
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
