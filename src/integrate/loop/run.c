@@ -82,7 +82,7 @@ static int32_t tell(hooke_integrator *it) {
   const int32_t value = teller->progress(share > 0.0 ? fmin(share, 1.0) : 0.0, it->method->name, teller->ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
-  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.17g s", it->t);
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.6g s", it->t);
 }
 
 int32_t hk_integrator_tell(hooke_integrator *it) {

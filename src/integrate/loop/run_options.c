@@ -131,13 +131,13 @@ static double fitting_step(double value, double other, double step, int larger) 
 
 /* With every digit: the steps are there to be typed. */
 static int32_t refuse_step(const char *name, double value, double other, double step) {
-  if (!(value / step < (double)HOOKE_MOST_STEPS))
-    return hk_fail(HOOKE_BAD_VALUE, name, "%.17g s takes too many steps of %.17g s; allowed: fewer than %lld",
-                   value, step, (long long)HOOKE_MOST_STEPS);
-  const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
   char given[2][HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
   hk_number_print(value, given[0]);
   hk_number_print(step, given[1]);
+  if (!(value / step < (double)HOOKE_MOST_STEPS))
+    return hk_fail(HOOKE_BAD_VALUE, name, "%s s takes too many steps of %s s; allowed: fewer than %lld",
+                   given[0], given[1], (long long)HOOKE_MOST_STEPS);
+  const double below = fitting_step(value, other, step, 0), above = fitting_step(value, other, step, 1);
   hk_number_print(isnan(below) ? above : below, low);
   hk_number_print(isnan(above) ? below : above, high);
   const int32_t none = isnan(above) && isnan(below), one = none || strcmp(low, high) == 0;
