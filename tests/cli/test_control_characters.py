@@ -139,7 +139,7 @@ def shown_on_terminal(folder, looked_for, *words):
                 process.terminate()
     os.close(terminal)
     assert process.wait() in (0, 130)
-    return shown.decode().replace("\r\x1b[K", "")
+    return shown.decode().replace("\r\x1b[K", "").replace("\r\n", "\n")  # as a terminal ends lines
 
 
 def test_progress(scene, tmp_path):
