@@ -28,8 +28,8 @@ struct hk_option_row {
   int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any */
   int32_t columns;              /* numbers come in rows of this many in a scene ([[x,y,z],...]); 0: flat */
   const char *words; /* separated by blanks: the words that may stand instead of numbers, or the choices */
-  int32_t
-      word_lists; /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
+  /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
+  int32_t word_lists;
   const struct hk_option_table *family;
   const char *doc;
   const char *example; /* as text: a value for a first try */

@@ -1,6 +1,6 @@
 /* Workers meet at a barrier before and after each piece of work: the first meeting starts it, the second ends
- * it. Threads have the rounding mode and the treatment of denormals that the thread had that made the thread pool;
- * where it changes them later, they do not follow. */
+ * it. Threads have the rounding mode and the treatment of denormals that the thread had that made the thread
+ * pool; where it changes them later, they do not follow. */
 #if defined(__linux__)
 #define _GNU_SOURCE /* sched_getaffinity() */
 #endif

@@ -1,5 +1,5 @@
-/* A thread pool: a fixed number of threads, the caller's among them, that do one piece of work together, as often as
- * they are asked. Between two pieces the others wait, spinning for a moment and then asleep. */
+/* A thread pool: a fixed number of threads, the caller's among them, that do one piece of work together, as
+ * often as they are asked. Between two pieces the others wait, spinning for a moment and then asleep. */
 #ifndef HOOKE_CORE_THREAD_POOL_H
 #define HOOKE_CORE_THREAD_POOL_H
 

@@ -46,8 +46,8 @@ struct hk_run {
   double kappa, gamma, rest_length;             /* shared */
   const double *kappas, *gammas, *rest_lengths; /* mixed: `count` long */
   const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
-  int32_t
-      strain; /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
+  /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
+  int32_t strain;
   hk_spring_loop *loop;
 };
 

@@ -35,8 +35,8 @@ struct hooke_system {
   int64_t idle_count; /* from commit on: pinned particles that nothing touches */
   int64_t span_count; /* from commit on: what is stepped, ascending */
   struct hk_span *span;
-  int64_t
-      anchor_count; /* from commit on: pinned particles in there, which are put back after a step; ascending */
+  /* from commit on: pinned particles in there, which are put back after a step; ascending */
+  int64_t anchor_count;
   int32_t *anchor;
 
   /* spring groups; from commit on in spring order */

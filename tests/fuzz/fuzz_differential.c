@@ -4,7 +4,7 @@
  *
  * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c
  *           src/kernel/net_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
- *           src/kernel/tangent_loops.c src/model/force/force.c src/model/force/[a-z]*.c src/model/sum/[a-z]*.c
+ *           src/kernel/tangent_loops.c src/model/force/[a-z]*.c src/model/sum/[a-z]*.c
  *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c
  *           src/integrate/method/rk4.c src/integrate/method/verlet.c
  * Longest input: 104 */

@@ -1,11 +1,13 @@
 /* What an H5MD file says of itself, and the springs. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
- *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units, method, of a single run `run`, which no other run has;
- * `scene`: the text of the scene;
- * `options`: an attribute for each option of the run; `status`: "running" until the file is closed
+ *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
+ *                            method, of a single run `run`, which no other run has; `scene`: the text of the
+ *                            scene; `options`: an attribute for each option of the run; `status`: "running"
+ *                            until the file is closed
  *   /hooke/rest_length       [springs]
- *   /hooke/error             of a single run: HOOKE_ERROR_NUMBERS, NaN until they are known; texts `error_by`, `error_note`
+ *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
+ *                            `error_by`, `error_note`
  *   /particles/<group>       frames (recording_h5.h)
  *   /connectivity/springs    [springs][2] particle numbers
  *   /observables             frames (recording_h5.h)

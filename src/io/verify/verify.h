@@ -38,8 +38,8 @@ struct hk_verify_pass {
   double steps;
   double apart[2]; /* the largest distance of a coordinate [m] and a velocity [m/s] from the file's */
   double error[2]; /* of a refined pass, the same from the first pass */
-  double *
-      own; /* q and v of each frame of the first pass, where the file's may be others; NULL: they are the file's */
+  /* q and v of each frame of the first pass, where the file's may be others; NULL: they are the file's */
+  double *own;
 };
 
 /* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the

@@ -45,6 +45,7 @@ static void see_step(struct hk_soundness *s, const double *q) {
   if (s->patience > 0.0 && isinf(s->least_limit)) {
     const double begun = hk_clock_seconds();
     struct hk_patience patience = hk_patience_of(s->patience, NULL, NULL);
+    limit = bound;
     (void)hk_limit_sure(s->system, q, s->method, &patience, &limit);
     s->patience -= hk_clock_seconds() - begun;
     s->limit_over_bound = limit > 0.0 && s->patience > 0.0 ? limit / bound : 1.0;

@@ -12,10 +12,10 @@ struct hk_soundness {
   const char *method;
   double step;                  /* NaN for an error-controlled method [s] */
   struct hk_node_blocks blocks; /* without memory for a method that has no limit */
-  double
-      least_limit; /* smallest stable step at a state where the step is not clear of it [s]; else infinity */
-  double
-      limit_over_bound; /* at the last state whose limit was asked for; 1 before and after patience ended */
+  /* smallest stable step at a state where the step is not clear of it [s]; else infinity */
+  double least_limit;
+  /* at the last state whose limit was asked for; 1 before and after patience ended */
+  double limit_over_bound;
   double patience; /* left for limits, where the step is not clear of the bound [s]; after it bounds decide */
   double scale, gravity0, swing; /* energies of the scene, as in the definition of "diverged" [J] */
   int64_t count, capacity;

@@ -29,11 +29,11 @@ struct hk_blame {
   struct hk_blamed_spring spring[HOOKE_BLAME_MOST];
   struct hk_blamed_particle particle[HOOKE_BLAME_MOST];
   double stiffness_share; /* of h^2 K in the whole */
-  double force_share
-      [HOOKE_BLAME_FORCES]; /* damping is that of springs and of altitude springs; altitude, their stiffness */
+  /* damping is that of springs and of altitude springs; altitude, their stiffness */
+  double force_share[HOOKE_BLAME_FORCES];
   int64_t group_count;
-  double
-      *group_share; /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
+  /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
+  double *group_share;
   /* of whoever asks for a remedy: as in linearised.h */
   struct hk_patience *patience;
   double room;

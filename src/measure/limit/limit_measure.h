@@ -6,8 +6,8 @@
 #include "hooke/measure.h"
 
 struct hk_measurement {
-  double
-      step; /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
+  /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
+  double step;
   int64_t steps_run;    /* steps that it took */
   int32_t never_stable; /* growth was seen at every step tried, ever smaller ones */
   const char *note;     /* what to know about it, "" if nothing */

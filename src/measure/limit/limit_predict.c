@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "hooke/measure.h"
 #include "measure/spectrum/limit_rules.h"
 
 #include <math.h>
@@ -49,8 +48,7 @@ int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *m
                       struct hk_patience *patience, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
-  int32_t status = hooke_step_bound(system, method, q, limit);
-  if (status == HOOKE_OK) status = hk_linearised_create(system, q, NULL, NULL, &linearised);
+  int32_t status = hk_linearised_create(system, q, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);

@@ -22,9 +22,9 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
                                 const double *spring_scale, const double *mass_scale, double accuracy,
                                 double room, struct hk_patience *patience, double *limit);
 
-/* A step [s] up to which the frozen system is stable for certain, by its extreme eigenvalues: the limit or
- * close to it; only hooke_step_bound() where they do not tell, and after patience has ended. HOOKE_BAD_VALUE,
- * HOOKE_NO_MEMORY. */
+/* Raises `limit`, which comes in as hooke_step_bound(), to a step [s] up to which the frozen system is stable
+ * for certain by its extreme eigenvalues: the limit or close to it. Where they do not tell, and after patience
+ * has ended, it stays the bound. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *method,
                       struct hk_patience *patience, double *limit);
 

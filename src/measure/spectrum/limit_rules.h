@@ -5,10 +5,11 @@
 #include "measure/spectrum/spectrum.h"
 
 struct hk_prediction {
-  double
-      limit; /* [s]: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known */
-  double
-      sure; /* [s]: stable for certain up to here, by the extreme eigenvalues; not above `limit`, NaN where they do not tell */
+  /* [s]: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known */
+  double limit;
+  /* [s]: stable for certain up to here, by the extreme eigenvalues; not above `limit`, NaN where they do
+   * not tell */
+  double sure;
   int32_t exact, never_stable;
   const char *note;
   int32_t has_mode; /* `mode` was written */

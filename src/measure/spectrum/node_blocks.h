@@ -16,9 +16,9 @@ struct hk_node_blocks {
   double *stiffness, *damping;  /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio;           /* smallest gamma/kappa of a stiff spring, infinity without one */
   struct hk_patience *patience; /* whose end ends a filling half-way (NULL: none) */
-  int32_t
-      across; /* some stretched spring is stiff across its direction, where it has no damping, or there is bending, which
-                    has none */
+  /* some stretched spring is stiff across its direction, where it has no damping, or there is bending,
+   * which has none */
+  int32_t across;
 };
 
 /* At positions q (3n). HOOKE_NO_MEMORY. */

@@ -26,10 +26,10 @@ struct hooke_study_order {
 /* What a recommendation has to spare (study_margin.c). */
 enum hk_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
 struct hk_study_margin {
-  double
-      limit_share; /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
-  double
-      error[HOOKE_STUDY_CHANGES]; /* the largest with the change [m]; NaN: unknown, or a run did not finish */
+  /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
+  double limit_share;
+  /* the largest with the change [m]; NaN: unknown, or a run did not finish */
+  double error[HOOKE_STUDY_CHANGES];
   double holds[HOOKE_STUDY_CHANGES]; /* 1: the want is met with the change; 0: not; NaN: unknown */
 };
 

@@ -71,8 +71,8 @@ struct hk_inquiry {
   double bad_time;
   int64_t bad_particle; /* the one that moves fastest then */
   int32_t sudden;       /* from a sensible size beyond all numbers within three steps */
-  double
-      squares; /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
+  /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
+  double squares;
   double size, bad_size; /* largest position or velocity, before and after */
   struct hk_slip slip;
   struct hk_excess excess;

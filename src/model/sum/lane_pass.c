@@ -1,6 +1,6 @@
-/* The pass over lanes, by one thread or by a thread pool. Each worker has the particles of a range. What others will
- * have moved when it comes to it, it computes or copies before anyone moves: the springs that begin below its
- * range and end in it, and the particles above its range where its own springs end. */
+/* The pass over lanes, by one thread or by a thread pool. Each worker has the particles of a range. What
+ * others will have moved when it comes to it, it computes or copies before anyone moves: the springs that
+ * begin below its range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
 #include "model/sum/motion.h"
 

@@ -5,9 +5,9 @@
  * the springs that begin in a tile go, on their lower ends, into a list of the tile and, on their upper ends,
  * into a ring, which reaches back to the first spring that ends in it; each particle then takes its springs
  * from both in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the
- * particles of a tile after that, so its positions may move at once. Workers of a thread pool have ranges of tiles:
- * they do the springs that end in their range from earlier ones too, and save what they need of later ones,
- * before anything moves. */
+ * particles of a tile after that, so its positions may move at once. Workers of a thread pool have ranges of
+ * tiles: they do the springs that end in their range from earlier ones too, and save what they need of later
+ * ones, before anything moves. */
 #ifndef HOOKE_MODEL_SUM_NET_H
 #define HOOKE_MODEL_SUM_NET_H
 
@@ -47,8 +47,8 @@ struct hk_net {
 
   /* by particle */
   uint16_t *degree;
-  void *
-      force; /* as wide as `upper`: places in the list, and `list` + those in the ring, in ascending spring number */
+  /* as wide as `upper`: places in the list, and `list` + those in the ring, in ascending spring number */
+  void *force;
 
   int64_t rows, list, ring; /* that a window, a list of a tile and a ring hold */
 };
