@@ -13,7 +13,7 @@ struct hk_measurement {
   const char *note;     /* what to know about it, "" if nothing */
 };
 
-/* The limit of `method` on the system linearised and frozen at q (see frozen.h), to the relative `accuracy`,
+/* The limit of `method` on the system linearised and frozen at q (linear_twin.h), to the relative `accuracy`,
  * within `budget` [s]. The search starts at `predicted` (NaN: not known; 0 and infinity are put to the test),
  * with runs that start in `mode` (3n displacements, or NULL) and some random motion. What is found is
  * confirmed by a run just below it that starts from random motion alone. `run` (options of a run) and
