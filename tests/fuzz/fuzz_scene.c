@@ -147,12 +147,25 @@ static void load(const char *text, size_t size) {
   hooke_scene_destroy(loaded);
 }
 
+/* The folder of the files that scenes may name: beside the program, where a program that left the machine it
+ * was built on has it, or among the sources. */
+static const char *files(void) {
+  static char path[PAGE];
+  if (path[0]) return path;
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof "files");
+  char *name = length > 0 ? strrchr(path, '/') : NULL;
+  if (name) memcpy(name + 1, "files", sizeof "files");
+  if (name == NULL || access(path, R_OK) != 0)
+    snprintf(path, sizeof path, HOOKE_SOURCE_DIR "/tests/fuzz/files");
+  hooke_fuzz_require(access(path, R_OK) == 0, "the files that scenes may name are there");
+  return path;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  static const char folder[] = HOOKE_SOURCE_DIR "/tests/fuzz/files";
   const char *text = size ? (const char *)data : "";
   hooke_scene *scene = NULL;
   hooke_fuzz_begin();
-  int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", folder, &scene);
+  int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", files(), &scene);
   hooke_fuzz_require((status == HOOKE_OK) == (scene != NULL), "a scene comes with success alone");
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_OK) {

@@ -4,12 +4,13 @@
     run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was. With --quiet 60 it
                                            goes on after that until no new edge came for so many minutes of processor
     run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach
-    run.py --minimise [TARGET...]          inputs that a campaign came across into tests/fuzz/corpus, the fewest that reach as much
+    run.py --minimise [TARGET...]          inputs that a campaign came across into the archive, the fewest that reach as much
 
 A target is tests/fuzz/fuzz_<name>.c. Its comment says which files are its own and how long inputs are at most. Committed are
-corpus/<name>, inputs to begin with, found/<name>, inputs that were findings once, and <name>.dict, words of its inputs. Where a
-target takes long for an input, campaign/<name> has more, which reach what the others leave out and which campaigns alone
-begin with; --minimise then replaces these. What is reached in the sources of uncounted.txt is not looked at.
+<name>.dict, words of its inputs, and inputs/<name>.tar.xz (inputs.py), which holds corpus/, inputs to begin with, and found/,
+inputs that were findings once. Where a target takes long for an input, campaign/ has more, which reach what the others leave
+out and which campaigns alone begin with; --minimise then replaces these. What is reached in the sources of uncounted.txt is
+not looked at.
 
 A campaign works in build/fuzz: inputs in <name>/corpus, findings in <name>/found, and state.json. Two programs take turns:
 one with all sanitizers, and one that is faster, without the one for addresses.
@@ -31,6 +32,7 @@ import sys
 import threading
 import time
 
+import inputs
 import seeds
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -90,9 +92,8 @@ class Target:
         self.files = sorted({f for p in (lines.group(1).split() if lines else []) for f in glob.glob(p, root_dir=ROOT)})
         self.longest = int(longest.group(1)) if longest else 4096
         self.mostly = int(longest.group(2)) if longest and longest.group(2) else self.longest
-        self.corpus, self.found, self.words = HERE / "corpus" / name, HERE / "found" / name, HERE / f"{name}.dict"
-        self.campaign = HERE / "campaign" / name
-        self.work = BUILD / name
+        self.words, self.work = HERE / f"{name}.dict", BUILD / name
+        self.corpus, self.found, self.campaign = (inputs.unpack(name) / kind for kind in ("corpus", "found", "campaign"))
 
     def inputs(self):
         return [str(folder) for folder in (self.corpus, self.found) if folder.is_dir()]
@@ -183,7 +184,7 @@ def short(targets, seconds):
         worker.join()
     failed = {name: log for name, (code, log) in results.items() if code}
     for name, log in failed.items():
-        print(f"\n== fuzz/{name}: a finding; keep its input in tests/fuzz/found/{name}\n{log[-6000:]}")
+        print(f"\n== fuzz/{name}: a finding; keep its input: tests/fuzz/inputs.py add {name} FILE found/NAME\n{log[-6000:]}")
     return 1 if failed else 0
 
 
@@ -411,9 +412,9 @@ def tell_coverage(targets):
 # ---- the committed inputs ----
 
 
-def merge(target, folder, into, *inputs, **variables):
+def merge(target, folder, into, *sources, **variables):
     """Copies inputs that reach what those in `into` do not; small ones come first."""
-    subprocess.run(target.command(folder, "-merge=1", "-use_counters=0", str(into), *(str(f) for f in inputs if f.is_dir())),
+    subprocess.run(target.command(folder, "-merge=1", "-use_counters=0", str(into), *(str(f) for f in sources if f.is_dir())),
                    check=True, env={**os.environ, **SANITIZERS, **variables}, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
 
@@ -423,7 +424,7 @@ def minimise(targets):
     build("fuzz")
     seeds.make(BUILD / "seeds")
     for target in targets:
-        new, kept = target.work / "minimised", target.corpus
+        new, kept = target.work / "minimised", "corpus"
         shutil.rmtree(new, ignore_errors=True)
         new.mkdir(parents=True)
         if target.campaign.is_dir():
@@ -435,13 +436,11 @@ def minimise(targets):
                 merge(target, folder, new, target.campaign, target.work / "corpus", HOOKE_FUZZ_WHOLE="0")
             for file in old:
                 (new / file.name).unlink()
-            kept = target.campaign
+            kept = "campaign"
         else:
             merge(target, "fuzz", new, BUILD / "seeds" / target.name, target.corpus, target.work / "corpus")
-        shutil.rmtree(kept, ignore_errors=True)
-        shutil.copytree(new, kept)
-        files = list(kept.iterdir())
-        print(f"{target.name}: {len(files)} inputs, {sum(f.stat().st_size for f in files)} bytes")
+        others = {name: data for name, data in inputs.read(target.name).items() if not name.startswith(f"{kept}/")}
+        inputs.write(target.name, others | {f"{kept}/{file.name}": file.read_bytes() for file in new.iterdir()})
     return 0
 
 

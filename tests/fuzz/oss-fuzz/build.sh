@@ -1,6 +1,6 @@
 #!/bin/bash -eu
 # Builds every target of tests/fuzz the way OSS-Fuzz asks for: with $CC, $CFLAGS and $LIB_FUZZING_ENGINE, into $OUT, each with
-# its seeds, its dictionary and its longest input; the libraries that it needs to run come along.
+# its seeds, its dictionary and its longest input; the libraries and files that it needs to run come along.
 # By hand: SRC=the folder that holds hooke, WORK and OUT two folders of your own, CC=clang,
 # CFLAGS='-O1 -fsanitize=fuzzer-no-link,address', LIB_FUZZING_ENGINE=-fsanitize=fuzzer.
 
@@ -15,6 +15,7 @@ cmake -S "$SRC/hooke" -B "$WORK/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_
 cmake --build "$WORK/build" --target hooke_fuzz
 
 mkdir -p "$OUT/lib"
+cp -r "$here/files" "$OUT" # which scenes name
 for source in "$here"/fuzz_*.c; do
   name=$(basename "$source" .c)
   name=${name#fuzz_}
@@ -23,8 +24,11 @@ for source in "$here"/fuzz_*.c; do
   cp "$built" "$target"
   ldd "$built" | awk '$3 ~ /^\// && $1 !~ /^(libc|libm|libpthread|libdl|librt|libgcc_s|libstdc\+\+)\./ {print $3}' |
     xargs -r cp -L -t "$OUT/lib"
-  rm -f "${target}_seed_corpus.zip"
-  find "$here"/{corpus,found}/"$name" -type f 2>/dev/null | zip -q -j "${target}_seed_corpus.zip" -@
+  inputs=$WORK/inputs/$name
+  rm -rf "$inputs" "${target}_seed_corpus.zip"
+  mkdir -p "$inputs"
+  tar -xJf "$here/inputs/$name.tar.xz" -C "$inputs"
+  find "$inputs" -type f -not -path "$inputs/campaign/*" | zip -q -j "${target}_seed_corpus.zip" -@
   if [ -e "$here/$name.dict" ]; then cp "$here/$name.dict" "$target.dict"; fi
   printf '[libfuzzer]\nmax_len = %s\n' "$(sed -n 's/.*Longest input: \([0-9]*\).*/\1/p' "$source")" >"$target.options"
 done
