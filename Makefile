@@ -38,7 +38,7 @@ test: $(PRESETS:%=build-%) build/fuzz/packages
 	done; \
 	exit $$failed
 
-# Each part keeps what is done in build/long and writes its figures into docs/reliability.md.
+# Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
 LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)

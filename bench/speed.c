@@ -1,5 +1,5 @@
 /* Cost of a step, for each spring of a scene, against a plain loop over an array of springs and against what
- * the machine can do; docs/performance.md says how to read it.
+ * the machine can do; docs/notes/performance.md says how to read it.
  *
  *   speed [--seconds S] [--methods M,...] [--threads N,...] [--csv | --markdown] [SCENE ...]
  *

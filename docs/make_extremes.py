@@ -1,4 +1,4 @@
-"""Fills the tables of docs/extremes.md with what the suite measures: python docs/make_extremes.py BUILD [--check]
+"""Fills the tables of docs/notes/extremes.md with what the suite measures: python docs/make_extremes.py BUILD [--check]
 
 BUILD is a build folder with its tests, such as build/release. With --check nothing is written; what differs is printed.
 """
@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-PAGE = Path(__file__).with_name("extremes.md")
+PAGE = Path(__file__).with_name("notes") / "extremes.md"
 MARK = re.compile(r"(<!-- table: (?P<family>[\w ]+) -->\n).*?(<!-- end -->)", re.DOTALL)
 EXACT = 3e-12  # below this, figures are rounding: one number per machine
 FACTOR = 10.0  # within which larger figures have to agree

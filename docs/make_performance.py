@@ -1,4 +1,4 @@
-"""Fills the tables of docs/performance.md:
+"""Fills the tables of docs/notes/performance.md:
 
     python docs/make_performance.py BUILD [--seconds S] [--threads N,...] [--no-peers]
 
@@ -14,7 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-PAGE = Path(__file__).with_name("performance.md")
+PAGE = Path(__file__).with_name("notes") / "performance.md"
 ROOT = PAGE.parents[1]
 MARK = re.compile(r"(<!-- table: (?P<name>\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 

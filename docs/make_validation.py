@@ -1,4 +1,4 @@
-"""Fills the tables of docs/validation.md: python docs/make_validation.py [--check]
+"""Fills the tables of docs/notes/validation.md: python docs/make_validation.py [--check]
 
 Takes a second. With --check nothing is written; rows that differ are printed.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs/validation.md"
+PAGE = ROOT / "docs/notes/validation.md"
 SCENES = ROOT / "examples/scenes"
 MARK = re.compile(r"(<!-- table: (?P<name>\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]\d+)?")

@@ -1,4 +1,4 @@
-"""hooke beside LAMMPS, OpenMM, Numba and SciPy on the same cloth, in turns; docs/performance.md says how to read it.
+"""hooke beside LAMMPS, OpenMM, Numba and SciPy on the same cloth, in turns; docs/notes/performance.md says how to read it.
 
     python bench/peers/run.py [--install] [--library FILE] [--sizes N,...] [--threads N] [--seconds S]
                               [--only fixed,tolerances,stiff] [--slow] [--csv | --markdown]

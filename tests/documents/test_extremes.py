@@ -1,4 +1,4 @@
-"""The tables of docs/extremes.md are what the suite of extremes gives."""
+"""The tables of docs/notes/extremes.md are what the suite of extremes gives."""
 
 import importlib.util
 import os

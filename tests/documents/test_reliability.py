@@ -1,4 +1,4 @@
-"""The promises of docs/reliability.md name tests that are there, and its figures have a place that `make test-long` fills."""
+"""The promises of docs/notes/reliability.md name tests that are there, and its figures have a place that `make test-long` fills."""
 
 import importlib.util
 import json
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
-PAGE = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/notes/reliability.md").read_text(encoding="utf-8")
 LONG = ROOT / "tests/long"
 
 
@@ -78,7 +78,7 @@ def test_parts_have_their_place(steps):
 
 def test_parts_took_no_longer_than_they_have(steps):
     minutes = [int(found) for found in re.findall(r"^\d+ of \d+ steps, (\d+) minutes", PAGE, re.MULTILINE)]
-    ran = [part for part in json.loads((ROOT / "docs/reliability.json").read_text(encoding="utf-8")).values() if part]
+    ran = [part for part in json.loads((ROOT / "docs/notes/reliability.json").read_text(encoding="utf-8")).values() if part]
     assert len(minutes) == len(ran) >= 5 and 60 * max(minutes) < steps.LIMIT
 
 

@@ -1,4 +1,4 @@
-"""The tables of docs/validation.md are what the library gives."""
+"""The tables of docs/notes/validation.md are what the library gives."""
 
 import importlib.util
 import os

@@ -356,7 +356,7 @@ def campaign(targets, executions, quiet, workers, limit):
 
 
 def write_figures(targets, many, lines):
-    """What docs/reliability.md says of it."""
+    """What docs/notes/reliability.md says of it."""
     try:
         figures = json.loads(FIGURES.read_text())
     except (OSError, ValueError):

@@ -1,8 +1,8 @@
 """Runs the steps of a part of `make test-long` one after the other and keeps what is done in build/long/<part>.json.
 
 A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step that failed
-is run again. Then what each step came to last, for whatever sources, goes into docs/reliability.json, with its date and commit,
-and from there into the tables of docs/reliability.md.
+is run again. Then what each step came to last, for whatever sources, goes into docs/notes/reliability.json, with its date and commit,
+and from there into the tables of docs/notes/reliability.md.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / "build/long"
-PAGE = ROOT / "docs/reliability.md"
-MEASURED = ROOT / "docs/reliability.json"
+PAGE = ROOT / "docs/notes/reliability.md"
+MEASURED = ROOT / "docs/notes/reliability.json"
 SOURCES = ("src", "include", "cli", "bindings", "cmake", "examples", "tests", "CMakeLists.txt", "CMakePresets.json")
 TELL_EVERY = 60  # [s] a line while a step takes its time
 LIMIT = 150 * 60  # [s] a part has

@@ -1,5 +1,5 @@
 /* Runs at the extremes: what came of a run, judges that say what is wrong with it, and the rows of
- * docs/extremes.md. */
+ * docs/notes/extremes.md. */
 #ifndef TESTS_SUPPORT_EXTREME_H
 #define TESTS_SUPPORT_EXTREME_H
 

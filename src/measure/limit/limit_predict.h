@@ -1,4 +1,4 @@
-/* The largest stable step of one method on a system frozen at rest, as docs/methods.md has it.
+/* The largest stable step of one method on a system frozen at rest, as docs/notes/methods.md has it.
  *
  * M x'' + C x' + K x = 0 over the free particles: K = sum of kappa u u^T + max(0, T/r) (I - u u^T), C = sum
  * of gamma u u^T, plus drag; a spring that only pulls counts as taut, one of no length as stiff in all
