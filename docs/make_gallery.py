@@ -1,12 +1,14 @@
-"""Makes the pictures of docs/gallery.md and the list of them there: python docs/make_gallery.py [NAME ...]
+"""Makes the pictures of docs/gallery.md and the list of them there, and blow-up, the one of README.md:
+python docs/make_gallery.py [NAME ...]
 
-Takes about a minute. Scenes of the table that are not in examples/scenes are left out.
+It takes about a minute. Scenes of the table that are not in examples/scenes are left out.
 """
 
 from __future__ import annotations
 
 import re
 import sys
+import warnings
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
 
@@ -131,6 +133,29 @@ def half_way(result: hooke.Result, figure: Any) -> None:
     space(result, figure, 0.5)
 
 
+def blow_up() -> None:
+    """A cloth from the front at the last time before it diverges, and at the same time with a step below the limit."""
+    figure, axes = plt.subplots(1, 2, figsize=(8, 4), layout="constrained", sharey=True)
+    time = np.inf
+    for ax, step, words in zip(axes, (5e-3, 4e-3), ("above", "below")):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", hooke.StepWarning)
+            result = hooke.run(ROOT / "examples/scenes/cloth-gentle.json", step=step, every=step, duration=0.4, frames=True)
+        time = min(time, result.frames.t[-1])
+        frame = np.searchsorted(result.frames.t, time + step / 2) - 1
+        q = result.frames.q[frame]
+        lines = LineCollection(q[:, :2][result.system.spring_ends], cmap="coolwarm", norm=plt.Normalize(-25, 25), linewidths=1.5)
+        lines.set_array(100 * strain(result, q))
+        ax.add_collection(lines)
+        ax.autoscale_view()
+        ax.set(xlabel="x [m]", aspect="equal",
+               title=f"step {1e3 * step:g} ms, {words} the limit: {result.status}\nt = {result.frames.t[frame]:.3g} s")
+    axes[0].set(ylabel="y [m]")
+    figure.colorbar(lines, ax=axes, label="strain [%]")
+    figure.savefig(ROOT / "docs/images/blow-up.png", dpi=80)
+    plt.close(figure)
+
+
 PICTURES = [
     Picture("rope", side, "A rope at six times, from horizontal to swinging past the vertical."),
     Picture("cloth-16", half_way, "A sagging cloth, held at two corners, its springs coloured by strain."),
@@ -166,6 +191,8 @@ def main(names: list[str]) -> None:
     for picture in there:
         if not names or picture.scene in names:
             make(picture)
+    if not names or "blow-up" in names:
+        blow_up()
     text = "\n" + "".join(map(entry, there))
     PAGE.write_text(MARK.sub(lambda match: match[1] + text + match[2], PAGE.read_text("utf-8")), "utf-8")
 
