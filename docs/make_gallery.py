@@ -102,7 +102,7 @@ def fall(result: hooke.Result, figure: Any) -> None:
 
 
 def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, int, int] = (2, 0, 1)) -> None:
-    """In space at a share of the duration, springs coloured by strain, y upwards; held particles in black."""
+    """In space at a share of the duration, springs coloured by strain, y upwards; pinned particles in black."""
     frame = round(share * (len(result.frames.t) - 1))
     q = result.frames.q[frame][:, up]
     stretched = 100 * strain(result, result.frames.q[frame])
@@ -158,9 +158,9 @@ def blow_up() -> None:
 
 PICTURES = [
     Picture("rope", side, "A rope at six times, from horizontal to swinging past the vertical."),
-    Picture("cloth-16", half_way, "A sagging cloth, held at two corners, its springs coloured by strain."),
-    Picture("cloth-damped", from_the_edge, "A heavily damped cloth, held at its upper edge, from its side at six times."),
-    Picture("cloth-gentle", half_way, "A soft cloth, held at its upper edge, in the middle of its swing."),
+    Picture("cloth-16", half_way, "A sagging cloth, pinned at two corners, its springs coloured by strain."),
+    Picture("cloth-damped", from_the_edge, "A heavily damped cloth, pinned at its upper edge, from its side at six times."),
+    Picture("cloth-gentle", half_way, "A soft cloth, pinned at its upper edge, in the middle of its swing."),
     Picture("oscillator", oscillation, "The length of a spring, a dying oscillation, and the energy, which falls."),
     Picture("rope-resolution", apart, "Eight hanging bands: four of equal length, four of growing length."),
     Picture("drag-or-damping", fall, "The lengths of two springs that fall, and how high they are."),
