@@ -53,7 +53,7 @@ def words(found: Any) -> str:
 
 
 def main(folder: Path) -> None:
-    print("| scene | want | winner | second | ratio of wall times |\n| --- | --- | --- | --- | --- |")
+    print("| scene | wanted error | winner | second | ratio of wall times |\n| --- | --- | --- | --- | --- |")
     for name in SCENES:
         scene = ROOT / "examples/scenes" / f"{name}.json"
         first = study(scene)

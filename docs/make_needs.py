@@ -31,8 +31,8 @@ def print_table(found: hooke.Needs) -> None:
     for row in found.rows:
         change = "-" if np.isnan(row["error"]) else f"{row['error']:.2g}"
         print_row(f"`{row['without']}`", change, row, "needed" if row["needed"] else "not needed")
-    print_row("nothing, within the want", f"{found.cheapest_error:.2g}", found.cheapest._asdict(), "")
-    print_row("all that is left out, within the want", f"{found.lean_error:.2g}", found.lean_cost._asdict(), "")
+    print_row("nothing, within the wanted error", f"{found.cheapest_error:.2g}", found.cheapest._asdict(), "")
+    print_row("all that is left out, within the wanted error", f"{found.lean_error:.2g}", found.lean_cost._asdict(), "")
     print(f"\nleft out: {', '.join(found.left_out) or 'nothing'}; judged until {found.judged_until:g} s", flush=True)
 
 
