@@ -6,6 +6,7 @@
  *   build.h       generated parts: rope, cloth
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop
+ *   measurement.h studies, limits, needs, costs, comparisons: options, a run, tables
  *   measure.h     step bounds and comparisons
  *   study.h       the trade of error against cost, orders, recommendation
  *   limit.h       the largest stable step of each method, and what it hangs on
@@ -23,6 +24,7 @@
 #include "hooke/build.h"
 #include "hooke/state.h"
 #include "hooke/integrator.h"
+#include "hooke/measurement.h"
 #include "hooke/measure.h"
 #include "hooke/estimate.h"
 #include "hooke/study.h"

@@ -26,6 +26,7 @@ module hooke
     hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &
     hooke_method_is_built => method_is_built
   use hooke_limits, only: hooke_limit, hooke_limit_of_mode => limit_of_mode
+  use hooke_measurements, only: hooke_measurement
   use hooke_needs_of_scenes, only: hooke_needs
   use hooke_observers, only: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
   use hooke_option_tables, only: hooke_options

@@ -18,6 +18,7 @@ import headers  # noqa: E402
 # Handles that may be NULL, or that the function itself answers for, besides those of functions that destroy or close:
 # (function, parameter).
 MAY_BE_NULL = {
+    ("measurement_create", "run"), ("measurement_create", "options"), ("measurement_run", "state"),
     ("cost_create", "run"), ("cost_create", "options"),
     ("limit_create", "run"), ("limit_create", "options"),
     ("study_create", "options"),
@@ -36,6 +37,7 @@ MAY_BE_NULL = {
 }
 # Texts that may be NULL: (function, parameter).
 MAY_BE_NO_TEXT = {
+    ("measurement_label", "text"), ("measurement_table", "kind"),
     ("system_add_springs", "name"), ("system_add_bending", "name"), ("system_add_altitude", "name"),
     ("system_add_part", "name"), ("estimate_pick", "method"),
     ("scene_parse", "name"), ("scene_parse", "folder"),

@@ -22,6 +22,7 @@ PUBLIC = {
     "hooke/state.h": "model",
     "hooke/build.h": "parts",
     "hooke/integrator.h": "integrate",
+    "hooke/measurement.h": "measure",
     "hooke/measure.h": "measure",
     "hooke/study.h": "measure",
     "hooke/estimate.h": "measure",

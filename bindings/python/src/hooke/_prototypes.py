@@ -30,6 +30,7 @@ STATE = _handle("hooke_state")
 INTEGRATOR = _handle("hooke_integrator")
 SCENE = _handle("hooke_scene")
 TRAJECTORY = _handle("hooke_trajectory")
+MEASUREMENT = _handle("hooke_measurement")
 COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
@@ -63,6 +64,7 @@ PROTOTYPES = {
     "hooke_abi": (INT32,),
     "hooke_build_fact": (TEXT, TEXT),
     # options.h
+    "hooke_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_options_copy": (STATUS, OPTIONS, POINTER(OPTIONS)),
     "hooke_options_destroy": (None, OPTIONS),
     "hooke_options_set_number": (STATUS, OPTIONS, TEXT, DOUBLE),
@@ -188,6 +190,21 @@ PROTOTYPES = {
     "hooke_integrator_recent": (STATUS, INTEGRATOR, INT64, STATE),
     "hooke_integrator_stop_value": (INT32, INTEGRATOR),
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
+    # measurement.h
+    "hooke_measurement_create": (STATUS, TEXT, SYSTEM, OPTIONS, OPTIONS, POINTER(MEASUREMENT)),
+    "hooke_measurement_destroy": (None, MEASUREMENT),
+    "hooke_measurement_kind": (TEXT, MEASUREMENT),
+    "hooke_measurement_on_progress": (None, MEASUREMENT, PROGRESS, ADDRESS),
+    "hooke_measurement_run": (OUTCOME, MEASUREMENT, STATE),
+    "hooke_measurement_table": (TEXT, TEXT, INT64, TEXT),
+    "hooke_measurement_column": (TEXT, TEXT, TEXT, INT64, TEXT),
+    "hooke_measurement_row_count": (INT64, MEASUREMENT, TEXT),
+    "hooke_measurement_number": (DOUBLE, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_text": (TEXT, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_series_count": (INT64, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_series": (DOUBLES, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_label": (STATUS, MEASUREMENT, TEXT, TEXT),
+    "hooke_measurement_write": (STATUS, MEASUREMENT, TEXT),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
     "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),

@@ -42,6 +42,7 @@ HOOKE_API const char *hooke_build_fact(const char *what);
 extern "C" {
 #endif
 typedef struct hooke_options hooke_options;
+HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy);
 HOOKE_API void hooke_options_destroy(hooke_options *options);
 HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);
@@ -238,6 +239,38 @@ HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, in
                                           hooke_state *state);
 HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
 HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_MEASUREMENT_H
+#define HOOKE_MEASUREMENT_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_measurement hooke_measurement;
+HOOKE_API int32_t hooke_measurement_create(const char *kind, const hooke_system *system,
+                                           const hooke_options *run, const hooke_options *options,
+                                           hooke_measurement **measurement);
+HOOKE_API void hooke_measurement_destroy(hooke_measurement *measurement);
+HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measurement);
+HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
+                                             void *ctx);
+HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
+HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, const char *what);
+HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
+                                               const char *what);
+HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
+HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
+                                          int64_t row, const char *column);
+HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
+                                             int64_t row, const char *column);
+HOOKE_API int64_t hooke_measurement_series_count(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
+HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 #ifdef __cplusplus
 }
 #endif
