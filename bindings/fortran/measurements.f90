@@ -10,7 +10,7 @@ module hooke_measurements
   use hooke_systems, only: hooke_system
   implicit none
   private
-  public :: hooke_measurement
+  public :: hooke_measurement, measurement_table, measurement_column
 
   integer, parameter :: of_progress = 1
 
@@ -21,11 +21,13 @@ module hooke_measurements
     procedure :: on_progress
     procedure :: run
     procedure :: row_count
+    procedure :: find
     procedure :: number
     procedure :: text
     procedure :: series
     procedure :: label
     procedure :: write
+    procedure :: recommend
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -91,6 +93,13 @@ contains
     row_count = to_integer(c_measurement_row_count(self%address(), to_c(table)))
   end function
 
+  ! The first row whose `column` is `text`; 0 if there is none.
+  integer function find(self, table, column, text)
+    class(hooke_measurement), intent(in) :: self
+    character(*), intent(in) :: table, column, text
+    find = to_integer(c_measurement_find(self%address(), to_c(table), to_c(column), to_c(text))) + 1
+  end function
+
   ! NaN where it does not apply or is not known.
   real(c_double) function number(self, table, row, column)
     class(hooke_measurement), intent(in) :: self
@@ -139,6 +148,36 @@ contains
     if (self%is_missing(status)) return
     call accept(c_measurement_write(self%address(), to_c(path)), status)
   end subroutine
+
+  ! Of a study: finds the cheapest run whose error is at most `want` [m].
+  subroutine recommend(self, want, status)
+    class(hooke_measurement), intent(inout) :: self
+    real(c_double), intent(in) :: want
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_study_recommend(self%address(), want), status)
+  end subroutine
+
+  ! ---- what there is ----
+
+  ! "name", "doc" or "shape" ("record" or "rows") of table `table` of a kind, "" past the last; without a kind the "name" of
+  ! kind number `table`.
+  function measurement_table(kind, table, what) result(text)
+    character(*), intent(in), optional :: kind
+    integer, intent(in) :: table
+    character(*), intent(in) :: what
+    character(:), allocatable :: text, c_kind
+    call to_c_if(kind, c_kind)
+    text = to_text(c_measurement_table(c_kind, zero_based(table), to_c(what)))
+  end function
+
+  ! "name", "unit", "type" or "doc" of column `column` of a table, "" past the last.
+  function measurement_column(kind, table, column, what) result(text)
+    character(*), intent(in) :: kind, table, what
+    integer, intent(in) :: column
+    character(:), allocatable :: text
+    text = to_text(c_measurement_column(to_c(kind), to_c(table), zero_based(column), to_c(what)))
+  end function
 
   impure elemental subroutine assign(self, other)
     class(hooke_measurement), intent(inout) :: self

@@ -14,10 +14,17 @@ static void print_value(struct cli_json *json, const hooke_measurement *m, const
     cli_json_number(json, name, number);
 }
 
-void cli_table_print_row(struct cli_json *json, const hooke_measurement *m, const char *table, int64_t row) {
+void cli_table_print_row_but(struct cli_json *json, const hooke_measurement *m, const char *table,
+                             int64_t row, const char *without) {
   const char *kind = hooke_measurement_kind(m), *name;
-  for (int64_t k = 0; (name = hooke_measurement_column(kind, table, k, "name")); k++)
+  for (int64_t k = 0; (name = hooke_measurement_column(kind, table, k, "name")); k++) {
+    if (without && strcmp(name, without) == 0) continue;
     print_value(json, m, table, row, name, hooke_measurement_column(kind, table, k, "type"));
+  }
+}
+
+void cli_table_print_row(struct cli_json *json, const hooke_measurement *m, const char *table, int64_t row) {
+  cli_table_print_row_but(json, m, table, row, NULL);
 }
 
 static int is_record(const hooke_measurement *m, const char *table) {

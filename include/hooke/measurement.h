@@ -61,6 +61,10 @@ HOOKE_API const char *hooke_measurement_column(const char *kind, const char *tab
 /* Rows that a table has by now; -1 if the kind has no such table. A record has one row, or none where there is
  * nothing to say. */
 HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
+/* The first row whose `column` is `text`; -1 if there is none. In a matrix such as "statistics" rows are ordered by
+ * the first index, then the second: the row of a method and a quantity is the sum of the first rows of both. */
+HOOKE_API int64_t hooke_measurement_find(const hooke_measurement *measurement, const char *table,
+                                         const char *column, const char *text);
 /* A value. NaN where a number does not apply or is not known, and for a row, table or column that is not there;
  * NULL likewise. Texts and series stay valid until the measurement is run again or destroyed. */
 HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
@@ -84,6 +88,28 @@ HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const 
  * is complete. HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(),
  * HOOKE_NOT_BUILT, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
+
+/* ---- a study: how accurate each method is for what it costs, and which one to take ----
+ * It makes a reference by two integrators that check each other and share only the force, runs every method over
+ * a ladder of steps or tolerances, measures error and cost of each run over the frames that the reference is
+ * trusted for, and fits orders; with the option `want` it recommends, with `ensemble` it adds statistics where
+ * the motion cannot be judged to its end. Runs that diverge stay as rows. Needs SUNDIALS.
+ *
+ * Two fifths of a `budget`, and at least half a second, are for the reference, three tenths for an ensemble. When
+ * the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table "study" is 1.
+ *
+ * Starts of an ensemble have every free particle displaced by Gaussian noise of root mean square "noise": a tenth
+ * of the wanted error, or a millionth of the extent without one. Statistics are of each run's means over the
+ * frames from "from" to "until", which follow those that are trusted; of a period, of its period over these.
+ *
+ * A watched quantity is 57.x, 57.y or 57.z (a coordinate of a particle [m]), part:0.y (of a part's particle),
+ * group:3.length [m], group:3.strain or group:3.tension [N] (of a spring of a group: the force along it, of
+ * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time between
+ * passages of one of these upwards through its mean. Indices begin at 0. */
+
+/* The cheapest run for another wanted error [m], found by running more of them; the tables "recommendation" and
+ * "margin" then tell of it. HOOKE_OK also when nothing meets it, with "note" of what is in the way. */
+HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 #ifdef __cplusplus
 }

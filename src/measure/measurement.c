@@ -120,6 +120,16 @@ int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *tabl
   return t ? hk_table_count(t, m->object) : -1;
 }
 
+int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, const char *column,
+                               const char *text) {
+  const int64_t count = hooke_measurement_row_count(m, table);
+  for (int64_t row = 0; row < count; row++) {
+    const char *own = hooke_measurement_text(m, table, row, column);
+    if (own && strcmp(own, text) == 0) return row;
+  }
+  return -1;
+}
+
 /* The column, with the line of its row; NULL if there is no such value. */
 static const struct hk_column *find(const hooke_measurement *m, const char *table, int64_t row,
                                     const char *column, struct hk_line *line) {

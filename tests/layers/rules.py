@@ -24,7 +24,6 @@ PUBLIC = {
     "hooke/integrator.h": "integrate",
     "hooke/measurement.h": "measure",
     "hooke/measure.h": "measure",
-    "hooke/study.h": "measure",
     "hooke/estimate.h": "measure",
     "hooke/limit.h": "measure",
     "hooke/needs.h": "measure",

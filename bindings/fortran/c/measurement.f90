@@ -43,6 +43,12 @@ module hooke_c_measurement
       type(c_ptr), value :: measurement
       character(kind=c_char), intent(in), optional :: table(*)
     end function
+    integer(c_int64_t) function c_measurement_find(measurement, table, column, text) &
+      bind(c, name="hooke_measurement_find")
+      import
+      type(c_ptr), value :: measurement
+      character(kind=c_char), intent(in), optional :: table(*), column(*), text(*)
+    end function
     real(c_double) function c_measurement_number(measurement, table, row, column) &
       bind(c, name="hooke_measurement_number")
       import
@@ -78,6 +84,11 @@ module hooke_c_measurement
       import
       type(c_ptr), value :: measurement
       character(kind=c_char), intent(in), optional :: path(*)
+    end function
+    integer(c_int32_t) function c_study_recommend(study, want) bind(c, name="hooke_study_recommend")
+      import
+      type(c_ptr), value :: study
+      real(c_double), value :: want
     end function
   end interface
 end module

@@ -1,10 +1,12 @@
 /* The kinds of measurements by name, and what their tables have. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
+#include "measure/study/study.h"
 
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
+    &hk_study_kind,
     NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };

@@ -110,6 +110,7 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
 static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
                                   const struct hk_column *column, int64_t row) {
   struct hk_line line;
+  if (row >= hk_table_count(table, m->object)) return (struct hk_series){NULL, 0};
   table->read(m->object, row, &line);
   return hk_column_series(column, &line);
 }

@@ -71,7 +71,8 @@ static void add_cause(char *list, size_t size, int *count, int applies, const ch
   snprintf(list + length, size - length, "%s%s", (*count)++ > 0 ? ", or " : "", cause);
 }
 
-static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list, size_t size) {
+static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list,
+                        size_t size) {
   const hooke_system *system = study->system;
   int count = 0;
   list[0] = '\0';
@@ -84,8 +85,8 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
   add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
 }
 
-static void explain(const struct hk_study *study, int32_t method, struct hk_study_order *order, int32_t points,
-                    double coarsest) {
+static void explain(const struct hk_study *study, int32_t method, struct hk_study_order *order,
+                    int32_t points, double coarsest) {
   char causes[sizeof order->note - 32];
   if (points < FEWEST_POINTS) {
     snprintf(order->note, sizeof order->note, "%s",

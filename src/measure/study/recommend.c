@@ -205,7 +205,8 @@ int32_t hooke_study_recommend(hooke_measurement *m, double want) {
   if (status != HOOKE_OK) return status;
   struct hk_study *study = m->object;
   if (study->reference.frames.count == 0)
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the study has not been run yet; call hooke_measurement_run() first");
+    return hk_fail(HOOKE_BAD_CALL, NULL,
+                   "the study has not been run yet; call hooke_measurement_run() first");
   if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
   /* a budget counts anew */
   study->begun = hk_clock_seconds();

@@ -196,8 +196,8 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
   if (status == HOOKE_OK) status = hk_study_run_ladders(study);
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
-  for (int32_t m = 0; m < study->method_count; m++)
-    hk_study_fit_order(study, m);
+  for (int32_t k = 0; k < study->method_count; k++)
+    hk_study_fit_order(study, k);
   const double want = hooke_options_number(study->options, "want");
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hk_study_find_cheapest(study, want);

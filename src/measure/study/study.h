@@ -44,7 +44,8 @@ struct hk_study_recommendation {
 struct hk_study {
   const hooke_measurement *measurement;
   const hooke_system *system;
-  const hooke_options *run, *options; /* of the measurement */
+  hooke_options *run;
+  const hooke_options *options; /* both of the measurement */
   int32_t method_count;
   const char *method[HOOKE_STUDY_METHODS];
   struct hk_study_order order[HOOKE_STUDY_METHODS];
@@ -125,7 +126,7 @@ void hk_study_fit_order(struct hk_study *study, int32_t method);
 
 /* ---- tables ---- */
 
-enum { HOOKE_STUDY_TABLES = 9 };
+enum { HOOKE_STUDY_TABLES = 10 };
 extern const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES];
 extern const struct hk_table hk_study_watched_table, hk_study_error_table, hk_study_ensemble_table,
     hk_study_statistic_table;

@@ -49,7 +49,8 @@ static double largest_speed(const struct hk_frames *frames) {
 }
 
 /* 1, 0 or NaN, from a trial against a reference that is known to its agreement. */
-static double judge(const struct hk_study *study, const struct hk_reference *r, const struct hk_trial *trial) {
+static double judge(const struct hk_study *study, const struct hk_reference *r,
+                    const struct hk_trial *trial) {
   const double want = study->recommendation.want, error = trial->error;
   if (strcmp(trial->status, "finished") != 0) return 0.0;
   if (r->trusted < 2 || error - r->agreement > want) return r->trusted < 2 ? NAN : 0.0;

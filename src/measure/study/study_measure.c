@@ -13,7 +13,8 @@ static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
-int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value, hooke_options **out) {
+int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value,
+                             hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(study->run, &options);
   if (status == HOOKE_OK) status = hk_trial_set_value(options, study->method[method], value);

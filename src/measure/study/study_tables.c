@@ -54,10 +54,6 @@ struct reference_line {
   struct hk_series time;
 };
 
-static int64_t count_references(const void *object) {
-  return is_made(object);
-}
-
 static const char *how_it_ended(const struct hk_reference *r) {
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
   return r->hurried ? "time" : "rounding";
@@ -67,6 +63,11 @@ static void read_reference(const void *object, int64_t row, void *line) {
   const struct hk_study *study = object;
   const struct hk_reference *r = &study->reference;
   (void)row;
+  if (!is_made(study)) {
+    *(struct reference_line *)line =
+        (struct reference_line){NULL, NULL, NULL, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, {NULL, 0}};
+    return;
+  }
   *(struct reference_line *)line = (struct reference_line){
       .method = r->method,
       .check = r->check,
@@ -84,26 +85,31 @@ static void read_reference(const void *object, int64_t row, void *line) {
 }
 
 static const struct hk_column reference_columns[] = {
-    HOOKE_COLUMN(struct reference_line, method, TEXT, "", "integrator that made the reference"),
-    HOOKE_COLUMN(struct reference_line, check, TEXT, "", "integrator that checked it; they share only the forces"),
-    HOOKE_COLUMN(struct reference_line, ended, TEXT, "",
-           "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
-           "them apart at the tightest tolerances)"),
-    HOOKE_COLUMN(struct reference_line, agreement, NUMBER, "m",
-           "twice the largest root mean square distance between the two over the frames that are trusted; no "
-           "error below it means anything, and none within ten times of it much"),
-    HOOKE_COLUMN(struct reference_line, energy_agreement, NUMBER, "J",
-           "twice the largest difference of their energies there"),
+    HOOKE_COLUMN(
+        struct reference_line, agreement, NUMBER, "m",
+        "twice the largest root mean square distance between the two over the frames that are trusted; no "
+        "error below it means anything, and none within ten times of it much"),
     HOOKE_COLUMN(struct reference_line, trusted_until, NUMBER, "s",
-           "time up to which the two agree to the wanted digits; errors are judged up to there"),
-    HOOKE_COLUMN(struct reference_line, checked_until, NUMBER, "s",
-           "time up to which the two were compared; before the end where the budget was spent"),
-    HOOKE_COLUMN(struct reference_line, growth, NUMBER, "",
-           "factor by which a small displacement of the start grows at most, with growth_probability; NaN "
-           "where that is not known"),
+                 "time up to which the two agree to the wanted digits; errors are judged up to there"),
+    HOOKE_COLUMN(
+        struct reference_line, growth, NUMBER, "",
+        "factor by which a small displacement of the start grows at most, with growth_probability; NaN "
+        "where that is not known"),
     HOOKE_COLUMN(struct reference_line, growth_probability, NUMBER, "", "probability that growth holds"),
-    HOOKE_COLUMN(struct reference_line, growth_seen, NUMBER, "", "the largest growth of the displacements tried"),
+    HOOKE_COLUMN(struct reference_line, growth_seen, NUMBER, "",
+                 "the largest growth of the displacements tried"),
     HOOKE_COLUMN(struct reference_line, displacements, COUNT, "", "displacements tried"),
+    HOOKE_COLUMN(struct reference_line, energy_agreement, NUMBER, "J",
+                 "twice the largest difference of their energies there"),
+    HOOKE_COLUMN(
+        struct reference_line, ended, TEXT, "",
+        "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
+        "them apart at the tightest tolerances)"),
+    HOOKE_COLUMN(struct reference_line, method, TEXT, "", "integrator that made the reference"),
+    HOOKE_COLUMN(struct reference_line, check, TEXT, "",
+                 "integrator that checked it; they share only the forces"),
+    HOOKE_COLUMN(struct reference_line, checked_until, NUMBER, "s",
+                 "time up to which the two were compared; before the end where the budget was spent"),
     HOOKE_COLUMN(struct reference_line, time, SERIES, "s", "times of the frames that are judged"),
 };
 
@@ -112,7 +118,6 @@ static const struct hk_table reference_table = {
     .doc = "the solution that errors are measured against, made by two integrators that check each other",
     .record = 1,
     HOOKE_TABLE_COLUMNS(reference_columns, struct reference_line),
-    .count = count_references,
     .read = read_reference,
 };
 
@@ -167,26 +172,28 @@ static const struct hk_column row_columns[] = {
     HOOKE_COLUMN(struct row_line, method, TEXT, "", "method"),
     HOOKE_COLUMN(struct row_line, step, NUMBER, "s", "step of a fixed-step method"),
     HOOKE_COLUMN(struct row_line, rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
-    HOOKE_COLUMN(struct row_line, atol, NUMBER, "m", "absolute tolerance of positions"),
     HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
-           "largest root mean square over the free particles of the distance to the reference"),
+                 "largest root mean square over the free particles of the distance to the reference"),
     HOOKE_COLUMN(struct row_line, error_max, NUMBER, "m", "largest distance of any free particle"),
     HOOKE_COLUMN(struct row_line, error_final, NUMBER, "m", "root mean square distance at the last frame"),
-    HOOKE_COLUMN(struct row_line, energy_drift, NUMBER, "J", "largest difference of energy from the reference"),
+    HOOKE_COLUMN(struct row_line, energy_drift, NUMBER, "J",
+                 "largest difference of energy from the reference"),
     HOOKE_COLUMN(struct row_line, force_evaluations, COUNT, "", "evaluations of the forces"),
     HOOKE_COLUMN(struct row_line, steps, COUNT, "", "steps taken"),
-    HOOKE_COLUMN(struct row_line, linear_iterations, COUNT, "", "iterations of linear solvers"),
     HOOKE_COLUMN(struct row_line, wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
+    HOOKE_COLUMN(struct row_line, status, TEXT, "", "finished, diverged, stopped or failed"),
+    HOOKE_COLUMN(struct row_line, atol, NUMBER, "m", "absolute tolerance of positions"),
+    HOOKE_COLUMN(struct row_line, linear_iterations, COUNT, "", "iterations of linear solvers"),
     HOOKE_COLUMN(struct row_line, wall_median, NUMBER, "s", "median of the repeated runs"),
     HOOKE_COLUMN(struct row_line, repeats, COUNT, "", "runs that were timed"),
     HOOKE_COLUMN(struct row_line, near_floor, FLAG, "", "the error is within ten times of the agreement"),
     HOOKE_COLUMN(struct row_line, near_energy_floor, FLAG, "",
-           "the energy drift is within ten times of the agreement of energies"),
+                 "the energy drift is within ten times of the agreement of energies"),
     HOOKE_COLUMN(struct row_line, timed_alone, FLAG, "",
-           "0: timed while other rows were running, so its time may be too long"),
-    HOOKE_COLUMN(struct row_line, status, TEXT, "", "finished, diverged, stopped or failed"),
+                 "0: timed while other rows were running, so its time may be too long"),
     HOOKE_COLUMN(struct row_line, error_at, SERIES, "m", "root mean square distance at every frame"),
-    HOOKE_COLUMN(struct row_line, energy_drift_at, SERIES, "J", "energy less that of the reference at every frame"),
+    HOOKE_COLUMN(struct row_line, energy_drift_at, SERIES, "J",
+                 "energy less that of the reference at every frame"),
 };
 
 static const struct hk_table row_table = {
@@ -222,12 +229,14 @@ static void read_order(const void *object, int64_t row, void *line) {
 
 static const struct hk_column order_columns[] = {
     HOOKE_COLUMN(struct order_line, method, TEXT, "", "method"),
-    HOOKE_COLUMN(struct order_line, order, NUMBER, "",
-           "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
-           "with fewer than three of them, and for an error-controlled method"),
-    HOOKE_COLUMN(struct order_line, low, NUMBER, "",
-           "lower end of the 95 % confidence interval of that slope, as if errors scattered about a line by "
-           "chance"),
+    HOOKE_COLUMN(
+        struct order_line, order, NUMBER, "",
+        "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
+        "with fewer than three of them, and for an error-controlled method"),
+    HOOKE_COLUMN(
+        struct order_line, low, NUMBER, "",
+        "lower end of the 95 % confidence interval of that slope, as if errors scattered about a line by "
+        "chance"),
     HOOKE_COLUMN(struct order_line, high, NUMBER, "", "upper end of that interval"),
     HOOKE_COLUMN(struct order_line, theory, NUMBER, "", "the method's order"),
     HOOKE_COLUMN(struct order_line, note, TEXT, "", "why they may differ"),
@@ -246,7 +255,6 @@ static const struct hk_table order_table = {
 struct recommendation_line {
   const char *method, *note;
   double met, want, step, rtol, atol, error, wall_seconds, force_evaluations;
-  double error_low, error_high, limit_share, holds_stiffness, error_stiffness, holds_start, error_start;
 };
 
 static int64_t count_recommendations(const void *object) {
@@ -256,7 +264,6 @@ static int64_t count_recommendations(const void *object) {
 static void read_recommendation(const void *object, int64_t row, void *line) {
   const struct hk_study *study = object;
   const struct hk_study_recommendation *r = &study->recommendation;
-  const double agreement = study->reference.agreement;
   const int adaptive = r->method >= 0 && hk_study_is_adaptive(study, r->method);
   (void)row;
   *(struct recommendation_line *)line = (struct recommendation_line){
@@ -270,6 +277,45 @@ static void read_recommendation(const void *object, int64_t row, void *line) {
       .error = r->error,
       .wall_seconds = r->wall_seconds,
       .force_evaluations = r->force_evaluations,
+  };
+}
+
+static const struct hk_column recommendation_columns[] = {
+    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m", "the wanted error"),
+    HOOKE_COLUMN(struct recommendation_line, method, TEXT, "",
+                 "method of the cheapest run that meets the wanted error, else of the closest run"),
+    HOOKE_COLUMN(struct recommendation_line, step, NUMBER, "s", "its step"),
+    HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
+    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m", "its error"),
+    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s", "its wall time"),
+    HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
+    HOOKE_COLUMN(struct recommendation_line, note, TEXT, "",
+                 "what is in the way where nothing meets it, else empty"),
+    HOOKE_COLUMN(struct recommendation_line, atol, NUMBER, "m", "its absolute tolerance of positions"),
+    HOOKE_COLUMN(struct recommendation_line, force_evaluations, COUNT, "", "its evaluations of the forces"),
+};
+
+static const struct hk_table recommendation_table = {
+    .name = "recommendation",
+    .doc = "which run to make for the wanted error",
+    .record = 1,
+    HOOKE_TABLE_COLUMNS(recommendation_columns, struct recommendation_line),
+    .count = count_recommendations,
+    .read = read_recommendation,
+};
+
+/* ---- its margin ---- */
+
+struct margin_line {
+  double error_low, error_high, limit_share, holds_stiffness, error_stiffness, holds_start, error_start;
+};
+
+static void read_margin(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_study_recommendation *r = &study->recommendation;
+  const double agreement = study->reference.agreement;
+  (void)row;
+  *(struct margin_line *)line = (struct margin_line){
       .error_low = isnan(r->error) ? NAN : fmax(0.0, r->error - agreement),
       .error_high = r->error + agreement,
       .limit_share = r->margin.limit_share,
@@ -280,43 +326,40 @@ static void read_recommendation(const void *object, int64_t row, void *line) {
   };
 }
 
-static const struct hk_column recommendation_columns[] = {
-    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m", "the wanted error"),
-    HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
-    HOOKE_COLUMN(struct recommendation_line, method, TEXT, "",
-           "method of the cheapest run that meets the wanted error, else of the closest run"),
-    HOOKE_COLUMN(struct recommendation_line, step, NUMBER, "s", "its step"),
-    HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
-    HOOKE_COLUMN(struct recommendation_line, atol, NUMBER, "m", "its absolute tolerance of positions"),
-    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m", "its error"),
-    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s", "its wall time"),
-    HOOKE_COLUMN(struct recommendation_line, force_evaluations, COUNT, "", "its evaluations of the forces"),
-    HOOKE_COLUMN(struct recommendation_line, error_low, NUMBER, "m", "error less the agreement of the reference"),
-    HOOKE_COLUMN(struct recommendation_line, error_high, NUMBER, "m", "error plus the agreement of the reference"),
-    HOOKE_COLUMN(struct recommendation_line, limit_share, NUMBER, "",
-           "its step over the largest stable one at the start"),
-    HOOKE_COLUMN(struct recommendation_line, holds_stiffness, FLAG, "",
-           "the wanted error is met with 10 % more stiffness, and with 10 % less"),
-    HOOKE_COLUMN(struct recommendation_line, error_stiffness, NUMBER, "m", "the larger error of those two"),
-    HOOKE_COLUMN(struct recommendation_line, holds_start, FLAG, "",
-           "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at the start, and "
-           "against it"),
-    HOOKE_COLUMN(struct recommendation_line, error_start, NUMBER, "m", "the larger error of those two"),
-    HOOKE_COLUMN(struct recommendation_line, note, TEXT, "", "what is in the way where nothing meets it, else empty"),
+static const struct hk_column margin_columns[] = {
+    HOOKE_COLUMN(struct margin_line, error_low, NUMBER, "m", "error less the agreement of the reference"),
+    HOOKE_COLUMN(struct margin_line, error_high, NUMBER, "m", "error plus the agreement of the reference"),
+    HOOKE_COLUMN(struct margin_line, limit_share, NUMBER, "",
+                 "its step over the largest stable one at the start"),
+    HOOKE_COLUMN(struct margin_line, holds_stiffness, FLAG, "",
+                 "the wanted error is met with 10 % more stiffness, and with 10 % less"),
+    HOOKE_COLUMN(struct margin_line, error_stiffness, NUMBER, "m", "the larger error of those two"),
+    HOOKE_COLUMN(
+        struct margin_line, holds_start, FLAG, "",
+        "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at the start, and "
+        "against it"),
+    HOOKE_COLUMN(struct margin_line, error_start, NUMBER, "m", "the larger error of those two"),
 };
 
-static const struct hk_table recommendation_table = {
-    .name = "recommendation",
-    .doc = "which run to make for the wanted error, and what it has to spare",
+static const struct hk_table margin_table = {
+    .name = "margin",
+    .doc = "what the recommendation has to spare",
+    .group = "recommendation",
     .record = 1,
-    HOOKE_TABLE_COLUMNS(recommendation_columns, struct recommendation_line),
+    HOOKE_TABLE_COLUMNS(margin_columns, struct margin_line),
     .count = count_recommendations,
-    .read = read_recommendation,
+    .read = read_margin,
 };
 
 /* ---- the list ---- */
 
-const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES] = {
-    &study_table,          &reference_table,        &row_table,
-    &order_table,          &recommendation_table,   &hk_study_watched_table,
-    &hk_study_error_table, &hk_study_ensemble_table, &hk_study_statistic_table};
+const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES] = {&study_table,
+                                                                    &reference_table,
+                                                                    &row_table,
+                                                                    &order_table,
+                                                                    &recommendation_table,
+                                                                    &margin_table,
+                                                                    &hk_study_watched_table,
+                                                                    &hk_study_error_table,
+                                                                    &hk_study_ensemble_table,
+                                                                    &hk_study_statistic_table};
