@@ -84,7 +84,6 @@ void cli_rows_print_json(struct cli_json *json, const struct cli_rows *rows) {
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
       cli_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
     cli_json_text(json, "status", rows->text(rows->source, row, "status"));
-    if (rows->print_more) rows->print_more(json, rows->source, row);
     cli_json_close(json);
   }
   cli_json_close(json);

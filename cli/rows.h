@@ -14,8 +14,6 @@ struct cli_rows {
   int32_t grouped; /* 1: an empty line before each method but the first */
   /* what stands behind "error" and "wall_seconds" of a row; NULL: no room for marks */
   char (*mark)(const void *source, int64_t row, const char *what);
-  /* what a row has besides, as JSON; NULL: nothing */
-  void (*print_more)(struct cli_json *json, const void *source, int64_t row);
 };
 
 /* Width of the column of methods. */

@@ -147,7 +147,7 @@ int cli_setup_read_study(const struct cli_arguments *arguments, const char *name
     return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name, text,
                       word, cli_unit_list(base, list));
   }
-  int32_t status = hooke_study_options_create(&options);
+  int32_t status = hooke_options_create("study", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
   if (status == HOOKE_OK) *value = hooke_options_number(options, name);
   hooke_options_destroy(options);

@@ -6,8 +6,8 @@
  *   build.h       generated parts: rope, cloth
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop
+ *   measurement.h studies, limits, needs, costs, comparisons: options, a run, tables
  *   measure.h     step bounds and comparisons
- *   study.h       the trade of error against cost, orders, recommendation
  *   limit.h       the largest stable step of each method, and what it hangs on
  *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
@@ -23,9 +23,9 @@
 #include "hooke/build.h"
 #include "hooke/state.h"
 #include "hooke/integrator.h"
+#include "hooke/measurement.h"
 #include "hooke/measure.h"
 #include "hooke/estimate.h"
-#include "hooke/study.h"
 #include "hooke/limit.h"
 #include "hooke/cost.h"
 #include "hooke/why.h"

@@ -26,12 +26,13 @@ module hooke
     hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &
     hooke_method_is_built => method_is_built
   use hooke_limits, only: hooke_limit, hooke_limit_of_mode => limit_of_mode
+  use hooke_measurements, only: hooke_measurement, hooke_measurement_table => measurement_table, &
+    hooke_measurement_column => measurement_column
   use hooke_needs_of_scenes, only: hooke_needs
   use hooke_observers, only: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
   use hooke_option_tables, only: hooke_options
   use hooke_scenes, only: hooke_scene, hooke_own_process => own_process
   use hooke_states, only: hooke_state
-  use hooke_studies, only: hooke_study, hooke_study_pick => study_pick
   use hooke_systems, only: hooke_system
   use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
   use hooke_verifications, only: hooke_verify

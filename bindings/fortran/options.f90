@@ -10,7 +10,6 @@ module hooke_option_tables
   use hooke_c_limit, only: c_limit_options_create
   use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
-  use hooke_c_study, only: c_study_options_create
   use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
   use hooke_handles, only: hooke_handle
   implicit none
@@ -23,7 +22,7 @@ module hooke_option_tables
     procedure :: create_spring   ! of a group of springs,
     procedure :: create_part     ! of a part of some kind,
     procedure :: create_scene    ! of "scene", "particles" or "driven",
-    procedure :: create_study    ! of a study,
+    procedure :: create          ! of any table by its name: "run", "study", "cloth", ...
     procedure :: create_limit    ! of a limit,
     procedure :: create_cost     ! of a cost,
     procedure :: create_view ! of a view,
@@ -111,12 +110,13 @@ contains
     call take_new(self, code, options, status)
   end subroutine
 
-  subroutine create_study(self, status)
+  subroutine create(self, name, status)
     class(hooke_options), intent(inout) :: self
+    character(*), intent(in) :: name
     integer, intent(out), optional :: status
     type(c_ptr) :: options
     integer(c_int32_t) :: code
-    code = c_study_options_create(options)
+    code = c_options_create(to_c(name), options)
     call take_new(self, code, options, status)
   end subroutine
 

@@ -10,7 +10,7 @@ struct cli_study_results {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   struct cli_methods methods;
-  hooke_study *study;
+  hooke_measurement *study;
   int32_t interrupted;
   char *command; /* the run that is recommended, or the closest one; NULL: there is none */
 };
@@ -26,6 +26,6 @@ void cli_study_results_print(const struct cli_study_results *results);
 void cli_study_results_print_json(const struct cli_study_results *results);
 
 /* 1 if the reference, and with it every error, is trusted up to the end of the run. */
-int32_t cli_study_results_trust_all(const hooke_study *study);
+int32_t cli_study_results_trust_all(const hooke_measurement *study);
 
 #endif

@@ -9,18 +9,7 @@ void cli_study_watched_print(const struct cli_study_results *results, int32_t me
 /* Means, spreads and biases where the motion cannot be judged; or what asks for them. */
 void cli_study_statistics_print(const struct cli_study_results *results, int32_t method_width);
 
-/* "watched": [...] of the reference, with agreements, and of a row, with errors; nothing if nothing is
- * watched. */
-void cli_study_watched_print_reference(struct cli_json *json, const hooke_study *study);
-void cli_study_watched_print_row(struct cli_json *json, const void *study, int64_t row);
-/* "statistics": {...} or null */
-void cli_study_statistics_print_json(struct cli_json *json, const struct cli_study_results *results);
-
-/* hooke_study_reference() of "<what>:<number>", "" where there is none, and of "unit:<quantity>";
- * hooke_study_number() of "<what>:<quantity>", with row -1 hooke_study_figure(). */
-enum { HOOKE_STUDY_WORD_SIZE = 600 };
-const char *cli_study_nth(const hooke_study *study, const char *what, int64_t number);
-const char *cli_study_unit(const hooke_study *study, const char *quantity);
-double cli_study_of(const hooke_study *study, int64_t row, const char *what, const char *quantity);
+/* Quantities that the table "statistics" has: its rows are those of each method, the reference first, times these. */
+int64_t cli_study_quantity_count(const hooke_measurement *study);
 
 #endif

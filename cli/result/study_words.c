@@ -28,17 +28,18 @@ static void print_fact(const char *label, const char *format, ...) {
 /* ---- the reference ---- */
 
 /* Why errors are not judged over the whole run. */
-static void print_why_not_all(const hooke_study *study, const char *time) {
-  const int32_t hurried = strcmp(hooke_study_reference(study, "ended"), "time") == 0;
+static void print_why_not_all(const hooke_measurement *study, const char *time) {
+  const int32_t hurried = strcmp(hooke_measurement_text(study, "reference", 0, "ended"), "time") == 0;
   const char *format =
-      hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "checked_until")
+      hooke_measurement_number(study, "reference", 0, "trusted_until") >=
+              hooke_measurement_number(study, "reference", 0, "checked_until")
           ? "its share of the budget left no time to check the reference beyond %s s. Errors and energy "
             "drift are those "
             "up to %s s; a larger --budget or a shorter --duration checks all of it."
       : hurried ? "at the tolerances that their share of the budget leaves time for, the two integrators "
                   "part after %s s. Errors "
                   "and energy drift are those up to %s s; a larger --budget may know more."
-      : hooke_study_figure(study, "growth_seen") > CHAOTIC
+      : hooke_measurement_number(study, "reference", 0, "growth_seen") > CHAOTIC
           ? "this motion is chaotic: small differences grow so much that the two integrators part after %s s "
             "even where rounding alone sets them apart, and where the particles are later cannot be computed "
             "to the wanted digits. Errors and energy drift are those up to %s s."
@@ -48,64 +49,67 @@ static void print_why_not_all(const hooke_study *study, const char *time) {
   print_fact("WARNING", format, time, time);
 }
 
-static void print_growth(const hooke_study *study) {
-  const double most = hooke_study_figure(study, "growth"), seen = hooke_study_figure(study, "growth_seen");
+static void print_growth(const hooke_measurement *study) {
+  const double most = hooke_measurement_number(study, "reference", 0, "growth"),
+               seen = hooke_measurement_number(study, "reference", 0, "growth_seen");
   if (isnan(seen)) return;
   if (isnan(most)) {
     print_fact("growth", "a displacement of the start grows %.3g times; others may grow more", seen);
-  } else if (hooke_study_figure(study, "growth_probability") == 1.0) {
+  } else if (hooke_measurement_number(study, "reference", 0, "growth_probability") == 1.0) {
     print_fact("growth", "a small displacement of the start grows at most %.3g times", most);
   } else {
     print_fact(
         "growth",
         "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; "
         "random ones grow %.3g times",
-        most, hooke_study_figure(study, "displacements"), seen);
+        most, hooke_measurement_number(study, "reference", 0, "displacements"), seen);
   }
 }
 
-static void print_trust(const hooke_study *study, double agreement) {
-  double until = hooke_study_figure(study, "trusted_until");
-  double duration = hooke_study_figure(study, "duration");
+static void print_trust(const hooke_measurement *study, double agreement) {
+  double until = hooke_measurement_number(study, "reference", 0, "trusted_until");
+  double duration = hooke_measurement_number(study, "study", 0, "duration");
   const int32_t whole = cli_study_results_trust_all(study);
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
   cli_format_rounded(until, time);
   cli_format_rounded(duration, all);
-  int32_t parted = until < hooke_study_figure(study, "checked_until");
+  int32_t parted = until < hooke_measurement_number(study, "reference", 0, "checked_until");
   print_fact("agreement",
              "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
              "as is energy drift within ten times of %.3g J",
-             agreement, parted ? ", until they part" : "", hooke_study_figure(study, "energy_agreement"));
+             agreement, parted ? ", until they part" : "",
+             hooke_measurement_number(study, "reference", 0, "energy_agreement"));
   print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
   print_growth(study);
   if (!whole) print_why_not_all(study, time);
 }
 
-static void print_reference(const hooke_study *study) {
-  double agreement = hooke_study_figure(study, "agreement");
+static void print_reference(const hooke_measurement *study) {
+  double agreement = hooke_measurement_number(study, "reference", 0, "agreement");
   if (isnan(agreement)) {
     print_fact("reference", "not finished, so there is nothing to measure against");
     return;
   }
   print_fact("reference", "%s, checked by %s; they share the forces and nothing else",
-             hooke_study_reference(study, "method"), hooke_study_reference(study, "check"));
+             hooke_measurement_text(study, "reference", 0, "method"),
+             hooke_measurement_text(study, "reference", 0, "check"));
   print_trust(study, agreement);
 }
 
 /* ---- orders ---- */
 
-static void print_order(const hooke_study *study, const char *method, int32_t width) {
-  double order = hooke_study_order(study, method, "order");
-  double theory = hooke_study_order(study, method, "theory");
-  const char *note = hooke_study_order_note(study, method);
+static void print_order(const hooke_measurement *study, const char *method, int32_t width) {
+  const int64_t row = hooke_measurement_find(study, "orders", "method", method);
+  const double order = hooke_measurement_number(study, "orders", row, "order");
+  const char *note = hooke_measurement_text(study, "orders", row, "note");
   char seen[HOOKE_NUMBER_SIZE] = "-", interval[HOOKE_NUMBER_SIZE] = "-";
   if (!isnan(order)) {
     snprintf(seen, sizeof seen, "%.2f", order);
-    snprintf(interval, sizeof interval, "%.2f to %.2f", hooke_study_order(study, method, "low"),
-             hooke_study_order(study, method, "high"));
+    snprintf(interval, sizeof interval, "%.2f to %.2f", hooke_measurement_number(study, "orders", row, "low"),
+             hooke_measurement_number(study, "orders", row, "high"));
   }
   printf("%-*s %7s %16s", width, method, seen, interval);
-  cli_rows_print_cell(7, theory);
+  cli_rows_print_cell(7, hooke_measurement_number(study, "orders", row, "theory"));
   if (note && note[0]) {
     printf("  ");
     cli_print_wrapped(stdout, width + 35, width + 35, WIDTH + 20, note);
@@ -130,9 +134,10 @@ static void print_orders(const struct cli_study_results *results, int32_t width)
 /* ---- the recommendation ---- */
 
 /* How the recommendation does where the scene is a little different. */
-static void print_change(const hooke_study *study, const char *change, const char *holds, const char *error) {
-  const double held = hooke_study_recommendation_number(study, holds);
-  const double off = hooke_study_recommendation_number(study, error);
+static void print_change(const hooke_measurement *study, const char *change, const char *holds,
+                         const char *error) {
+  const double held = hooke_measurement_number(study, "margin", 0, holds);
+  const double off = hooke_measurement_number(study, "margin", 0, error);
   if (isnan(held))
     print_fact("", "%s: not known in this time", change);
   else if (isnan(off))
@@ -142,43 +147,43 @@ static void print_change(const hooke_study *study, const char *change, const cha
                held == 1.0 ? "still at most that" : "no longer", off);
 }
 
-static void print_margin(const hooke_study *study) {
-  const double share = hooke_study_recommendation_number(study, "limit_share");
+static void print_margin(const hooke_measurement *study) {
+  const double share = hooke_measurement_number(study, "margin", 0, "limit_share");
   char limit[64] = "";
   if (!isnan(share) && !isinf(share) && share > 0.0)
     snprintf(limit, sizeof limit, "; its step is %.2g of the largest stable one at the start", share);
   print_fact("margin", "error between %.3g and %.3g m, by the agreement of the reference%s",
-             hooke_study_recommendation_number(study, "error_low"),
-             hooke_study_recommendation_number(study, "error_high"), limit);
+             hooke_measurement_number(study, "margin", 0, "error_low"),
+             hooke_measurement_number(study, "margin", 0, "error_high"), limit);
   print_change(study, "stiffness 10 % more or less", "holds_stiffness", "error_stiffness");
   print_change(study, "all started faster or slower along (1, 1, 1) by 10 % of the largest speed",
                "holds_start", "error_start");
 }
 
 static void print_recommendation(const struct cli_study_results *results) {
-  const hooke_study *study = results->study;
-  double want = hooke_study_recommendation_number(study, "want");
-  int32_t met = hooke_study_recommendation_number(study, "met") == 1.0;
+  const hooke_measurement *study = results->study;
+  double want = hooke_measurement_number(study, "recommendation", 0, "want");
+  int32_t met = hooke_measurement_number(study, "recommendation", 0, "met") == 1.0;
   char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
   cli_format_rounded(want, text);
-  cli_format_rounded(hooke_study_figure(study, "trusted_until"), time);
+  cli_format_rounded(hooke_measurement_number(study, "reference", 0, "trusted_until"), time);
   printf("\n");
   if (met) {
     print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
                time, cli_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
   } else {
     print_fact("recommendation", "none for an error of at most %s m: %s", text,
-               hooke_study_recommendation_text(study, "note"));
+               hooke_measurement_text(study, "recommendation", 0, "note"));
   }
   if (!results->command) return;
-  if (!met) print_fact("closest", "%s", hooke_study_recommendation_text(study, "method"));
+  if (!met) print_fact("closest", "%s", hooke_measurement_text(study, "recommendation", 0, "method"));
   printf("%*s", LABEL, "");
   cli_print_text(stdout, results->command);
   printf("\n");
   print_fact("", "error %.3g m, wall time %.3g s, %.0f force evaluations, as measured",
-             hooke_study_recommendation_number(study, "error"),
-             hooke_study_recommendation_number(study, "wall_seconds"),
-             hooke_study_recommendation_number(study, "force_evaluations"));
+             hooke_measurement_number(study, "recommendation", 0, "error"),
+             hooke_measurement_number(study, "recommendation", 0, "wall_seconds"),
+             hooke_measurement_number(study, "recommendation", 0, "force_evaluations"));
   if (met) print_margin(study);
 }
 
@@ -200,7 +205,8 @@ void cli_study_results_print(const struct cli_study_results *results) {
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   cli_print_text(stdout, title && title[0] ? title : arguments->scene);
-  printf(", %s s\n", cli_format_rounded(hooke_study_figure(results->study, "duration"), text));
+  printf(", %s s\n",
+         cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
     printf("\n");
@@ -208,7 +214,7 @@ void cli_study_results_print(const struct cli_study_results *results) {
     print_legend(&rows);
     cli_study_watched_print(results, width);
   }
-  if (hooke_study_figure(results->study, "budget_spent") == 1.0)
+  if (hooke_measurement_number(results->study, "study", 0, "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
   if (rows.count > 0) print_orders(results, width);
   if (cli_study_results_recommend(results)) {

@@ -130,7 +130,7 @@ const struct cli_verb cli_verb_needs = {
         "known so far.",
     .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
-    .options = hooke_needs_options_create,
+    .options = "needs",
     .without = "step checkpoint",
     .function = do_needs,
 };

@@ -35,11 +35,13 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
 
 /* The exit code of the study, or that of a report that could not be written. */
 static int write_report(const struct cli_study_results *results, const char *report, int code) {
-  if (!report || hooke_study_row_count(results->study) == 0) return code;
+  if (!report || hooke_measurement_row_count(results->study, "rows") == 0) return code;
   const char *title = hooke_scene_title(results->setup.scene);
+  const char *const command = cli_study_results_recommend(results) ? results->command : NULL;
   int32_t status =
-      hooke_study_write_report(results->study, report, title && title[0] ? title : results->arguments->scene,
-                               cli_study_results_recommend(results) ? results->command : NULL);
+      hooke_measurement_label(results->study, "title", title && title[0] ? title : results->arguments->scene);
+  if (status == HOOKE_OK) status = hooke_measurement_label(results->study, "command", command);
+  if (status == HOOKE_OK) status = hooke_measurement_write(results->study, report);
   if (status == HOOKE_OK) return code;
   cli_report_words(results->arguments, "%s", hooke_last_error());
   return cli_exit_code(status);
@@ -51,11 +53,11 @@ static int run_study(struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
   struct cli_watch watch;
   cli_watch_start(&watch, arguments);
-  int32_t status =
-      hooke_study_create(results->setup.system, results->setup.options, arguments->more, &results->study);
+  int32_t status = hooke_measurement_create("study", results->setup.system, results->setup.options,
+                                            arguments->more, &results->study);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  hooke_study_on_progress(results->study, cli_watch_progress, &watch);
-  status = hooke_study_run(results->study);
+  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
+  status = hooke_measurement_run(results->study, NULL);
   cli_watch_end(&watch);
   results->interrupted = status == HOOKE_STOPPED;
   return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
@@ -64,16 +66,17 @@ static int run_study(struct cli_study_results *results) {
 /* ---- the command that is recommended ---- */
 
 static double recommended(const struct cli_study_results *results, const char *what) {
-  return hooke_study_recommendation_number(results->study, what);
+  return hooke_measurement_number(results->study, "recommendation", 0, what);
 }
 
 int32_t cli_study_results_recommend(const struct cli_study_results *results) {
-  if (!hooke_study_recommendation_text(results->study, "note")) return 0;
+  if (!hooke_measurement_text(results->study, "recommendation", 0, "note")) return 0;
   return recommended(results, "met") == 1.0 || !results->interrupted;
 }
 
-int32_t cli_study_results_trust_all(const hooke_study *study) {
-  return hooke_study_figure(study, "trusted_until") >= hooke_study_figure(study, "duration") * (1.0 - 1e-9);
+int32_t cli_study_results_trust_all(const hooke_measurement *study) {
+  return hooke_measurement_number(study, "reference", 0, "trusted_until") >=
+         hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
 }
 
 /* NULL where the number does not apply. */
@@ -87,7 +90,7 @@ static const char *setting(const struct cli_study_results *results, const char *
 static int32_t find_command(struct cli_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
   size_t size;
-  const char *method = hooke_study_recommendation_text(results->study, "method");
+  const char *method = hooke_measurement_text(results->study, "recommendation", 0, "method");
   if (!method || !cli_study_results_recommend(results)) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
@@ -105,34 +108,34 @@ static int32_t find_command(struct cli_study_results *results) {
 /* ---- results ---- */
 
 static const char *text_of(const void *study, int64_t row, const char *what) {
-  return hooke_study_text(study, row, what);
+  return hooke_measurement_text(study, "rows", row, what);
 }
 
 static double number_of(const void *study, int64_t row, const char *what) {
-  return hooke_study_number(study, row, what);
+  return hooke_measurement_number(study, "rows", row, what);
 }
 
 static char mark_of(const void *study, int64_t row, const char *what) {
-  if (strcmp(what, "error") == 0) return hooke_study_number(study, row, "near_floor") == 1.0 ? '*' : ' ';
+  if (strcmp(what, "error") == 0)
+    return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
   if (strcmp(what, "energy_drift") == 0)
-    return hooke_study_number(study, row, "near_energy_floor") == 1.0 ? '*' : ' ';
-  return hooke_study_number(study, row, "timed_alone") == 0.0 ? '+' : ' ';
+    return hooke_measurement_number(study, "rows", row, "near_energy_floor") == 1.0 ? '*' : ' ';
+  return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
   return (struct cli_rows){.source = results->study,
-                           .count = hooke_study_row_count(results->study),
+                           .count = hooke_measurement_row_count(results->study, "rows"),
                            .text = text_of,
                            .number = number_of,
                            .grouped = 1,
-                           .mark = mark_of,
-                           .print_more = cli_study_watched_print_row};
+                           .mark = mark_of};
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
-  if (ends_in(output, ".csv")) return hooke_study_write_csv(results->study, output);
-  return hooke_study_write_h5(results->study, output, hooke_scene_text(results->setup.scene),
-                              results->interrupted ? HOOKE_STOPPED : HOOKE_OK);
+  const int32_t status =
+      hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene));
+  return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
 }
 
 /* What was measured is printed also when the file fails. */
@@ -140,7 +143,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   const struct cli_arguments *arguments = results->arguments;
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row takes no older file's place */
-  if (hooke_study_row_count(results->study) == 0) output = NULL;
+  if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
   const int32_t found = find_command(results);
   if (arguments->json) {
     cli_study_results_print_json(results);
@@ -157,13 +160,14 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
-                     hooke_study_row_count(results->study), output && written == HOOKE_OK ? ", in " : "",
+                     hooke_measurement_row_count(results->study, "rows"),
+                     output && written == HOOKE_OK ? ", in " : "",
                      output && written == HOOKE_OK ? output : "");
   }
   if (written != HOOKE_OK) return cli_exit_code(written);
   if (found != HOOKE_OK) return cli_report_missing_words(arguments);
   if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
-  const int32_t made = hooke_study_recommendation_text(results->study, "note") != NULL;
+  const int32_t made = hooke_measurement_text(results->study, "recommendation", 0, "note") != NULL;
   const int32_t met = recommended(results, "met") == 1.0 && cli_study_results_trust_all(results->study);
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
@@ -184,7 +188,7 @@ static int do_study(const struct cli_arguments *arguments) {
     code = write_report(&results, report, code);
   }
   free(results.command);
-  hooke_study_destroy(results.study);
+  hooke_measurement_destroy(results.study);
   cli_setup_destroy(&results.setup);
   return code;
 }
@@ -205,7 +209,7 @@ const struct cli_verb cli_verb_study = {
             "FILE have every digit.",
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
-    .options = hooke_study_options_create,
+    .options = "study",
     .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };

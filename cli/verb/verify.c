@@ -143,6 +143,6 @@ const struct cli_verb cli_verb_verify = {
         "start. Exit code 3 says "
         "that the file is not what its scene gives.",
     .example = "hooke verify cloth.h5",
-    .options = hooke_verify_options_create,
+    .options = "verify",
     .function = do_verify,
 };

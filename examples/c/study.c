@@ -31,24 +31,28 @@ static hooke_system *rope_of(int segments) {
   return system;
 }
 
-static void print_rows(const hooke_study *study) {
+static void print_rows(const hooke_measurement *study) {
   printf("%-18s %10s %10s %12s %10s\n", "method", "step [s]", "rtol", "error [m]", "time [s]");
-  for (int64_t k = 0; k < hooke_study_row_count(study); k++)
-    printf("%-18s %10.3g %10.3g %12.3g %10.3g\n", hooke_study_text(study, k, "method"),
-           hooke_study_number(study, k, "step"), hooke_study_number(study, k, "rtol"),
-           hooke_study_number(study, k, "error"), hooke_study_number(study, k, "wall_seconds"));
+  for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++)
+    printf("%-18s %10.3g %10.3g %12.3g %10.3g\n", hooke_measurement_text(study, "rows", k, "method"),
+           hooke_measurement_number(study, "rows", k, "step"),
+           hooke_measurement_number(study, "rows", k, "rtol"),
+           hooke_measurement_number(study, "rows", k, "error"),
+           hooke_measurement_number(study, "rows", k, "wall_seconds"));
 }
 
-static void run_recommended(const hooke_system *system, const hooke_study *study, hooke_options *run) {
+static void run_recommended(const hooke_system *system, const hooke_measurement *study, hooke_options *run) {
   hooke_integrator *integrator;
   hooke_state *state;
-  const double step = hooke_study_recommendation_number(study, "step");
-  check(hooke_options_set_text(run, "method", hooke_study_recommendation_text(study, "method")));
+  const double step = hooke_measurement_number(study, "recommendation", 0, "step");
+  check(hooke_options_set_text(run, "method", hooke_measurement_text(study, "recommendation", 0, "method")));
   if (!isnan(step)) {
     check(hooke_options_set_number(run, "step", step));
   } else {
-    check(hooke_options_set_number(run, "rtol", hooke_study_recommendation_number(study, "rtol")));
-    check(hooke_options_set_number(run, "atol", hooke_study_recommendation_number(study, "atol")));
+    check(
+        hooke_options_set_number(run, "rtol", hooke_measurement_number(study, "recommendation", 0, "rtol")));
+    check(
+        hooke_options_set_number(run, "atol", hooke_measurement_number(study, "recommendation", 0, "atol")));
   }
   check(hooke_integrator_create(system, run, &integrator));
   check(hooke_state_create(system, &state));
@@ -62,25 +66,29 @@ static void run_recommended(const hooke_system *system, const hooke_study *study
 int main(void) {
   hooke_system *system = rope_of(12);
   hooke_options *run, *options;
-  hooke_study *study;
+  hooke_measurement *study;
   check(hooke_run_options_create(&run));
   check(hooke_options_set_number(run, "duration", 0.25));
-  check(hooke_study_options_create(&options));
+  check(hooke_options_create("study", &options));
   check(hooke_options_set_text(options, "methods", "symplectic-euler,verlet,rk4,cvode-adams"));
   check(hooke_options_set_number(options, "want", 1e-4)); /* m */
-  check(hooke_study_create(system, run, options, &study));
-  check(hooke_study_run(study));
+  check(hooke_measurement_create("study", system, run, options, &study));
+  check(hooke_measurement_run(study, NULL));
 
-  printf("reference: %s, checked by %s: they agree within %.1e m\n", hooke_study_reference(study, "method"),
-         hooke_study_reference(study, "check"), hooke_study_figure(study, "agreement"));
+  printf("reference: %s, checked by %s: they agree within %.1e m\n",
+         hooke_measurement_text(study, "reference", 0, "method"),
+         hooke_measurement_text(study, "reference", 0, "check"),
+         hooke_measurement_number(study, "reference", 0, "agreement"));
   print_rows(study);
-  printf("order of verlet: %.2f\n", hooke_study_order(study, "verlet", "order"));
-  printf("for 0.1 mm: %s, %.2g m in %.2g s\n", hooke_study_recommendation_text(study, "method"),
-         hooke_study_recommendation_number(study, "error"),
-         hooke_study_recommendation_number(study, "wall_seconds"));
+  printf("order of verlet: %.2f\n",
+         hooke_measurement_number(study, "orders",
+                                  hooke_measurement_find(study, "orders", "method", "verlet"), "order"));
+  printf("for 0.1 mm: %s, %.2g m in %.2g s\n", hooke_measurement_text(study, "recommendation", 0, "method"),
+         hooke_measurement_number(study, "recommendation", 0, "error"),
+         hooke_measurement_number(study, "recommendation", 0, "wall_seconds"));
   run_recommended(system, study, run);
 
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

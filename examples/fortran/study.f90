@@ -4,7 +4,7 @@ program study
   implicit none
   type(hooke_system) :: system
   type(hooke_options) :: cloth, run, options
-  type(hooke_study) :: rows
+  type(hooke_measurement) :: found
   type(hooke_integrator) :: integrator
   type(hooke_state) :: state
   real(hooke_real), parameter :: want = 1e-3_hooke_real ! m
@@ -24,21 +24,22 @@ program study
 
   call run%create_run()
   call run%set("duration", 0.2_hooke_real)
-  call options%create_study()
+  call options%create("study")
   call options%set("methods", "symplectic-euler,verlet,rk4")
   call options%set("want", want)
-  call rows%create(system, run, options, status)
+  call found%create("study", system, run, options, status)
   if (status == hooke_not_built) then
     print "(2a)", "no study: ", hooke_message()
     stop
   end if
-  call rows%run()
-  do row = 1, rows%row_count()
-    print "(a18, 2es12.3)", rows%text(row, "method"), rows%number(row, "step"), rows%number(row, "error")
+  call found%run()
+  do row = 1, found%row_count("rows")
+    print "(a18, 2es12.3)", found%text("rows", row, "method"), &
+      found%number("rows", row, "step"), found%number("rows", row, "error")
   end do
 
-  call run%set("method", rows%recommendation_text("method"))
-  call run%set("step", rows%recommendation_number("step"))
+  call run%set("method", found%text("recommendation", 1, "method"))
+  call run%set("step", found%number("recommendation", 1, "step"))
   call integrator%create(system, run)
   call state%create(system)
   call integrator%run(state)

@@ -11,7 +11,6 @@
 #include "limit.h"
 #include "measure.h"
 #include "needs.h"
-#include "study.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -227,34 +226,9 @@ HOOKE_API void hooke_view_destroy(hooke_view *view);
  * HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 
-/* ---- studies ---- */
-
-/* Writes all that a study has so far as one HDF5 file: rows as columns, error and energy drift over time,
- * orders, reference, recommendation (layout: docs/study.md). `scene_text` is as for
- * hooke_trajectory_create(); `outcome` is what hooke_study_run() returned. An older file is replaced when the
- * new one is complete. HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
-                                       int32_t outcome);
-
-/* ---- tables ---- */
-
-/* Writes the rows that a study has so far as CSV: a line of names, then one line a row with "method", the
- * numbers of hooke_study_number() and "status". Numbers read back to the same bits in every locale, those
- * that do not apply are left empty. An older file is replaced when the new one is complete. HOOKE_IO_FAILED,
- * HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);
-
 /* ---- reports ---- */
 
-/* Writes one HTML page, readable offline, with all that a study has so far: diagrams, table, recommendation,
- * reference, machine and versions. `scene` is the name over it, `command` the line to type for what is
- * recommended; both may be NULL. An older file is replaced when the new one is complete. HOOKE_IO_FAILED,
- * HOOKE_NO_MEMORY; HOOKE_NOT_BUILT in a build without Chart.js, or where the files that are installed with
- * the library, in share/hooke, are missing. */
-HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
-                                           const char *command);
-
-/* The same of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on
+/* Writes one HTML page, readable offline, of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on
  * the scene at `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found,
  * HOOKE_BAD_VALUE for a state of another system, and the failures above. */
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,

@@ -31,7 +31,7 @@ typedef struct hooke_needs hooke_needs;
 HOOKE_API int32_t hooke_needs_options_create(hooke_options **options);
 
 /* For a committed system, which must outlive it. `run` (options of a run) gives duration, every and the
- * method; without a method one is picked as hooke_study_pick() does. Both options are copied.
+ * method; without a method one is picked as hooke_estimate_pick() does. Both options are copied.
  * HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
                                      const hooke_options *options, hooke_needs **needs);

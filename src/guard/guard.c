@@ -13,6 +13,7 @@
 #include "hooke/checkpoint.h"
 #include "hooke/estimate.h"
 #include "hooke/io.h"
+#include "hooke/measurement.h"
 #include "hooke/verify.h"
 #include "hooke/why.h"
 

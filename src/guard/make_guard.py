@@ -18,9 +18,9 @@ import headers  # noqa: E402
 # Handles that may be NULL, or that the function itself answers for, besides those of functions that destroy or close:
 # (function, parameter).
 MAY_BE_NULL = {
+    ("measurement_create", "run"), ("measurement_create", "options"), ("measurement_run", "state"),
     ("cost_create", "run"), ("cost_create", "options"),
     ("limit_create", "run"), ("limit_create", "options"),
-    ("study_create", "options"),
     ("view_create", "options"), ("verify_create", "options"), ("verify_create", "limits"),
     ("scene_load_within", "limits"), ("scene_parse_within", "limits"),
     ("scene_write", "run"), ("scene_of_system", "run"),
@@ -29,21 +29,22 @@ MAY_BE_NULL = {
     ("options_numbers", "options"), ("options_number", "options"), ("options_text", "options"),
     ("system_add_altitude", "options"), ("system_add_part", "options"), ("mesh_set", "options"),
     ("integrator_create", "options"), ("integrator_create_first_order", "options"), ("comparison_create", "options"),
-    ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"), ("study_create", "run"),
-    ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"),
+    ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"),
+    ("estimate_pick", "run"), ("estimate_refine", "run"),
     ("why_create_kept", "run"), ("mesh_read", "options"),
     ("scene_options_apply", "options"), ("why_advice_apply", "run"),
 }
 # Texts that may be NULL: (function, parameter).
 MAY_BE_NO_TEXT = {
+    ("measurement_label", "text"), ("measurement_table", "kind"),
     ("system_add_springs", "name"), ("system_add_bending", "name"), ("system_add_altitude", "name"),
     ("system_add_part", "name"), ("estimate_pick", "method"),
     ("scene_parse", "name"), ("scene_parse", "folder"),
     ("scene_parse_within", "name"), ("scene_parse_within", "folder"),
     ("scene_of_system", "title"), ("scene_of_system", "name"), ("scene_of_system", "folder"),
     ("scene_write", "title"), ("trajectory_create", "scene_text"), ("comparison_file_create", "scene_text"),
-    ("study_write_h5", "scene_text"), ("view_write", "title"), ("record_write_xdmf", "path"),
-    ("study_write_report", "scene"), ("study_write_report", "command"), ("limit_write_report", "scene"),
+    ("view_write", "title"), ("record_write_xdmf", "path"),
+    ("limit_write_report", "scene"),
     ("needs_write_report", "scene"), ("needs_write_report", "command"),
     ("checkpoint_write", "run"), ("checkpoint_read", "run"),
 }

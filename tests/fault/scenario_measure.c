@@ -119,19 +119,19 @@ end:
 static void study(struct attempt *a, const void *with) {
   hooke_system *system = make_oscillator(a);
   hooke_options *run = system ? make_run(a, NULL, 0.0, 0.05, 0.01) : NULL;
-  hooke_study *study = make_study(a, system, run, "symplectic-euler,rk4,cvode-adams");
+  hooke_measurement *study = make_study(a, system, run, "symplectic-euler,rk4,cvode-adams");
   (void)with;
   if (study == NULL) goto end;
-  TRY(a, hooke_study_run(study));
-  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
-    attempt_text(a, hooke_study_text(study, k, "status"));
-    attempt_number(a, hooke_study_number(study, k, "error"));
+  TRY(a, hooke_measurement_run(study, NULL));
+  for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++) {
+    attempt_text(a, hooke_measurement_text(study, "rows", k, "status"));
+    attempt_number(a, hooke_measurement_number(study, "rows", k, "error"));
   }
-  attempt_number(a, hooke_study_order(study, "rk4", "order"));
-  attempt_number(a, hooke_study_figure(study, "agreement"));
+  attempt_number(a, hooke_measurement_number(study, "orders", 0, "order"));
+  attempt_number(a, hooke_measurement_number(study, "reference", 0, "agreement"));
   TRY(a, hooke_study_recommend(study, 1e-3));
 end:
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -139,10 +139,13 @@ end:
 static void pick(struct attempt *a, const void *with) {
   hooke_system *system = make_oscillator(a);
   hooke_options *run = system ? make_run(a, NULL, 0.0, 0.2, 0.1) : NULL;
+  hooke_estimate *estimate = NULL;
   (void)with;
   if (run == NULL) goto end;
-  TRY(a, hooke_study_pick(system, run, 1e-3, NULL, NULL));
+  TRY(a, hooke_estimate_create(system, 1e-3, &estimate));
+  TRY(a, hooke_estimate_pick(estimate, NULL, run));
 end:
+  hooke_estimate_destroy(estimate);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

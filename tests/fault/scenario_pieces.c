@@ -53,15 +53,15 @@ end:
   return NULL;
 }
 
-hooke_study *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                        const char *methods) {
+hooke_measurement *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              const char *methods) {
   hooke_options *options = NULL;
-  hooke_study *study = NULL;
+  hooke_measurement *study = NULL;
   if (run == NULL) return NULL;
-  TRY(a, hooke_study_options_create(&options));
+  TRY(a, hooke_options_create("study", &options));
   TRY(a, hooke_options_set_text(options, "methods", methods));
   TRY(a, hooke_options_set_number(options, "points", 6));
-  TRY(a, hooke_study_create(system, run, options, &study));
+  TRY(a, hooke_measurement_create("study", system, run, options, &study));
 end:
   hooke_options_destroy(options);
   return study;

@@ -121,14 +121,21 @@ static void study(struct attempt *a, const void *with) {
   const enum kind kind = *(const enum kind *)with;
   hooke_system *system = make_rope(a, 1);
   hooke_options *run = system ? make_run(a, NULL, 0.0, 0.004, 0.002) : NULL;
-  hooke_study *study = make_study(a, system, run, "symplectic-euler");
+  hooke_measurement *study = make_study(a, system, run, "symplectic-euler");
   if (study == NULL) goto end;
-  TRY(a, hooke_study_run(study));
-  if (kind == STUDY_H5) TRY(a, hooke_study_write_h5(study, path_of(a, "out.h5"), of_files, HOOKE_OK));
-  if (kind == STUDY_CSV) TRY(a, hooke_study_write_csv(study, path_of(a, "out.csv")));
-  if (kind == STUDY_REPORT) TRY(a, hooke_study_write_report(study, path_of(a, "out.html"), "rope", "hooke"));
+  TRY(a, hooke_measurement_run(study, NULL));
+  if (kind == STUDY_H5) {
+    TRY(a, hooke_measurement_label(study, "scene", of_files));
+    TRY(a, hooke_measurement_write(study, path_of(a, "out.h5")));
+  }
+  if (kind == STUDY_CSV) TRY(a, hooke_measurement_write(study, path_of(a, "out.csv")));
+  if (kind == STUDY_REPORT) {
+    TRY(a, hooke_measurement_label(study, "title", "rope"));
+    TRY(a, hooke_measurement_label(study, "command", "hooke"));
+    TRY(a, hooke_measurement_write(study, path_of(a, "out.html")));
+  }
 end:
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

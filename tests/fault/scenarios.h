@@ -32,8 +32,8 @@ hooke_system *make_rope(struct attempt *a, double segments);
 hooke_options *make_run(struct attempt *a, const char *method, double step, double duration, double every);
 
 /* Not yet run, over a system and a run that may be NULL, for an attempt that is over. */
-hooke_study *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                        const char *methods);
+hooke_measurement *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              const char *methods);
 hooke_comparison *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
                                   const char *method);
 hooke_needs *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run);

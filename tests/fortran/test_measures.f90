@@ -24,12 +24,12 @@ contains
   subroutine without_libraries()
     type(hooke_system) :: system
     type(hooke_options) :: run
-    type(hooke_study) :: study
+    type(hooke_measurement) :: study
     type(hooke_limit) :: limit
     integer :: status
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
-    call study%create(system, run, status=status)
+    call study%create("study", system, run, status=status)
     call expect(status == hooke_not_built .and. .not. study%exists(), "no studies without SUNDIALS and GSL")
     call limit%create(system, status=status)
     call expect(status == hooke_not_built .and. .not. limit%exists(), "no limits without a library for eigenvalues")
@@ -134,53 +134,55 @@ contains
   subroutine studies()
     type(hooke_system) :: system
     type(hooke_options) :: run, options
-    type(hooke_study) :: study
+    type(hooke_measurement) :: study
     type(teller), target :: progress
     real(hooke_real) :: order
-    integer :: status
     call make_oscillator(system)
     call make_run(run, "verlet", 1e-2_hooke_real, 0.5_hooke_real)
-    call options%create_study()
+    call options%create("study")
     call options%set("methods", "symplectic-euler,verlet")
     call options%set("points", 6)
-    call study%create(system, run, options)
+    call study%create("study", system, run, options)
     call study%on_progress(progress)
     call study%run()
-    call expect(study%row_count() == 12 .and. study%text(1, "method") == "symplectic-euler", "six rows a method")
-    order = study%order("verlet", "order")
+    call expect(study%row_count("rows") == 12 .and. study%text("rows", 1, "method") == "symplectic-euler", "six rows a method")
+    order = study%number("orders", study%find("orders", "method", "verlet"), "order")
     call expect(order > 1.95_hooke_real .and. order < 2.05_hooke_real, "the order of verlet")
-    call expect_near(study%order("symplectic-euler", "theory"), 1.0_hooke_real, 0.0_hooke_real, &
+    call expect_near(study%number("orders", 1, "theory"), 1.0_hooke_real, 0.0_hooke_real, &
       "and that of the other in theory")
-    call expect(study%order_note("verlet") == "", "nothing in its way")
-    call expect(study%figure("agreement") > 0 .and. study%figure("agreement") < 1e-8_hooke_real, "the reference agrees")
-    call expect(study%reference("method") /= study%reference("check"), "by two methods")
+    call expect(study%text("orders", 2, "note") == "", "nothing in its way")
+    call expect(study%number("reference", 1, "agreement") > 0 .and. &
+      study%number("reference", 1, "agreement") < 1e-8_hooke_real, "the reference agrees")
+    call expect(study%text("reference", 1, "method") /= study%text("reference", 1, "check"), "by two methods")
     call study%recommend(1e-3_hooke_real)
-    call expect(study%recommendation_text("method") /= "" .and. study%recommendation_text("note") == "", "recommended")
-    call expect(study%recommendation_number("error") <= 1e-3_hooke_real, "what meets the want")
-    call expect(size(study%series(1, "error")) == study%frame_count(), "series")
-    call expect(study%number(1, "error") > study%number(6, "error"), "smaller steps are better")
+    call expect(study%text("recommendation", 1, "method") /= "" .and. &
+      study%text("recommendation", 1, "note") == "", "recommended")
+    call expect(study%number("recommendation", 1, "error") <= 1e-3_hooke_real, "what meets the want")
+    call expect(size(study%series("rows", 1, "error_at")) == nint(study%number("study", 1, "frames")), "series")
+    call expect(study%number("rows", 1, "error") > study%number("rows", 6, "error"), "smaller steps are better")
     call expect(progress%told > 0, "progress was told")
-    progress%told = 0
-    call hooke_study_pick(system, run, 1e-3_hooke_real, progress, status)
-    call expect(status == hooke_ok .and. progress%told > 0, "picked")
-    call expect(run%text("method") /= "" .and. run%is_set("method"), "and set in the run")
+    call expect(hooke_measurement_table(table=1, what="name") /= "", "kinds have names")
+    call expect_text(hooke_measurement_table("study", 1, "name"), "study", "and tables")
+    call expect_text(hooke_measurement_column("study", "rows", 1, "name"), "method", "with columns")
+    call expect(hooke_measurement_column("study", "rows", 99, "name") == "", "so many")
     call write_study(study)
   end subroutine
 
   subroutine write_study(study)
-    type(hooke_study), intent(in) :: study
+    type(hooke_measurement), intent(inout) :: study
     integer :: status, unit
     character(200) :: line
-    call study%write_csv(output("study.csv"))
+    call study%write(output("study.csv"))
     open (newunit=unit, file=output("study.csv"), action="read")
     read (unit, "(a)") line
     close (unit)
     call expect_text(line, "method,", "the table as CSV")
-    call study%write_h5(output("study.h5"), outcome=hooke_ok, status=status)
+    call study%write(output("study.h5"), status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("hdf5") == ""), "as HDF5")
-    call study%write_report(output("study.html"), "an oscillator", status=status)
+    call study%label("title", "an oscillator")
+    call study%write(output("study.html"), status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
-    call study%write_csv("no/such/folder/study.csv", status)
+    call study%write("no/such/folder/study.csv", status)
     call expect(status == hooke_io_failed, "where there is a place for it")
   end subroutine
 

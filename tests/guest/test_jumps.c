@@ -270,22 +270,22 @@ static void test_studies_can_be_run_again(void **unused) {
   hooke_system *system = make_rope(SMALL);
   hooke_options *run = run_options((struct run){.method = "verlet", .duration = 1.0, .every = 0.25}),
                 *options;
-  hooke_study *study;
-  check_ok(hooke_study_options_create(&options));
+  hooke_measurement *study;
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_text(options, "methods", "verlet"));
   check_ok(hooke_options_set_text(options, "steps", "0.125,0.0625"));
-  check_ok(hooke_study_create(system, run, options, &study));
-  hooke_study_on_progress(study, progress, NULL);
+  check_ok(hooke_measurement_create("study", system, run, options, &study));
+  hooke_measurement_on_progress(study, progress, NULL);
   jump.calls = 2;
   if (setjmp(jump.back) == 0) {
-    hooke_study_run(study);
+    hooke_measurement_run(study, NULL);
     check_failed("the progress was not called twice");
   }
-  hooke_study_destroy(study);
-  check_ok(hooke_study_create(system, run, options, &study));
-  check_ok(hooke_study_run(study));
-  check_between(hooke_study_number(study, 1, "error"), 1e-12, 0.1);
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
+  check_ok(hooke_measurement_create("study", system, run, options, &study));
+  check_ok(hooke_measurement_run(study, NULL));
+  check_between(hooke_measurement_number(study, "rows", 1, "error"), 1e-12, 0.1);
+  hooke_measurement_destroy(study);
   hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

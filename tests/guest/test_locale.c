@@ -175,15 +175,15 @@ static void scenes(struct output *out) {
   hooke_limit_destroy(limit);
   hooke_options_destroy(options);
 
-  hooke_study *study;
-  check_ok(hooke_study_options_create(&options));
+  hooke_measurement *study;
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_text(options, "methods", "verlet"));
   check_ok(hooke_options_set_text(options, "steps", "0.0005,0.00025"));
-  check_ok(hooke_study_create(system, run, options, &study));
-  check_ok(hooke_study_run(study));
+  check_ok(hooke_measurement_create("study", system, run, options, &study));
+  check_ok(hooke_measurement_run(study, NULL));
   check_ok(hooke_study_recommend(study, 1e-13));
-  add(out, hooke_study_recommendation_text(study, "note"));
-  check_ok(hooke_study_write_csv(study, "guest_locale.csv"));
+  add(out, hooke_measurement_text(study, "recommendation", 0, "note"));
+  check_ok(hooke_measurement_write(study, "guest_locale.csv"));
   /* some of its columns are times on the clock: what counts is how many there are */
   FILE *table = fopen("guest_locale.csv", "r");
   char line[1024];
@@ -198,7 +198,7 @@ static void scenes(struct output *out) {
   }
   fclose(table);
   remove("guest_locale.csv");
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_options_destroy(options);
 
   hooke_integrator *integrator =

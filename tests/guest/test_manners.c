@@ -117,7 +117,8 @@ static void expect(int32_t status, int32_t expected, const char *call) {
 
 static const char trajectory_path[] = "guest_manners.h5", report_path[] = "guest_manners.html",
                   table_path[] = "guest_manners.csv", scene_path[] = "guest_manners.json",
-                  checkpoint_path[] = "guest_manners.checkpoint", nowhere[] = "no/such/folder/file";
+                  checkpoint_path[] = "guest_manners.checkpoint", nowhere[] = "no/such/folder/file",
+                  nowhere_h5[] = "no/such/folder/file.h5", nowhere_csv[] = "no/such/folder/file.csv";
 static const char scene_text[] =
     "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"rope\", \"from\": [0, 0, 0],"
     " \"to\": [1, 0, 0.25], \"segments\": 8, \"mass\": 0.1, \"pinned\": \"start\","
@@ -293,21 +294,22 @@ static void tour_scenes(void) {
   ASK(hooke_needs_destroy(needs));
   ASK(hooke_options_destroy(options));
 
-  hooke_study *study = NULL;
-  OK(hooke_study_options_create(&options));
+  hooke_measurement *study = NULL;
+  OK(hooke_options_create("study", &options));
   OK(hooke_options_set_text(options, "methods", "verlet,cvode-adams"));
-  OK(hooke_study_create(system, run, options, &study));
-  ASK(hooke_study_on_progress(study, go_on, NULL));
-  OK(hooke_study_run(study));
+  OK(hooke_measurement_create("study", system, run, options, &study));
+  ASK(hooke_measurement_on_progress(study, go_on, NULL));
+  OK(hooke_measurement_run(study, NULL));
   OK(hooke_study_recommend(study, 1e-3));
-  OK(hooke_study_write_csv(study, table_path));
-  REFUSED(hooke_study_write_csv(study, nowhere), HOOKE_IO_FAILED);
-  OK(hooke_study_write_h5(study, trajectory_path, NULL, HOOKE_OK));
-  REFUSED(hooke_study_write_h5(study, nowhere, NULL, HOOKE_OK), HOOKE_IO_FAILED);
+  OK(hooke_measurement_write(study, table_path));
+  REFUSED(hooke_measurement_write(study, nowhere_csv), HOOKE_IO_FAILED);
+  OK(hooke_measurement_write(study, trajectory_path));
+  REFUSED(hooke_measurement_write(study, nowhere_h5), HOOKE_IO_FAILED);
 #if HOOKE_HAVE_CHARTJS
-  OK(hooke_study_write_report(study, report_path, "scene", NULL));
+  OK(hooke_measurement_label(study, "title", "scene"));
+  OK(hooke_measurement_write(study, report_path));
 #endif
-  ASK(hooke_study_destroy(study));
+  ASK(hooke_measurement_destroy(study));
   ASK(hooke_options_destroy(options));
 
   hooke_comparison *comparison = NULL;

@@ -30,6 +30,9 @@ static int32_t make_scene(hooke_options **o) {
 static int32_t make_particles(hooke_options **o) {
   return hooke_scene_options_create("particles", o);
 }
+static int32_t make_study(hooke_options **o) {
+  return hooke_options_create("study", o);
+}
 static int32_t make_driven(hooke_options **o) {
   return hooke_scene_options_create("driven", o);
 }
@@ -51,7 +54,7 @@ static const struct {
               {"limit", hooke_limit_options_create},
               {"cost", hooke_cost_options_create},
               {"needs", hooke_needs_options_create},
-              {"study", hooke_study_options_create},
+              {"study", make_study},
               {"view", hooke_view_options_create}};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
@@ -146,7 +149,8 @@ TAKES(create_limit_of_run, hooke_limit, hooke_limit_create(system, o, NULL, &mad
 TAKES(create_limit, hooke_limit, hooke_limit_create(system, NULL, o, &made), hooke_limit_destroy)
 TAKES(create_cost_of_run, hooke_cost, hooke_cost_create(system, o, NULL, &made), hooke_cost_destroy)
 TAKES(create_cost, hooke_cost, hooke_cost_create(system, NULL, o, &made), hooke_cost_destroy)
-TAKES(create_study_of_run, hooke_study, hooke_study_create(system, o, NULL, &made), hooke_study_destroy)
+TAKES(create_study_of_run, hooke_measurement, hooke_measurement_create("study", system, o, NULL, &made),
+      hooke_measurement_destroy)
 TAKES(write_scene, hooke_scene, hooke_scene_of_system(system, NULL, o, "a", NULL, &made), hooke_scene_destroy)
 
 static int32_t with_run(hooke_options *o,
@@ -160,9 +164,9 @@ static int32_t with_run(hooke_options *o,
 }
 
 static int32_t study_with(hooke_system *system, hooke_options *run, hooke_options *o) {
-  hooke_study *made = NULL;
-  const int32_t status = hooke_study_create(system, run, o, &made);
-  if (status == HOOKE_OK) hooke_study_destroy(made);
+  hooke_measurement *made = NULL;
+  const int32_t status = hooke_measurement_create("study", system, run, o, &made);
+  if (status == HOOKE_OK) hooke_measurement_destroy(made);
   return status;
 }
 static int32_t create_study(hooke_options *o) {
@@ -197,7 +201,10 @@ static int32_t create_needs_of_run(hooke_options *o) {
 static int32_t pick(hooke_options *o) {
   hooke_system *system = committed();
   hooke_options_set_number(o, "duration", 0.1);
-  const int32_t status = hooke_study_pick(system, o, 0.1, NULL, NULL);
+  hooke_estimate *estimate = NULL;
+  int32_t status = hooke_estimate_create(system, 0.1, &estimate);
+  if (status == HOOKE_OK) status = hooke_estimate_pick(estimate, NULL, o);
+  hooke_estimate_destroy(estimate);
   hooke_system_destroy(system);
   return status;
 }
@@ -226,7 +233,7 @@ static const struct {
                  {"study_create", "study", create_study},
                  {"needs_create run", "run", create_needs_of_run},
                  {"needs_create", "needs", create_needs},
-                 {"study_pick", "run", pick},
+                 {"estimate_pick", "run", pick},
                  {"scene_of_system", "run", write_scene}};
 
 static void test_other_options_are_refused(void **unused) {

@@ -230,22 +230,22 @@ static uint64_t files(int thread) {
 static uint64_t studies(int thread) {
   (void)thread;
   hooke_options *run = NULL, *options = NULL;
-  hooke_study *study = NULL;
+  hooke_measurement *study = NULL;
   uint64_t hash = HASH_START;
   int32_t status = hooke_run_options_create(&run);
   if (status == 0) status = hooke_options_set_number(run, "duration", 0.1);
   if (status == 0) status = hooke_options_set_number(run, "every", 0.01);
-  if (status == 0) status = hooke_study_options_create(&options);
+  if (status == 0) status = hooke_options_create("study", &options);
   if (status == 0) status = hooke_options_set_text(options, "methods", "verlet,rk4");
   if (status == 0) status = hooke_options_set_text(options, "steps", "0.002,0.001");
-  if (status == 0) status = hooke_study_create(oscillator, run, options, &study);
-  if (status == 0) status = hooke_study_run(study);
-  for (int64_t row = 0; status == 0 && row < hooke_study_row_count(study); row++) {
-    const double error = hooke_study_number(study, row, "error");
+  if (status == 0) status = hooke_measurement_create("study", oscillator, run, options, &study);
+  if (status == 0) status = hooke_measurement_run(study, NULL);
+  for (int64_t row = 0; status == 0 && row < hooke_measurement_row_count(study, "rows"); row++) {
+    const double error = hooke_measurement_number(study, "rows", row, "error");
     hash = hash_doubles(1, &error, hash);
   }
   if (status != 0) printf("study: %s\n", hooke_last_error());
-  if (study) hooke_study_destroy(study);
+  if (study) hooke_measurement_destroy(study);
   if (options) hooke_options_destroy(options);
   hooke_options_destroy(run);
   return status == 0 ? hash : 0;

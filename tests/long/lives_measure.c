@@ -56,21 +56,23 @@ static uint64_t live_study(const char *detail) {
   (void)detail;
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_options *options = NULL;
-  hooke_study *study = NULL;
-  check_ok(hooke_study_options_create(&options));
+  hooke_measurement *study = NULL;
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_text(options, "methods", "verlet,backward-euler,cvode-bdf"));
   check_ok(hooke_options_set_number(options, "want", 1e-6));
   check_ok(hooke_options_set_number(hooke_scene_run_options(scene), "duration", 0.01));
-  check_ok(hooke_study_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &study));
-  check_ok(hooke_study_run(study));
+  check_ok(hooke_measurement_create("study", hooke_scene_system(scene), hooke_scene_run_options(scene),
+                                    options, &study));
+  check_ok(hooke_measurement_run(study, NULL));
   uint64_t hash = HASH_START;
-  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
-    const double error = hooke_study_number(study, k, "error");
+  for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++) {
+    const double error = hooke_measurement_number(study, "rows", k, "error");
     hash = hash_doubles(1, &error, hash);
   }
-  check_ok(hooke_study_write_csv(study, life_files.page));
-  check_ok(hooke_study_write_h5(study, life_files.trajectory, hooke_scene_text(scene), HOOKE_OK));
-  hooke_study_destroy(study);
+  check_ok(hooke_measurement_write(study, life_files.page));
+  check_ok(hooke_measurement_label(study, "scene", hooke_scene_text(scene)));
+  check_ok(hooke_measurement_write(study, life_files.trajectory));
+  hooke_measurement_destroy(study);
   hooke_options_destroy(options);
   hooke_scene_destroy(scene);
   return hash;

@@ -11,14 +11,14 @@
 #include <string.h>
 
 /* A study of `methods` (NULL: all) over `duration`; skips the test in builds that cannot make one. */
-static hooke_study *start_study(const hooke_system *system, const char *methods, double duration,
-                                double every, double want) {
-  hooke_study *study = NULL;
+static hooke_measurement *start_study(const hooke_system *system, const char *methods, double duration,
+                                      double every, double want) {
+  hooke_measurement *study = NULL;
   hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
-  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_create("study", &options));
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
-  const int32_t status = hooke_study_create(system, run, options, &study);
+  const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   hooke_options_destroy(run);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
@@ -48,17 +48,18 @@ static double true_error(const struct reference *reference, const struct referen
 }
 
 static void check_rows(const struct reference *reference, const struct reference_state *expected,
-                       const hooke_system *system, const hooke_study *study, double every) {
-  const double agreement = hooke_study_figure(study, "agreement");
+                       const hooke_system *system, const hooke_measurement *study, double every) {
+  const double agreement = hooke_measurement_number(study, "reference", 0, "agreement");
   int64_t judged = 0;
-  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
-    const double found = hooke_study_number(study, k, "error_final");
+  for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++) {
+    const double found = hooke_measurement_number(study, "rows", k, "error_final");
     if (isnan(found) || found <= 10.0 * agreement) continue;
-    const double step = hooke_study_number(study, k, "step"), rtol = hooke_study_number(study, k, "rtol");
-    const struct run run = {.method = hooke_study_text(study, k, "method"),
+    const double step = hooke_measurement_number(study, "rows", k, "step"),
+                 rtol = hooke_measurement_number(study, "rows", k, "rtol");
+    const struct run run = {.method = hooke_measurement_text(study, "rows", k, "method"),
                             .step = isnan(step) ? 0.0 : step,
                             .rtol = isnan(rtol) ? 0.0 : rtol,
-                            .atol = isnan(rtol) ? 0.0 : hooke_study_number(study, k, "atol"),
+                            .atol = isnan(rtol) ? 0.0 : hooke_measurement_number(study, "rows", k, "atol"),
                             .duration = expected->time,
                             .every = every};
     const double error = true_error(reference, expected, system, run);
@@ -78,11 +79,11 @@ static void errors_are_true(void **unused) {
       const struct reference_state *expected = &references[r].state[s];
       hooke_system *system = build_reference(&references[r]);
       const double every = expected->time / 20.0;
-      hooke_study *study = start_study(system, NULL, expected->time, every, 0.0);
-      check_ok(hooke_study_run(study));
-      check_close(hooke_study_figure(study, "trusted_until"), expected->time, 1e-12);
+      hooke_measurement *study = start_study(system, NULL, expected->time, every, 0.0);
+      check_ok(hooke_measurement_run(study, NULL));
+      check_close(hooke_measurement_number(study, "reference", 0, "trusted_until"), expected->time, 1e-12);
       check_rows(&references[r], expected, system, study, every);
-      hooke_study_destroy(study);
+      hooke_measurement_destroy(study);
       hooke_system_destroy(system);
     }
   }
@@ -93,14 +94,16 @@ static void agreement_is_honest(void **unused) {
   (void)unused;
   for (int r = 0; r < REFERENCE_COUNT; r++) {
     hooke_system *system = build_reference(&references[r]);
-    hooke_study *study = start_study(system, "cvode-adams", references[r].state[0].time, 0.0, 0.0);
-    check_ok(hooke_study_run(study));
-    assert_string_not_equal(hooke_study_reference(study, "method"), hooke_study_reference(study, "check"));
-    check_between(hooke_study_figure(study, "agreement"), 1e-16, 1e-7);
-    check_between(hooke_study_figure(study, "growth_seen"), 0.1, 40.0);
-    check_between(hooke_study_figure(study, "growth"), hooke_study_figure(study, "growth_seen"), 4000.0);
-    check_between(hooke_study_figure(study, "energy_agreement"), 0.0, 1e-6);
-    hooke_study_destroy(study);
+    hooke_measurement *study = start_study(system, "cvode-adams", references[r].state[0].time, 0.0, 0.0);
+    check_ok(hooke_measurement_run(study, NULL));
+    assert_string_not_equal(hooke_measurement_text(study, "reference", 0, "method"),
+                            hooke_measurement_text(study, "reference", 0, "check"));
+    check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-16, 1e-7);
+    check_between(hooke_measurement_number(study, "reference", 0, "growth_seen"), 0.1, 40.0);
+    check_between(hooke_measurement_number(study, "reference", 0, "growth"),
+                  hooke_measurement_number(study, "reference", 0, "growth_seen"), 4000.0);
+    check_between(hooke_measurement_number(study, "reference", 0, "energy_agreement"), 0.0, 1e-6);
+    hooke_measurement_destroy(study);
     hooke_system_destroy(system);
   }
 }
@@ -112,22 +115,25 @@ static void orders_are_those_of_the_theory(void **unused) {
   const char *smooth[] = {"six-particles", "oscillator"};
   for (int r = 0; r < 2; r++) {
     hooke_system *system = build_reference(find_reference(smooth[r]));
-    hooke_study *study = start_study(system, NULL, 1.0, 0.05, 0.0);
-    check_ok(hooke_study_run(study));
+    hooke_measurement *study = start_study(system, NULL, 1.0, 0.05, 0.0);
+    check_ok(hooke_measurement_run(study, NULL));
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
+      const int64_t at = hooke_measurement_find(study, "orders", "method", method);
+      assert_true(at >= 0);
       if (!is_fixed_step(method)) {
-        assert_true(isnan(hooke_study_order(study, method, "order")));
+        assert_true(isnan(hooke_measurement_number(study, "orders", at, "order")));
         continue;
       }
-      const double order = hooke_study_order(study, method, "order");
-      const double theory = hooke_study_order(study, method, "theory");
+      const double order = hooke_measurement_number(study, "orders", at, "order");
+      const double theory = hooke_measurement_number(study, "orders", at, "theory");
       check_between(theory, 1.0, 4.0);
       check_between(order, theory - 0.15, theory + 0.25);
-      check_between(order, hooke_study_order(study, method, "low"), hooke_study_order(study, method, "high"));
-      assert_string_equal(hooke_study_order_note(study, method), "");
+      check_between(order, hooke_measurement_number(study, "orders", at, "low"),
+                    hooke_measurement_number(study, "orders", at, "high"));
+      assert_string_equal(hooke_measurement_text(study, "orders", at, "note"), "");
     }
-    hooke_study_destroy(study);
+    hooke_measurement_destroy(study);
     hooke_system_destroy(system);
   }
 }
@@ -137,27 +143,28 @@ static void orders_are_those_of_the_theory(void **unused) {
 static void ladders_go_from_coarse_to_fine(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));
-  hooke_study *study = start_study(system, NULL, 1.0, 0.1, 0.0);
-  check_ok(hooke_study_run(study));
+  hooke_measurement *study = start_study(system, NULL, 1.0, 0.1, 0.0);
+  check_ok(hooke_measurement_run(study, NULL));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     int64_t rows = 0;
     double last = INFINITY;
-    for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
-      if (strcmp(hooke_study_text(study, k, "method"), hooke_method_name(m)) != 0) continue;
-      const double step = hooke_study_number(study, k, "step"), rtol = hooke_study_number(study, k, "rtol");
+    for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++) {
+      if (strcmp(hooke_measurement_text(study, "rows", k, "method"), hooke_method_name(m)) != 0) continue;
+      const double step = hooke_measurement_number(study, "rows", k, "step"),
+                   rtol = hooke_measurement_number(study, "rows", k, "rtol");
       const double value = isnan(step) ? rtol : step;
       assert_true(value < last);
       last = value;
       rows++;
       /* frames are whole numbers of steps */
       if (!isnan(step)) check_close(0.1 / step, round(0.1 / step), 1e-6);
-      check_between(hooke_study_number(study, k, "repeats"), 1.0, 9.0);
-      check_between(hooke_study_number(study, k, "wall_median"), hooke_study_number(study, k, "wall_seconds"),
-                    10.0);
+      check_between(hooke_measurement_number(study, "rows", k, "repeats"), 1.0, 9.0);
+      check_between(hooke_measurement_number(study, "rows", k, "wall_median"),
+                    hooke_measurement_number(study, "rows", k, "wall_seconds"), 10.0);
     }
     check_between((double)rows, 6.0, 7.0);
   }
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -165,9 +172,9 @@ static void bad_requests(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));
   hooke_options *run = run_options((struct run){.step = 0.01}), *options;
-  hooke_study *study = NULL;
-  check_ok(hooke_study_options_create(&options));
-  const int32_t status = hooke_study_create(system, run, options, &study);
+  hooke_measurement *study = NULL;
+  check_ok(hooke_options_create("study", &options));
+  const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status == HOOKE_NOT_BUILT) {
     hooke_options_destroy(run);
     hooke_options_destroy(options);
@@ -178,11 +185,11 @@ static void bad_requests(void **unused) {
   check_message("duration");
   check_ok(hooke_options_set_number(run, "duration", 1.0));
   check_ok(hooke_options_set_text(options, "methods", "forward-euler,nothing"));
-  check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
   check_message("nothing");
   check_ok(hooke_options_unset(options, "methods"));
   check_ok(hooke_options_set_text(options, "steps", "0.01,0.02"));
-  check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
   check_message("steps[1]");
   check_status(hooke_options_set_number(options, "points", 5.0), HOOKE_BAD_VALUE);
   hooke_options_destroy(run);
@@ -201,38 +208,39 @@ static void recommendations_hold(void **unused) {
   }
   assert_non_null(expected);
   hooke_system *system = build_reference(reference);
-  hooke_study *study = start_study(system, NULL, 1.0, 0.05, 1e-2);
+  hooke_measurement *study = start_study(system, NULL, 1.0, 0.05, 1e-2);
   check_status(hooke_study_recommend(study, 1e-3), HOOKE_BAD_CALL);
-  check_ok(hooke_study_run(study));
+  check_ok(hooke_measurement_run(study, NULL));
   const double wants[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
   for (int k = 0; k < 5; k++) {
     check_ok(hooke_study_recommend(study, wants[k]));
-    assert_true(hooke_study_recommendation_number(study, "met") == 1.0);
-    assert_string_equal(hooke_study_recommendation_text(study, "note"), "");
-    const double step = hooke_study_recommendation_number(study, "step");
-    const double rtol = hooke_study_recommendation_number(study, "rtol");
+    assert_true(hooke_measurement_number(study, "recommendation", 0, "met") == 1.0);
+    assert_string_equal(hooke_measurement_text(study, "recommendation", 0, "note"), "");
+    const double step = hooke_measurement_number(study, "recommendation", 0, "step");
+    const double rtol = hooke_measurement_number(study, "recommendation", 0, "rtol");
     assert_true(isnan(step) != isnan(rtol));
-    const struct run run = {.method = hooke_study_recommendation_text(study, "method"),
-                            .step = isnan(step) ? 0.0 : step,
-                            .rtol = isnan(rtol) ? 0.0 : rtol,
-                            .atol = isnan(rtol) ? 0.0 : hooke_study_recommendation_number(study, "atol"),
-                            .duration = 1.0,
-                            .every = 0.05};
+    const struct run run = {
+        .method = hooke_measurement_text(study, "recommendation", 0, "method"),
+        .step = isnan(step) ? 0.0 : step,
+        .rtol = isnan(rtol) ? 0.0 : rtol,
+        .atol = isnan(rtol) ? 0.0 : hooke_measurement_number(study, "recommendation", 0, "atol"),
+        .duration = 1.0,
+        .every = 0.05};
     check_between(true_error(reference, expected, system, run), 0.0, wants[k]);
-    check_between(hooke_study_recommendation_number(study, "error"), 0.0, wants[k]);
+    check_between(hooke_measurement_number(study, "recommendation", 0, "error"), 0.0, wants[k]);
   }
   /* what no run can give is said, with what comes closest */
   check_ok(hooke_study_recommend(study, 1e-15));
-  assert_true(hooke_study_recommendation_number(study, "met") == 0.0);
-  assert_true(strlen(hooke_study_recommendation_text(study, "note")) > 20);
-  check_between(hooke_study_recommendation_number(study, "error"), 1e-15, 1e-5);
-  hooke_study_destroy(study);
+  assert_true(hooke_measurement_number(study, "recommendation", 0, "met") == 0.0);
+  assert_true(strlen(hooke_measurement_text(study, "recommendation", 0, "note")) > 20);
+  check_between(hooke_measurement_number(study, "recommendation", 0, "error"), 1e-15, 1e-5);
+  hooke_measurement_destroy(study);
   /* nor does it make the reference doubt itself */
   study = start_study(system, "cvode-adams", 1.0, 0.05, 1e-30);
-  check_ok(hooke_study_run(study));
-  check_close(hooke_study_figure(study, "trusted_until"), 1.0, 1e-12);
-  assert_true(hooke_study_recommendation_number(study, "met") == 0.0);
-  hooke_study_destroy(study);
+  check_ok(hooke_measurement_run(study, NULL));
+  check_close(hooke_measurement_number(study, "reference", 0, "trusted_until"), 1.0, 1e-12);
+  assert_true(hooke_measurement_number(study, "recommendation", 0, "met") == 0.0);
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -241,20 +249,21 @@ static void recommendations_hold(void **unused) {
 static void chaos_is_trusted_for_a_while(void **unused) {
   (void)unused;
   hooke_system *system = small_crumpling_cloth(6);
-  hooke_study *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
-  check_ok(hooke_study_run(study));
-  check_between(hooke_study_figure(study, "trusted_until"), 0.3, 3.5);
-  check_between(hooke_study_figure(study, "growth_seen"), 1e3, 1e8);
-  assert_true(isnan(hooke_study_figure(study, "growth")));
-  assert_string_equal(hooke_study_reference(study, "ended"), "rounding");
-  check_between(hooke_study_figure(study, "agreement"), 1e-14, 1e-5);
+  hooke_measurement *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
+  check_ok(hooke_measurement_run(study, NULL));
+  check_between(hooke_measurement_number(study, "reference", 0, "trusted_until"), 0.3, 3.5);
+  check_between(hooke_measurement_number(study, "reference", 0, "growth_seen"), 1e3, 1e8);
+  assert_true(isnan(hooke_measurement_number(study, "reference", 0, "growth")));
+  assert_string_equal(hooke_measurement_text(study, "reference", 0, "ended"), "rounding");
+  check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-14, 1e-5);
   /* errors are judged up to there and no further */
-  const int64_t frames = hooke_study_frame_count(study), last = hooke_study_row_count(study) - 1;
+  const int64_t frames = (int64_t)hooke_measurement_number(study, "study", 0, "frames"),
+                last = hooke_measurement_row_count(study, "rows") - 1;
   check_between((double)frames, 3.0, 36.0);
-  const double *error = hooke_study_series(study, last, "error");
+  const double *error = hooke_measurement_series(study, "rows", last, "error_at");
   assert_true(!isnan(error[frames - 1]));
   assert_true(isnan(error[frames]));
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -281,16 +290,16 @@ static int32_t listen(double done, const char *what, void *ctx) {
 static void progress_is_of_the_whole_study(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("rope-12"));
-  hooke_study *study = start_study(system, NULL, 1.0, 0.05, 1e-3);
+  hooke_measurement *study = start_study(system, NULL, 1.0, 0.05, 1e-3);
   struct told told = {.last = 0.0};
-  hooke_study_on_progress(study, listen, &told);
-  check_ok(hooke_study_run(study));
+  hooke_measurement_on_progress(study, listen, &told);
+  check_ok(hooke_measurement_run(study, NULL));
   check_between((double)told.of_reference, 100.0, (double)told.count - 100.0);
   check_between((double)told.back, 0.0, 0.0);
   check_between(told.end_of_reference, 1e-3, 0.95);
   check_between(told.last, told.end_of_reference, 1.0);
   check_between(told.last, 0.7, 1.0);
-  hooke_study_destroy(study);
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -301,12 +310,12 @@ static void a_budget_binds_the_reference(void **unused) {
   const double every[] = {1e5, 0.05};
   for (int k = 0; k < 2; k++) {
     hooke_system *system = small_crumpling_cloth(6);
-    hooke_study *study = NULL;
+    hooke_measurement *study = NULL;
     hooke_options *run = run_options((struct run){.duration = every[k], .every = every[k]}), *options;
-    check_ok(hooke_study_options_create(&options));
+    check_ok(hooke_options_create("study", &options));
     check_ok(hooke_options_set_number(options, "budget", k == 0 ? 0.1 : 60.0));
     check_ok(hooke_options_set_text(options, "methods", "symplectic-euler"));
-    const int32_t status = hooke_study_create(system, run, options, &study);
+    const int32_t status = hooke_measurement_create("study", system, run, options, &study);
     hooke_options_destroy(run);
     hooke_options_destroy(options);
     if (status == HOOKE_NOT_BUILT) {
@@ -314,18 +323,18 @@ static void a_budget_binds_the_reference(void **unused) {
       skip();
     }
     check_status(status, HOOKE_OK);
-    check_status(hooke_study_run(study), k == 0 ? HOOKE_BAD_VALUE : HOOKE_OK);
+    check_status(hooke_measurement_run(study, NULL), k == 0 ? HOOKE_BAD_VALUE : HOOKE_OK);
     if (k == 0) {
       check_message("budget");
-      assert_true(isnan(hooke_study_figure(study, "agreement")));
-      assert_true(isnan(hooke_study_figure(study, "checked_until")));
-      assert_int_equal(hooke_study_row_count(study), 0);
+      assert_true(isnan(hooke_measurement_number(study, "reference", 0, "agreement")));
+      assert_true(isnan(hooke_measurement_number(study, "reference", 0, "checked_until")));
+      assert_int_equal(hooke_measurement_row_count(study, "rows"), 0);
     } else {
-      check_close(hooke_study_figure(study, "checked_until"), every[k], 1e-12);
-      check_close(hooke_study_figure(study, "trusted_until"), every[k], 1e-12);
-      check_between((double)hooke_study_row_count(study), 6.0, 7.0);
+      check_close(hooke_measurement_number(study, "reference", 0, "checked_until"), every[k], 1e-12);
+      check_close(hooke_measurement_number(study, "reference", 0, "trusted_until"), every[k], 1e-12);
+      check_between((double)hooke_measurement_row_count(study, "rows"), 6.0, 7.0);
     }
-    hooke_study_destroy(study);
+    hooke_measurement_destroy(study);
     hooke_system_destroy(system);
   }
 }
@@ -342,19 +351,19 @@ static int32_t stop_after_some(double done, const char *what, void *ctx) {
 static void a_stopped_study_keeps_its_rows(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));
-  hooke_study *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
+  hooke_measurement *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
   int64_t calls = 0;
-  hooke_study_on_progress(study, stop_after_some, &calls);
-  check_status(hooke_study_run(study), HOOKE_STOPPED);
-  check_between((double)hooke_study_row_count(study), 1.0, 20.0);
+  hooke_measurement_on_progress(study, stop_after_some, &calls);
+  check_status(hooke_measurement_run(study, NULL), HOOKE_STOPPED);
+  check_between((double)hooke_measurement_row_count(study, "rows"), 1.0, 20.0);
   int64_t finished = 0;
-  for (int64_t k = 0; k < hooke_study_row_count(study); k++) {
-    finished += strcmp(hooke_study_text(study, k, "status"), "finished") == 0;
+  for (int64_t k = 0; k < hooke_measurement_row_count(study, "rows"); k++) {
+    finished += strcmp(hooke_measurement_text(study, "rows", k, "status"), "finished") == 0;
   }
-  check_between((double)finished, 1.0, (double)hooke_study_row_count(study) - 1.0);
-  check_between(hooke_study_figure(study, "agreement"), 1e-15, 1e-6);
-  assert_null(hooke_study_recommendation_text(study, "method"));
-  hooke_study_destroy(study);
+  check_between((double)finished, 1.0, (double)hooke_measurement_row_count(study, "rows") - 1.0);
+  check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-15, 1e-6);
+  assert_null(hooke_measurement_text(study, "recommendation", 0, "method"));
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -363,10 +372,10 @@ static void a_stopped_study_keeps_its_rows(void **unused) {
 static void rows_side_by_side_are_the_same(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));
-  hooke_study *study[3] = {NULL};
+  hooke_measurement *study[3] = {NULL};
   for (int k = 0; k < 3; k++) {
     hooke_options *run = run_options((struct run){.duration = 1.0, .every = 0.1, .threads = k == 0 ? 1 : 2});
-    const int32_t status = hooke_study_create(system, run, NULL, &study[k]);
+    const int32_t status = hooke_measurement_create("study", system, run, NULL, &study[k]);
     hooke_options_destroy(run);
     if (status == HOOKE_NOT_BUILT) {
       hooke_system_destroy(system);
@@ -374,19 +383,19 @@ static void rows_side_by_side_are_the_same(void **unused) {
     }
     check_status(status, HOOKE_OK);
   }
-  check_ok(hooke_study_run(study[0]));
-  check_ok(hooke_study_run(study[1]));
-  const int64_t rows = hooke_study_row_count(study[0]);
-  assert_int_equal(hooke_study_row_count(study[1]), rows);
+  check_ok(hooke_measurement_run(study[0], NULL));
+  check_ok(hooke_measurement_run(study[1], NULL));
+  const int64_t rows = hooke_measurement_row_count(study[0], "rows");
+  assert_int_equal(hooke_measurement_row_count(study[1], "rows"), rows);
   int64_t found = 0;
   for (int64_t k = 0; k < rows; k++) {
     for (int64_t other = 0; other < rows; other++) {
       const char *words[] = {"step", "rtol", "error", "error_final", "force_evaluations"};
-      int same =
-          strcmp(hooke_study_text(study[0], k, "method"), hooke_study_text(study[1], other, "method")) == 0;
+      int same = strcmp(hooke_measurement_text(study[0], "rows", k, "method"),
+                        hooke_measurement_text(study[1], "rows", other, "method")) == 0;
       for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) {
-        const double a = hooke_study_number(study[0], k, words[w]),
-                     b = hooke_study_number(study[1], other, words[w]);
+        const double a = hooke_measurement_number(study[0], "rows", k, words[w]),
+                     b = hooke_measurement_number(study[1], "rows", other, words[w]);
         same = same && (a == b || (isnan(a) && isnan(b)));
       }
       found += same;
@@ -394,11 +403,11 @@ static void rows_side_by_side_are_the_same(void **unused) {
   }
   assert_int_equal(found, rows);
   int64_t calls = 0;
-  hooke_study_on_progress(study[2], stop_after_some, &calls);
-  check_status(hooke_study_run(study[2]), HOOKE_STOPPED);
-  assert_true(hooke_study_row_count(study[2]) < rows);
+  hooke_measurement_on_progress(study[2], stop_after_some, &calls);
+  check_status(hooke_measurement_run(study[2], NULL), HOOKE_STOPPED);
+  assert_true(hooke_measurement_row_count(study[2], "rows") < rows);
   for (int k = 0; k < 3; k++)
-    hooke_study_destroy(study[k]);
+    hooke_measurement_destroy(study[k]);
   hooke_system_destroy(system);
 }
 

@@ -16,17 +16,35 @@ struct study {
   double step, rtol; /* 0: ladders */
 };
 
-static hooke_study *start(const hooke_system *system, struct study s) {
-  hooke_study *study = NULL;
+/* Rows of "statistics" of each method, one a quantity: the reference comes first. */
+static int64_t quantity_count(const hooke_measurement *study) {
+  const int64_t rows = hooke_measurement_row_count(study, "statistics");
+  int64_t count = 0;
+  while (count < rows &&
+         strcmp(hooke_measurement_text(study, "statistics", count, "method"), "reference") == 0)
+    count++;
+  return count;
+}
+
+/* NaN where there is no such row. */
+static double statistic(const hooke_measurement *study, const char *method, const char *quantity,
+                        const char *what) {
+  const int64_t first = hooke_measurement_find(study, "statistics", "method", method),
+                q = hooke_measurement_find(study, "statistics", "quantity", quantity);
+  return first < 0 || q < 0 ? (double)NAN : hooke_measurement_number(study, "statistics", first + q, what);
+}
+
+static hooke_measurement *start(const hooke_system *system, struct study s) {
+  hooke_measurement *study = NULL;
   hooke_options *run = run_options((struct run){.duration = s.duration, .every = s.every}), *options;
-  check_ok(hooke_study_options_create(&options));
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_text(options, "methods", s.methods));
   if (s.watch) check_ok(hooke_options_set_text(options, "watch", s.watch));
   if (s.step > 0.0) check_ok(hooke_options_set_number(options, "steps", s.step));
   if (s.rtol > 0.0) check_ok(hooke_options_set_number(options, "tolerances", s.rtol));
   check_ok(hooke_options_set_number(options, "ensemble", s.members));
   if (s.seed > 0.0) check_ok(hooke_options_set_number(options, "seed", s.seed));
-  const int32_t status = hooke_study_create(system, run, options, &study);
+  const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   hooke_options_destroy(run);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
@@ -34,11 +52,18 @@ static hooke_study *start(const hooke_system *system, struct study s) {
     skip();
   }
   check_status(status, HOOKE_OK);
-  check_ok(hooke_study_run(study));
+  check_ok(hooke_measurement_run(study, NULL));
   return study;
 }
 
 /* ---- watched quantities ---- */
+
+/* Of the first row; NaN where it is not watched. */
+static double error_in(const hooke_measurement *study, const char *quantity) {
+  return hooke_measurement_number(study, "watched_errors",
+                                  hooke_measurement_find(study, "watched_errors", "quantity", quantity),
+                                  "error");
+}
 
 /* Of the oscillator x(t) = cos(w t), by the error that verlet is known to make: its period is off by (w
  * h)^2/24 of it. */
@@ -46,39 +71,41 @@ static void errors_of_what_is_watched_are_true(void **unused) {
   (void)unused;
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
   hooke_system *system = small_oscillator(omega);
-  hooke_study *study = start(system, (struct study){.duration = 10.0,
-                                                    .every = 0.02,
-                                                    .methods = "verlet",
-                                                    .step = h,
-                                                    .watch = "1.x,period:1.x,kinetic,energy"});
-  assert_string_equal(hooke_study_reference(study, "watched:1"), "period:1.x");
-  assert_null(hooke_study_reference(study, "watched:4"));
-  assert_string_equal(hooke_study_reference(study, "unit:period:1.x"), "s");
-  check_between(hooke_study_figure(study, "watched"), 4.0, 4.0);
+  hooke_measurement *study = start(system, (struct study){.duration = 10.0,
+                                                          .every = 0.02,
+                                                          .methods = "verlet",
+                                                          .step = h,
+                                                          .watch = "1.x,period:1.x,kinetic,energy"});
+  assert_string_equal(hooke_measurement_text(study, "watched", 1, "quantity"), "period:1.x");
+  assert_null(hooke_measurement_text(study, "watched", 4, "quantity"));
+  assert_string_equal(hooke_measurement_text(study, "watched", 1, "unit"), "s");
+  assert_int_equal(hooke_measurement_row_count(study, "watched"), 4);
   const double off = period * pow(omega * h, 2.0) / 24.0;
-  check_between(hooke_study_number(study, 0, "watched:period:1.x"), 0.98 * off, 1.02 * off);
+  check_between(error_in(study, "period:1.x"), 0.98 * off, 1.02 * off);
   /* the phase is off by w t (w h)^2/24 */
   const double phase = omega * 10.0 * pow(omega * h, 2.0) / 24.0;
-  check_between(hooke_study_number(study, 0, "watched:1.x"), 0.9 * phase, 1.1 * phase);
-  check_close(hooke_study_number(study, 0, "watched:energy"), hooke_study_number(study, 0, "energy_drift"),
-              1e-12);
-  check_between(hooke_study_figure(study, "agreement:1.x"), 1e-15, 1e-7);
-  assert_true(isnan(hooke_study_number(study, 0, "watched:1.y")));
-  assert_null(hooke_study_series(study, 1, "watched:1.x"));
+  check_between(error_in(study, "1.x"), 0.9 * phase, 1.1 * phase);
+  check_close(error_in(study, "energy"), hooke_measurement_number(study, "rows", 0, "energy_drift"), 1e-12);
+  check_between(hooke_measurement_number(study, "watched",
+                                         hooke_measurement_find(study, "watched", "quantity", "1.x"),
+                                         "agreement"),
+                1e-15, 1e-7);
+  assert_true(isnan(error_in(study, "1.y")));
+  assert_null(hooke_measurement_series(study, "watched_errors", 4, "value"));
   /* the series that the error is of, and the motion itself */
-  const double *time = hooke_study_series(study, 0, "time"),
-               *exact = hooke_study_series(study, -1, "watched:1.x"),
-               *found = hooke_study_series(study, 0, "watched:1.x");
+  const double *time = hooke_measurement_series(study, "reference", 0, "time"),
+               *exact = hooke_measurement_series(study, "watched", 0, "value"),
+               *found = hooke_measurement_series(study, "watched_errors", 0, "value");
   double largest = 0.0;
-  for (int64_t f = 0; f < hooke_study_frame_count(study); f++) {
+  for (int64_t f = 0; f < (int64_t)hooke_measurement_number(study, "study", 0, "frames"); f++) {
     check_close(exact[f], cos(omega * time[f]), 1e-7);
     largest = fmax(largest, fabs(found[f] - exact[f]));
   }
-  check_close(hooke_study_number(study, 0, "watched:1.x"), largest, 0.0);
+  check_close(error_in(study, "1.x"), largest, 0.0);
   /* all of it is trusted, so no statistics are needed */
-  check_between(hooke_study_figure(study, "members"), 0.0, 0.0);
-  assert_true(isnan(hooke_study_statistic(study, "verlet", "kinetic", "mean")));
-  hooke_study_destroy(study);
+  assert_int_equal(hooke_measurement_row_count(study, "ensemble"), 0);
+  assert_true(isnan(statistic(study, "verlet", "kinetic", "mean")));
+  hooke_measurement_destroy(study);
   hooke_system_destroy(system);
 }
 
@@ -96,17 +123,17 @@ static hooke_system *double_pendulum(void) {
 
 /* How many means of a quantity are within 3 standard errors of that of the large ensemble; adds how many
  * there are. */
-static int agrees(const hooke_study *small, const hooke_study *large, const char *method,
+static int agrees(const hooke_measurement *small, const hooke_measurement *large, const char *method,
                   const char *quantity) {
-  const hooke_study *const from[] = {small, large};
+  const hooke_measurement *const from[] = {small, large};
   const char *const by[] = {method, "reference"};
   double mean[2], variance = 0.0;
   for (int k = 0; k < 2; k++) {
-    const double spread = hooke_study_statistic(from[k], by[k], quantity, "spread");
-    const double members = hooke_study_statistic(from[k], by[k], quantity, "members");
-    mean[k] = hooke_study_statistic(from[k], by[k], quantity, "mean");
+    const double spread = statistic(from[k], by[k], quantity, "spread");
+    const double members = statistic(from[k], by[k], quantity, "members");
+    mean[k] = statistic(from[k], by[k], quantity, "mean");
     variance += spread * spread / members;
-    check_between(members, 2.0, hooke_study_figure(from[k], "members"));
+    check_between(members, 2.0, hooke_measurement_number(from[k], "ensemble", 0, "members"));
     assert_true(spread > 0.0);
   }
   if (fabs(mean[0] - mean[1]) <= 3.0 * sqrt(variance)) return 1;
@@ -116,29 +143,28 @@ static int agrees(const hooke_study *small, const hooke_study *large, const char
 }
 
 /* Adds how many means there are, and how many of them agree. */
-static void count_agreement(const hooke_study *small, const hooke_study *large, const char *method,
-                            int64_t *means, int64_t *agreeing) {
-  const int64_t count = (int64_t)hooke_study_figure(small, "quantities");
+static void count_agreement(const hooke_measurement *small, const hooke_measurement *large,
+                            const char *method, int64_t *means, int64_t *agreeing) {
+  const int64_t count = quantity_count(small);
   for (int64_t k = 0; k < 2 * count; k++) {
-    char word[32];
-    snprintf(word, sizeof word, "quantity:%d", (int)(k / 2));
-    *agreeing += agrees(small, large, k % 2 ? method : "reference", hooke_study_reference(small, word));
+    *agreeing += agrees(small, large, k % 2 ? method : "reference",
+                        hooke_measurement_text(small, "statistics", k / 2, "quantity"));
   }
   *means += 2 * count;
 }
 
 /* Of the small ensemble, and with HOOKE_LONG=1 in the environment of nineteen others. */
-static void check_rate(const hooke_system *system, struct study s, const hooke_study *small,
-                       const hooke_study *large, const char *method) {
+static void check_rate(const hooke_system *system, struct study s, const hooke_measurement *small,
+                       const hooke_measurement *large, const char *method) {
   const int others = getenv("HOOKE_LONG") ? 19 : 0;
   int64_t means = 0, agreeing = 0;
   count_agreement(small, large, method, &means, &agreeing);
   s.methods = method;
   for (int k = 0; k < others; k++) {
     s.seed = 3.0 + k;
-    hooke_study *other = start(system, s);
+    hooke_measurement *other = start(system, s);
     count_agreement(other, large, method, &means, &agreeing);
-    hooke_study_destroy(other);
+    hooke_measurement_destroy(other);
   }
   print_message("%d of %d means agree\n", (int)agreeing, (int)means);
   assert_true((double)agreeing >= 0.95 * (double)means - 1e-9);
@@ -146,21 +172,23 @@ static void check_rate(const hooke_system *system, struct study s, const hooke_s
 
 /* `planted` loses energy at its step, of which `method` loses nothing that is seen. */
 static void test_ensembles(hooke_system *system, struct study s, const char *method, const char *planted) {
-  hooke_study *small = start(system, s);
+  hooke_measurement *small = start(system, s);
   struct study ten_times = s;
   ten_times.members *= 10.0;
   ten_times.seed = 2.0;
   ten_times.methods = "symplectic-euler"; /* of which nothing is asked here, and which takes the least time */
-  hooke_study *large = start(system, ten_times);
-  check_between(hooke_study_figure(small, "trusted_until"), 0.05 * s.duration, 0.95 * s.duration);
-  check_between(hooke_study_figure(small, "statistics_from"), hooke_study_figure(small, "trusted_until"),
-                hooke_study_figure(small, "trusted_until") + 1.001 * s.every);
-  check_close(hooke_study_figure(small, "statistics_until"), s.duration, 1e-9);
+  hooke_measurement *large = start(system, ten_times);
+  check_between(hooke_measurement_number(small, "reference", 0, "trusted_until"), 0.05 * s.duration,
+                0.95 * s.duration);
+  check_between(hooke_measurement_number(small, "ensemble", 0, "from"),
+                hooke_measurement_number(small, "reference", 0, "trusted_until"),
+                hooke_measurement_number(small, "reference", 0, "trusted_until") + 1.001 * s.every);
+  check_close(hooke_measurement_number(small, "ensemble", 0, "until"), s.duration, 1e-9);
   check_rate(system, s, small, large, method);
-  check_between(hooke_study_statistic(small, planted, "energy", "bias"), -INFINITY, -5.0);
-  check_between(hooke_study_statistic(small, planted, "kinetic", "bias"), -INFINITY, -5.0);
-  hooke_study_destroy(large);
-  hooke_study_destroy(small);
+  check_between(statistic(small, planted, "energy", "bias"), -INFINITY, -5.0);
+  check_between(statistic(small, planted, "kinetic", "bias"), -INFINITY, -5.0);
+  hooke_measurement_destroy(large);
+  hooke_measurement_destroy(small);
   hooke_system_destroy(system);
 }
 
@@ -195,15 +223,15 @@ static void the_seed_decides(void **unused) {
   hooke_system *system = double_pendulum();
   double mean[3];
   for (int k = 0; k < 3; k++) {
-    hooke_study *study =
+    hooke_measurement *study =
         start(system, (struct study){.duration = 30.0,
                                      .every = 0.1,
                                      .members = 2.0,
                                      .seed = k == 2 ? 2.0 : 1.0,
                                      .methods = k == 1 ? "symplectic-euler,verlet" : "verlet",
                                      .step = 0.01});
-    mean[k] = hooke_study_statistic(study, "verlet", "kinetic", "mean");
-    hooke_study_destroy(study);
+    mean[k] = statistic(study, "verlet", "kinetic", "mean");
+    hooke_measurement_destroy(study);
   }
   check_same_bits(1, &mean[0], &mean[1]);
   assert_true(mean[0] != mean[2]);
@@ -214,16 +242,16 @@ static void one_start_is_refused(void **unused) {
   (void)unused;
   hooke_system *system = double_pendulum();
   hooke_options *run = run_options((struct run){.duration = 1.0}), *options;
-  hooke_study *study = NULL;
-  check_ok(hooke_study_options_create(&options));
+  hooke_measurement *study = NULL;
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_number(options, "ensemble", 1.0));
-  int32_t status = hooke_study_create(system, run, options, &study);
+  int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status != HOOKE_NOT_BUILT) {
     check_status(status, HOOKE_BAD_VALUE);
     check_message("at least 2");
     check_ok(hooke_options_set_number(options, "ensemble", 2.0));
     check_ok(hooke_options_set_text(options, "watch", "3.y"));
-    check_status(hooke_study_create(system, run, options, &study), HOOKE_BAD_VALUE);
+    check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
     check_message("particles 0 to 2");
   }
   hooke_options_destroy(run);

@@ -66,7 +66,7 @@ def alive(tmp_path_factory):
     add(p.VERIFY, "hooke_verify_create", path, None, None)
     add(p.COMPARISON, "hooke_comparison_create", system, run)
     add(p.ESTIMATE, "hooke_estimate_create", system, 1e-3)
-    add(p.STUDY, "hooke_study_create", system, run, None)
+    add(p.MEASUREMENT, "hooke_measurement_create", b"study", system, run, None)
     add(p.LIMIT, "hooke_limit_create", system, run, None)
     add(p.COST, "hooke_cost_create", system, run, None)
     needs = made(p.OPTIONS, "hooke_needs_options_create")

@@ -166,11 +166,11 @@ static void test_line(void **unused) {
   enum { ROWS = 3 };
   const double d = 0.01;
   struct hk_study_row row[ROWS] = {{.method = 0}};
-  hooke_study study = {.method_count = 1,
-                       .method = {"verlet"},
-                       .reference = {.agreement = 1e-12, .extent = 1.0},
-                       .row_count = ROWS,
-                       .row = row};
+  struct hk_study study = {.method_count = 1,
+                           .method = {"verlet"},
+                           .reference = {.agreement = 1e-12, .extent = 1.0},
+                           .row_count = ROWS,
+                           .row = row};
   for (int k = 0; k < ROWS; k++) {
     row[k].value = 0.01 * exp2(-k);
     row[k].trial.error = row[k].value * row[k].value * exp(k == 1 ? -2.0 * d : d);

@@ -32,7 +32,6 @@ def loaded():
 
 before = loaded()
 import hooke  # noqa: E402
-from hooke._library import lib  # noqa: E402
 
 facts = hooke.build_facts()
 inside = Path(hooke.__file__).parent
@@ -74,7 +73,7 @@ with tempfile.TemporaryDirectory() as folder:
     study.write("study.h5")
     with h5py.File("study.h5") as file:
         assert len(file)
-    lib.hooke_study_write_report(study._handle, b"study.html", b"scene", None)
+    study.write("study.html")
     assert "new Chart(" in Path("study.html").read_text(encoding="utf-8")
 
     limit = hooke.limit(scene, methods=["symplectic-euler", "rk4"])

@@ -204,23 +204,6 @@ module hooke_c_io
       type(c_ptr), value :: record
       character(kind=c_char), intent(in), optional :: path(*)
     end function
-    integer(c_int32_t) function c_study_write_h5(study, path, scene_text, outcome) bind(c, name="hooke_study_write_h5")
-      import
-      type(c_ptr), value :: study
-      character(kind=c_char), intent(in), optional :: path(*), scene_text(*)
-      integer(c_int32_t), value :: outcome
-    end function
-    integer(c_int32_t) function c_study_write_csv(study, path) bind(c, name="hooke_study_write_csv")
-      import
-      type(c_ptr), value :: study
-      character(kind=c_char), intent(in), optional :: path(*)
-    end function
-    integer(c_int32_t) function c_study_write_report(study, path, scene, command) &
-      bind(c, name="hooke_study_write_report")
-      import
-      type(c_ptr), value :: study
-      character(kind=c_char), intent(in), optional :: path(*), scene(*), command(*)
-    end function
     integer(c_int32_t) function c_limit_write_report(limit, state, path, scene) bind(c, name="hooke_limit_write_report")
       import
       type(c_ptr), value :: limit, state

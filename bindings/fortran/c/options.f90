@@ -4,6 +4,11 @@ module hooke_c_options
   implicit none
 
   interface
+    integer(c_int32_t) function c_options_create(name, options) bind(c, name="hooke_options_create")
+      import
+      character(kind=c_char), intent(in), optional :: name(*)
+      type(c_ptr), intent(out) :: options
+    end function
     integer(c_int32_t) function c_options_copy(options, copy) bind(c, name="hooke_options_copy")
       import
       type(c_ptr), value :: options

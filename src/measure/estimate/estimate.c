@@ -8,8 +8,6 @@
 #include "integrate/integrator.h"
 #include "measure/trial/step_unit.h"
 
-#include "hooke/study.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -303,8 +301,8 @@ const char *hooke_estimate_text(const hooke_estimate *e, const char *what) {
 
 /* ---- a pick alone ---- */
 
-int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
-                         hooke_progress *progress, void *ctx) {
+int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
+                               hooke_progress *progress, void *ctx) {
   hooke_estimate *e = NULL;
   int32_t status = hooke_estimate_create(system, want, &e);
   if (status != HOOKE_OK) return status;

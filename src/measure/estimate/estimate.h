@@ -50,4 +50,9 @@ int32_t hk_estimate_by_coarser(struct hooke_estimate *estimate);
 int32_t hk_estimate_by_slice(struct hooke_estimate *estimate);
 int32_t hk_estimate_by_finer(struct hooke_estimate *estimate);
 
+/* A pick alone: sets a method and its step or tolerance for the wanted error [m] in `run`. HOOKE_BAD_VALUE if
+ * nothing is known to meet it, and the failures of hooke_estimate_pick(). */
+int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
+                               hooke_progress *progress, void *ctx);
+
 #endif

@@ -7,7 +7,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "hooke/study.h"
+#include "measure/estimate/estimate.h"
 #include "measure/trial/step_unit.h"
 
 #include <math.h>
@@ -137,8 +137,8 @@ static int32_t tell_pick(double done, const char *what, void *ctx) {
 static int32_t pick_method(hooke_needs *needs) {
   if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
-  int32_t status =
-      hooke_study_pick(needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want, tell_pick, needs);
+  int32_t status = hk_estimate_pick_alone(needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
+                                          tell_pick, needs);
   if (status == HOOKE_NOT_BUILT) return HOOKE_OK; /* the default of the option, then */
   needs->method_picked = status == HOOKE_OK;
   return status;

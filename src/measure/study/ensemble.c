@@ -26,7 +26,7 @@ static uint64_t seed_of(uint64_t seed, const char *method) {
   return random;
 }
 
-static int32_t add_source(const hooke_study *study, struct hk_ensemble *ensemble, int32_t method,
+static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ensemble, int32_t method,
                           double value) {
   struct hk_ensemble_source *source = &ensemble->source[ensemble->source_count];
   const uint64_t seed = (uint64_t)hooke_options_number(study->options, "seed");
@@ -48,7 +48,7 @@ static int is_better(const struct hk_study_row *row, const struct hk_study_row *
 
 /* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN
  * without one. */
-static double choose_value(const hooke_study *study, int32_t method) {
+static double choose_value(const struct hk_study *study, int32_t method) {
   const struct hk_study_recommendation *r = &study->recommendation;
   const double want = hooke_options_number(study->options, "want");
   const struct hk_study_row *best = NULL;
@@ -60,7 +60,7 @@ static double choose_value(const hooke_study *study, int32_t method) {
   return best ? best->value : NAN;
 }
 
-static int32_t find_quantities(const hooke_study *study, struct hk_watched_list *list) {
+static int32_t find_quantities(const struct hk_study *study, struct hk_watched_list *list) {
   list->system = study->system;
   const char *watched = hooke_options_text(study->options, "watch");
   int32_t status = hk_watched_read(list, "watch", "kinetic,potential,energy");
@@ -68,7 +68,7 @@ static int32_t find_quantities(const hooke_study *study, struct hk_watched_list 
   return status;
 }
 
-static int32_t create(const hooke_study *study, struct hk_ensemble *ensemble) {
+static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble) {
   const double want = hooke_options_number(study->options, "want");
   ensemble->members = (int64_t)hooke_options_number(study->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * study->reference.extent : NOISE * want;
@@ -97,7 +97,7 @@ void hk_ensemble_release(struct hk_ensemble *ensemble) {
 
 /* A member under way. */
 struct member {
-  hooke_study *study;
+  struct hk_study *study;
   struct hk_ensemble *ensemble;
   struct hk_ensemble_source *source;
   int64_t first, count;             /* frames that are not trusted: the first, and those seen so far */
@@ -148,7 +148,7 @@ static void keep_member(const struct member *member) {
   ensemble->until = member->time[member->count - 1];
 }
 
-static int32_t source_options(const hooke_study *study, const struct hk_ensemble_source *source,
+static int32_t source_options(const struct hk_study *study, const struct hk_ensemble_source *source,
                               hooke_options **options) {
   const struct hk_reference *r = &study->reference;
   if (source->method >= 0) return hk_study_row_options(study, source->method, source->value, options);
@@ -159,7 +159,7 @@ static int32_t source_options(const hooke_study *study, const struct hk_ensemble
 static int32_t run_member(struct member *member) {
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
-  const hooke_study *study = member->study;
+  const struct hk_study *study = member->study;
   struct hk_frames none;
   hooke_options *options = NULL;
   member->count = 0;
@@ -181,7 +181,7 @@ static int32_t run_member(struct member *member) {
 
 /* All sources in turn, so that time that runs out leaves as many members of each. */
 static int32_t run_members(struct member *member) {
-  hooke_study *study = member->study;
+  struct hk_study *study = member->study;
   struct hk_ensemble *ensemble = member->ensemble;
   const double begun = hk_clock_seconds(), all = (double)(ensemble->members * ensemble->source_count);
   double done = 0.0;
@@ -205,7 +205,7 @@ static int32_t run_members(struct member *member) {
   return HOOKE_OK;
 }
 
-int32_t hk_ensemble_run(hooke_study *study) {
+int32_t hk_ensemble_run(struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
   const int64_t first = r->trusted, frames = r->frames.count - first;
   if (hooke_options_number(study->options, "ensemble") < 1.0 || frames < 1) return HOOKE_OK;

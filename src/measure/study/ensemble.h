@@ -5,7 +5,7 @@
 
 #include "measure/watch/watched.h"
 
-struct hooke_study;
+struct hk_study;
 
 /* One that moves all members: the method of the reference, or a method of the study with one step or
  * tolerance. */
@@ -41,7 +41,7 @@ double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int6
 
 /* Runs the members of a study whose rows are made, of all sources in turn, until they are complete or the
  * deadline is there. Does nothing if no ensemble is asked for, or if the reference is trusted to the end. */
-int32_t hk_ensemble_run(struct hooke_study *study);
+int32_t hk_ensemble_run(struct hk_study *study);
 void hk_ensemble_release(struct hk_ensemble *ensemble);
 
 #endif

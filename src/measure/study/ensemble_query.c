@@ -34,32 +34,3 @@ double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int6
   const double difference = own.mean - other.mean;
   return difference == 0.0 && variance == 0.0 ? 0.0 : difference / sqrt(variance);
 }
-
-static int64_t find_source(const hooke_study *study, const char *method) {
-  if (strcmp(method, "reference") == 0) return 0;
-  for (int64_t k = 1; k < study->ensemble->source_count; k++) {
-    if (strcmp(study->method[study->ensemble->source[k].method], method) == 0) return k;
-  }
-  return -1;
-}
-
-double hooke_study_statistic(const hooke_study *study, const char *method, const char *quantity,
-                             const char *what) {
-  const struct hk_ensemble *ensemble = study->ensemble;
-  if (ensemble == NULL) return NAN;
-  const int64_t source = find_source(study, method), q = hk_watched_find(&ensemble->quantities, quantity);
-  if (source < 0 || q < 0) return NAN;
-  const struct hk_ensemble_source *s = &ensemble->source[source];
-  const int adaptive = s->method < 0 || hk_study_is_adaptive(study, s->method);
-  const struct hk_ensemble_sample sample = hk_ensemble_sample(ensemble, source, q);
-  const struct hk_figure figures[] = {
-      {"mean", sample.mean},
-      {"spread", sample.spread},
-      {"members", (double)sample.members},
-      {"failed", (double)s->failed},
-      {"bias", source > 0 ? hk_ensemble_bias(ensemble, source, q) : NAN},
-      {"step", adaptive ? NAN : s->value},
-      {"rtol", adaptive ? s->value : NAN},
-  };
-  return HOOKE_FIGURE(figures, what);
-}

@@ -17,7 +17,7 @@ static const double BELOW = 0.15, ABOVE = 0.25; /* how far an order may be from 
 
 /* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from
  * coarse to fine. */
-static int32_t collect(const hooke_study *study, int32_t method, double *x, double *y) {
+static int32_t collect(const struct hk_study *study, int32_t method, double *x, double *y) {
   const struct hk_reference *r = &study->reference;
   int32_t count = 0;
   for (int64_t k = study->row_count - 1; k >= 0 && count < MOST_POINTS; k--) {
@@ -31,7 +31,7 @@ static int32_t collect(const hooke_study *study, int32_t method, double *x, doub
   return count;
 }
 
-static int32_t reached_floor(const hooke_study *study, int32_t method) {
+static int32_t reached_floor(const struct hk_study *study, int32_t method) {
   for (int64_t k = 0; k < study->row_count; k++) {
     const double error = study->row[k].trial.error;
     if (study->row[k].method == method && error < CLEAR_OF_FLOOR * study->reference.agreement) return 1;
@@ -60,7 +60,7 @@ static int has_drive_callback(const hooke_system *system) {
 }
 
 /* Half the safe step or more: 1 if the coarsest of the rows of the fit is that near to the limit. */
-static int near_limit(const hooke_study *study, int32_t method, double coarsest) {
+static int near_limit(const struct hk_study *study, int32_t method, double coarsest) {
   return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
 }
 
@@ -71,7 +71,8 @@ static void add_cause(char *list, size_t size, int *count, int applies, const ch
   snprintf(list + length, size - length, "%s%s", (*count)++ > 0 ? ", or " : "", cause);
 }
 
-static void list_causes(const hooke_study *study, int32_t method, double coarsest, char *list, size_t size) {
+static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list,
+                        size_t size) {
   const hooke_system *system = study->system;
   int count = 0;
   list[0] = '\0';
@@ -84,8 +85,8 @@ static void list_causes(const hooke_study *study, int32_t method, double coarses
   add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
 }
 
-static void explain(const hooke_study *study, int32_t method, struct hooke_study_order *order, int32_t points,
-                    double coarsest) {
+static void explain(const struct hk_study *study, int32_t method, struct hk_study_order *order,
+                    int32_t points, double coarsest) {
   char causes[sizeof order->note - 32];
   if (points < FEWEST_POINTS) {
     snprintf(order->note, sizeof order->note, "%s",
@@ -126,9 +127,9 @@ static void fit_line(int32_t count, const double *x, const double *y, double *sl
   *half = T_QUANTILE[count - 2] * sqrt(squares / (count - 2) / xx);
 }
 
-void hk_study_fit_order(hooke_study *study, int32_t method) {
-  struct hooke_study_order *order = &study->order[method];
-  *order = (struct hooke_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
+void hk_study_fit_order(struct hk_study *study, int32_t method) {
+  struct hk_study_order *order = &study->order[method];
+  *order = (struct hk_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
   if (hk_study_is_adaptive(study, method)) return;
   order->theory = (double)hk_method_find(study->method[method])->order;
   double x[MOST_POINTS], y[MOST_POINTS];

@@ -15,7 +15,7 @@
 enum { MOST_ROUNDS = 7 };
 static const double CONTENDS = 1.6, RACE_SECONDS = 0.5;
 
-static void keep(hooke_study *study, const struct hk_study_candidate *c, int32_t met) {
+static void keep(struct hk_study *study, const struct hk_study_candidate *c, int32_t met) {
   struct hk_study_recommendation *r = &study->recommendation;
   r->met = met;
   r->method = c->method;
@@ -28,7 +28,7 @@ static void keep(hooke_study *study, const struct hk_study_candidate *c, int32_t
 
 /* ---- when nothing meets the want ---- */
 
-static void explain_no_rows(hooke_study *study) {
+static void explain_no_rows(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
   const struct hk_study_row *finest = NULL;
   for (int64_t k = 0; k < study->row_count; k++) {
@@ -50,7 +50,7 @@ static void explain_no_rows(hooke_study *study) {
   }
 }
 
-static void keep_closest(hooke_study *study, const struct hk_study_candidate *candidates) {
+static void keep_closest(struct hk_study *study, const struct hk_study_candidate *candidates) {
   struct hk_study_recommendation *r = &study->recommendation;
   const struct hk_study_candidate *closest = NULL;
   for (int32_t m = 0; m < study->method_count; m++) {
@@ -96,7 +96,7 @@ static struct hk_study_candidate *cheapest_of(struct hk_study_candidate *c, int3
 }
 
 /* One more run, for its time. */
-static int32_t run_again(hooke_study *study, struct hk_study_candidate *c, double *seconds) {
+static int32_t run_again(struct hk_study *study, struct hk_study_candidate *c, double *seconds) {
   const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
   struct hk_study_row again;
   study->late = 0;
@@ -110,7 +110,7 @@ static int32_t run_again(hooke_study *study, struct hk_study_candidate *c, doubl
 
 /* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once
  * more. */
-static int32_t race(hooke_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
+static int32_t race(struct hk_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
   double seconds[HOOKE_STUDY_METHODS], most;
   const int32_t methods = study->method_count;
   int32_t status = HOOKE_OK, contenders = 0;
@@ -136,7 +136,7 @@ static int32_t race(hooke_study *study, struct hk_study_candidate *c, struct hk_
 }
 
 /* The most promising first; one that cannot become cheaper than what was found is left alone. */
-static int32_t search_all(hooke_study *study, struct hk_study_candidate *c) {
+static int32_t search_all(struct hk_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
     const struct hk_study_candidate *best = cheapest_of(c, k);
@@ -146,14 +146,14 @@ static int32_t search_all(hooke_study *study, struct hk_study_candidate *c) {
 }
 
 /* 1 if the method is one of the two that made the reference. */
-static int made_reference(const hooke_study *study, const struct hk_study_candidate *c) {
+static int made_reference(const struct hk_study *study, const struct hk_study_candidate *c) {
   const char *method = study->method[c->method];
   return strcmp(method, study->reference.method) == 0 || strcmp(method, study->reference.check) == 0;
 }
 
 /* What is as fine as the reference meets the want, since the reference does; then back from there. Its own
  * methods first. */
-static int32_t search_from_reference(hooke_study *study, struct hk_study_candidate *c) {
+static int32_t search_from_reference(struct hk_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int own = 1; own >= 0; own--) {
     for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
@@ -166,7 +166,7 @@ static int32_t search_from_reference(hooke_study *study, struct hk_study_candida
   return status;
 }
 
-int32_t hk_study_find_cheapest(hooke_study *study, double want) {
+int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
   struct hk_study_candidate c[HOOKE_STUDY_METHODS];
   for (int32_t m = 0; m < study->method_count; m++)
     hk_study_candidate_create(study, m, want, &c[m]);
@@ -200,10 +200,13 @@ int32_t hk_study_find_cheapest(hooke_study *study, double want) {
   return status == HOOKE_OK && best ? hk_study_find_margin(study) : status;
 }
 
-int32_t hooke_study_recommend(hooke_study *study, double want) {
-  if (study->reference.frames.count == 0) {
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the study has not been run yet; call hooke_study_run() first");
-  }
+int32_t hooke_study_recommend(hooke_measurement *m, double want) {
+  int32_t status = hk_measurement_require(m, &hk_study_kind, "hooke_study_recommend");
+  if (status != HOOKE_OK) return status;
+  struct hk_study *study = m->object;
+  if (study->reference.frames.count == 0)
+    return hk_fail(HOOKE_BAD_CALL, NULL,
+                   "the study has not been run yet; call hooke_measurement_run() first");
   if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
   /* a budget counts anew */
   study->begun = hk_clock_seconds();

@@ -85,14 +85,10 @@ static const struct hk_option_row study_rows[] = {
 
 static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
 
-int32_t hooke_study_options_create(hooke_options **options) {
-  return hk_options_create(&study_table, options);
-}
-
 /* ---- making ---- */
 
 static int32_t add_method(const char *method, void *ctx) {
-  hooke_study *study = ctx;
+  struct hk_study *study = ctx;
   if (!hooke_method_is_built(method)) {
     return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
@@ -103,13 +99,13 @@ static int32_t add_method(const char *method, void *ctx) {
   return HOOKE_OK;
 }
 
-static int32_t read_times(hooke_study *study) {
+static int32_t read_times(struct hk_study *study) {
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
   return hk_step_times(study->run, &study->duration, &study->every);
 }
 
-static int32_t read_watch(hooke_study *study) {
+static int32_t read_watch(struct hk_study *study) {
   const char *text = hooke_options_text(study->options, "watch");
   study->watched.system = study->system;
   if (hooke_options_number(study->options, "ensemble") == 1.0) {
@@ -119,56 +115,38 @@ static int32_t read_watch(hooke_study *study) {
   return text[0] ? hk_watched_read(&study->watched, "watch", text) : HOOKE_OK;
 }
 
-int32_t hooke_study_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
-                           hooke_study **out) {
-  if (!hooke_system_is_committed(system)) {
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
-  }
-  if (!hooke_method_is_built("cvode-adams")) {
+static int32_t create(hooke_measurement *m) {
+  if (!hooke_method_is_built("cvode-adams"))
     return hk_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
-  }
-  int32_t status = hk_run_options_require(run, "run");
-  if (status == HOOKE_OK && options)
-    status = hk_options_require(options, &study_table, "options", "hooke_study_options_create()");
-  if (status != HOOKE_OK) return status;
-  hooke_study *study = hk_handle_new("hooke_study", sizeof *study);
+  struct hk_study *study = m->object = hk_new(1, sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
-  study->system = system;
-  status = hooke_options_copy(run, &study->run);
-  if (status == HOOKE_OK) {
-    status =
-        options ? hooke_options_copy(options, &study->options) : hooke_study_options_create(&study->options);
-  }
-  if (status == HOOKE_OK) {
-    const char *names = hooke_options_text(study->options, "methods");
-    status = hk_method_list_read(names, hooke_method_is_built, add_method, study);
-  }
+  study->measurement = m;
+  study->system = m->system;
+  study->run = m->run;
+  study->options = m->options;
+  int32_t status = hk_method_list_read(hooke_options_text(study->options, "methods"), hooke_method_is_built,
+                                       add_method, study);
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hk_study_check_ladder(study);
-  if (status == HOOKE_OK) status = read_watch(study);
-  if (status == HOOKE_OK)
-    *out = study;
-  else
-    hooke_study_destroy(study);
-  return status;
+  return status == HOOKE_OK ? read_watch(study) : status;
 }
 
-void hooke_study_destroy(hooke_study *study) {
-  if (study == NULL) return;
+static void release_results(struct hk_study *study) {
   for (int64_t k = 0; k < study->row_count; k++)
     hk_trial_release(&study->row[k].trial);
+  study->row_count = 0;
   hk_reference_release(&study->reference);
   hk_ensemble_release(study->ensemble);
-  hk_watched_release(&study->watched);
-  hooke_options_destroy(study->run);
-  hooke_options_destroy(study->options);
-  hk_free(study->row);
-  hk_handle_free(study);
+  study->ensemble = NULL;
 }
 
-void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx) {
-  study->progress = progress;
-  study->progress_ctx = ctx;
+static void destroy(void *object) {
+  struct hk_study *study = object;
+  if (study == NULL) return;
+  release_results(study);
+  hk_watched_release(&study->watched);
+  hk_free(study->row);
+  hk_free(study);
 }
 
 static int compare_rows(const void *a, const void *b) {
@@ -177,7 +155,7 @@ static int compare_rows(const void *a, const void *b) {
   return (x->value < y->value) - (x->value > y->value);
 }
 
-static int32_t make_reference(hooke_study *study) {
+static int32_t make_reference(struct hk_study *study) {
   const struct hk_listener listener = {.on_progress = hk_study_tell_reference, .ctx = study};
   const double want = hooke_options_number(study->options, "want");
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
@@ -197,34 +175,29 @@ static int32_t make_reference(hooke_study *study) {
 }
 
 /* As it was before it was run. */
-static void forget(hooke_study *study) {
-  for (int64_t k = 0; k < study->row_count; k++)
-    hk_trial_release(&study->row[k].trial);
-  study->row_count = 0;
-  hk_reference_release(&study->reference);
-  hk_ensemble_release(study->ensemble);
-  study->ensemble = NULL;
+static void forget(struct hk_study *study) {
+  release_results(study);
   memset(&study->recommendation, 0, sizeof study->recommendation);
   study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
   study->late = study->budget_spent = 0;
   memset(study->given_up, 0, sizeof study->given_up);
 }
 
-int32_t hooke_study_run(hooke_study *study) {
-  if (study->reference.frames.count > 0) {
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the study has been run; make a new one");
-  }
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_study *study = m->object;
+  int32_t status = hk_measurement_require_fresh(m, state);
+  if (status != HOOKE_OK) return status;
   const double budget = study->budget;
   study->begun = hk_clock_seconds();
   if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
-  int32_t status = hk_study_find_safe_steps(study);
+  status = hk_study_find_safe_steps(study);
   if (status == HOOKE_OK) status = hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
   if (status == HOOKE_OK) status = hk_study_run_ladders(study);
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
-  for (int32_t m = 0; m < study->method_count; m++)
-    hk_study_fit_order(study, m);
+  for (int32_t k = 0; k < study->method_count; k++)
+    hk_study_fit_order(study, k);
   const double want = hooke_options_number(study->options, "want");
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hk_study_find_cheapest(study, want);
@@ -234,3 +207,14 @@ int32_t hooke_study_run(hooke_study *study) {
   if (status < 0) forget(study);
   return status;
 }
+
+const struct hk_measurement_kind hk_study_kind = {
+    .name = "study",
+    .options = &study_table,
+    .needs_run = 1,
+    .tables = hk_study_tables,
+    .table_count = HOOKE_STUDY_TABLES,
+    .create = create,
+    .run = run,
+    .destroy = destroy,
+};

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MEASURE_STUDY_STUDY_H
 #define HOOKE_MEASURE_STUDY_STUDY_H
 
-#include "hooke/study.h"
+#include "measure/measurement.h"
 #include "measure/study/ensemble.h"
 #include "measure/trial/reference.h"
 
@@ -18,7 +18,7 @@ struct hk_study_row {
   int32_t timed_alone; /* 0: other rows ran beside it */
 };
 
-struct hooke_study_order {
+struct hk_study_order {
   double order, low, high, theory;
   char note[512];
 };
@@ -41,12 +41,14 @@ struct hk_study_recommendation {
   char note[512];
 };
 
-struct hooke_study {
+struct hk_study {
+  const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run, *options;
+  hooke_options *run;
+  const hooke_options *options; /* both of the measurement */
   int32_t method_count;
   const char *method[HOOKE_STUDY_METHODS];
-  struct hooke_study_order order[HOOKE_STUDY_METHODS];
+  struct hk_study_order order[HOOKE_STUDY_METHODS];
 
   double duration, every;
   double unit; /* the largest step of which duration and every are whole multiples [s] */
@@ -60,8 +62,6 @@ struct hooke_study {
   double safe_step
       [HOOKE_STUDY_METHODS]; /* where a method's ladder begins; error-controlled methods have none [s] */
 
-  hooke_progress *progress;
-  void *progress_ctx;
   const char *under_way;
   double told;                           /* the largest share told */
   double evaluation;                     /* of forces, about [s] */
@@ -78,16 +78,16 @@ struct hooke_study {
 };
 
 /* 1 if the method takes its steps from a tolerance. */
-int32_t hk_study_is_adaptive(const hooke_study *study, int32_t method);
+int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method);
 
 /* The k-th value of a method's ladder, the coarsest first: a step, or a tolerance; NaN past the last. */
-double hk_study_ladder(const hooke_study *study, int32_t method, int32_t k);
+double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k);
 /* The step nearest to `step` that frames and duration are whole multiples of. */
-double hk_study_fitting_step(const hooke_study *study, double step);
+double hk_study_fitting_step(const struct hk_study *study, double step);
 /* Finds the safe step of each method. */
-int32_t hk_study_find_safe_steps(hooke_study *study);
+int32_t hk_study_find_safe_steps(struct hk_study *study);
 /* Finds `unit` and checks the ladders that the caller gave. */
-int32_t hk_study_check_ladder(hooke_study *study);
+int32_t hk_study_check_ladder(struct hk_study *study);
 
 /* ---- progress (study_progress.c) ---- */
 
@@ -97,39 +97,40 @@ int32_t hk_study_tell_reference(double share, void *ctx);
 int32_t hk_study_tell(double share, void *ctx);
 int32_t hk_study_tell_row(double share, void *ctx);
 /* Times a force evaluation at the start, and looks at the ladders. */
-int32_t hk_study_prepare_guesses(hooke_study *study);
+int32_t hk_study_prepare_guesses(struct hk_study *study);
 /* Seconds that a row is going to take, very roughly: for a method that no row has been run of. */
-double hk_study_guess(const hooke_study *study, int32_t method, double value);
+double hk_study_guess(const struct hk_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
 
 /* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The
  * row's trial must be released. Only the first may be called from several threads at a time. */
-int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
+int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double value,
                          const struct hk_listener *listener, struct hk_study_row *row);
-int32_t hk_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out);
-int32_t hk_study_time_row(hooke_study *study, struct hk_study_row *row);
+int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value, hooke_options **out);
+int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
-int32_t hk_study_measure(hooke_study *study, int32_t method, double value, struct hk_study_row *row);
-
-/* Words and figures of what is watched and of ensembles (study_watched.c); NULL and NaN for another word. */
-const char *hk_study_watched_text(const hooke_study *study, const char *what);
-double hk_study_watched_figure(const hooke_study *study, const char *what);
+int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row);
 
 /* All rows, level by level, until the deadline. */
-int32_t hk_study_run_ladders(hooke_study *study);
+int32_t hk_study_run_ladders(struct hk_study *study);
 
 /* The recommendation, until the deadline. */
-int32_t hk_study_find_cheapest(hooke_study *study, double want);
+int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 
 /* What the recommendation has to spare, until the deadline. */
-int32_t hk_study_find_margin(hooke_study *study);
+int32_t hk_study_find_margin(struct hk_study *study);
 
 /* Least squares of log error on log step for a method (order.c). */
-void hk_study_fit_order(hooke_study *study, int32_t method);
+void hk_study_fit_order(struct hk_study *study, int32_t method);
 
-/* The numbers of a row that tables of studies show, by their words for hooke_study_number(). */
-enum { HOOKE_STUDY_ROW_NUMBERS = 16 };
-extern const char *const hk_study_row_number[HOOKE_STUDY_ROW_NUMBERS];
+/* ---- tables ---- */
+
+enum { HOOKE_STUDY_TABLES = 10 };
+extern const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES];
+extern const struct hk_table hk_study_watched_table, hk_study_error_table, hk_study_ensemble_table,
+    hk_study_statistic_table;
+
+extern const struct hk_measurement_kind hk_study_kind;
 
 #endif

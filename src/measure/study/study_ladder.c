@@ -12,20 +12,20 @@
 enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
 static const double FARTHEST_BELOW = 128.0; /* that a ladder begins below the safe step of symplectic Euler */
 
-int32_t hk_study_is_adaptive(const hooke_study *study, int32_t method) {
+int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method) {
   return hooke_method_is_adaptive(study->method[method]);
 }
 
-static int32_t points_of(const hooke_study *study) {
+static int32_t points_of(const struct hk_study *study) {
   return (int32_t)hooke_options_number(study->options, "points");
 }
 
-double hk_study_fitting_step(const hooke_study *study, double step) {
+double hk_study_fitting_step(const struct hk_study *study, double step) {
   return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
 }
 
 /* NaN where none is known. */
-static double bound_of(const hooke_study *study, const char *method, const double *q) {
+static double bound_of(const struct hk_study *study, const char *method, const double *q) {
   double bound = NAN;
   if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
   return bound;
@@ -33,7 +33,7 @@ static double bound_of(const hooke_study *study, const char *method, const doubl
 
 /* A step that is stable for certain; where a method has none, or a very small one for which the bound is to
  * blame, a part of the one that symplectic Euler would take. */
-static double safe_step(const hooke_study *study, const char *method, const double *q) {
+static double safe_step(const struct hk_study *study, const char *method, const double *q) {
   double bound = bound_of(study, method, q);
   const double other = bound_of(study, "symplectic-euler", q);
   if (bound == 0.0) bound = other;
@@ -41,7 +41,7 @@ static double safe_step(const hooke_study *study, const char *method, const doub
   return bound > 0.0 ? bound : study->unit;
 }
 
-int32_t hk_study_find_safe_steps(hooke_study *study) {
+int32_t hk_study_find_safe_steps(struct hk_study *study) {
   hooke_state *state = NULL;
   const int32_t status = hooke_state_create(study->system, &state);
   if (status != HOOKE_OK) return status;
@@ -55,7 +55,7 @@ int32_t hk_study_find_safe_steps(hooke_study *study) {
 }
 
 /* From twice the safe step, which may still be stable, since the bound is not sharp. */
-static double fixed_ladder(const hooke_study *study, int32_t method, int32_t k) {
+static double fixed_ladder(const struct hk_study *study, int32_t method, int32_t k) {
   const double safe = study->safe_step[method];
   const double start =
       safe < study->unit ? hk_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
@@ -69,7 +69,7 @@ static double given(const hooke_options *options, const char *name, int32_t k) {
   return k < count ? hooke_options_numbers(options, name)[k] : NAN;
 }
 
-double hk_study_ladder(const hooke_study *study, int32_t method, int32_t k) {
+double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k) {
   const int32_t adaptive = hk_study_is_adaptive(study, method);
   const char *own = adaptive ? "tolerances" : "steps";
   if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
@@ -93,7 +93,7 @@ static int32_t check_list(const hooke_options *options, const char *name) {
   return HOOKE_OK;
 }
 
-static int32_t check_steps(const hooke_study *study) {
+static int32_t check_steps(const struct hk_study *study) {
   const int64_t count = hooke_options_number_count(study->options, "steps");
   for (int64_t k = 0; k < count; k++) {
     const double step = hooke_options_numbers(study->options, "steps")[k];
@@ -109,7 +109,7 @@ static int32_t check_steps(const hooke_study *study) {
   return HOOKE_OK;
 }
 
-int32_t hk_study_check_ladder(hooke_study *study) {
+int32_t hk_study_check_ladder(struct hk_study *study) {
   int32_t status = hk_step_unit(study->duration, study->every, &study->unit);
   if (status == HOOKE_OK) status = check_list(study->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);

@@ -22,7 +22,7 @@ static int32_t tell_limit(double done, const char *what, void *study) {
   return hk_study_tell(done, study);
 }
 
-static int32_t find_limit_share(hooke_study *study, struct hk_study_recommendation *r) {
+static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommendation *r) {
   const char *method = study->method[r->method];
   hooke_state *state = NULL;
   double limit = NAN;
@@ -49,7 +49,8 @@ static double largest_speed(const struct hk_frames *frames) {
 }
 
 /* 1, 0 or NaN, from a trial against a reference that is known to its agreement. */
-static double judge(const hooke_study *study, const struct hk_reference *r, const struct hk_trial *trial) {
+static double judge(const struct hk_study *study, const struct hk_reference *r,
+                    const struct hk_trial *trial) {
   const double want = study->recommendation.want, error = trial->error;
   if (strcmp(trial->status, "finished") != 0) return 0.0;
   if (r->trusted < 2 || error - r->agreement > want) return r->trusted < 2 ? NAN : 0.0;
@@ -58,7 +59,7 @@ static double judge(const hooke_study *study, const struct hk_reference *r, cons
 
 /* The run that is recommended, on a system that is a little different; nothing is known where time was too
  * short for it or its reference. */
-static int32_t try_change(hooke_study *study, const hooke_system *changed, double seconds, double *holds,
+static int32_t try_change(struct hk_study *study, const hooke_system *changed, double seconds, double *holds,
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
   const struct hk_listener told = {.on_progress = hk_study_tell, .ctx = study};
@@ -90,7 +91,7 @@ static int32_t try_change(hooke_study *study, const hooke_system *changed, doubl
   return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
-static int32_t make_changed(const hooke_study *study, enum hk_study_change change, double sign,
+static int32_t make_changed(const struct hk_study *study, enum hk_study_change change, double sign,
                             hooke_system **made) {
   struct hk_variant variant;
   struct hk_variant_map map;
@@ -110,7 +111,7 @@ static int32_t make_changed(const hooke_study *study, enum hk_study_change chang
 }
 
 /* The want is met with a change if it is so both ways. */
-static int32_t find_change(hooke_study *study, enum hk_study_change change, double seconds) {
+static int32_t find_change(struct hk_study *study, enum hk_study_change change, double seconds) {
   struct hk_study_margin *margin = &study->recommendation.margin;
   double holds[2] = {NAN, NAN}, error[2] = {NAN, NAN};
   int32_t status = HOOKE_OK;
@@ -128,7 +129,7 @@ static int32_t find_change(hooke_study *study, enum hk_study_change change, doub
   return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
 }
 
-int32_t hk_study_find_margin(hooke_study *study) {
+int32_t hk_study_find_margin(struct hk_study *study) {
   const double now = hk_clock_seconds(), left = study->begun + study->budget - now;
   const double seconds = fmin(left, fmax(SECONDS, SHARE * (now - study->begun)));
   study->under_way = "margin";

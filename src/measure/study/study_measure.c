@@ -13,7 +13,8 @@ static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
-int32_t hk_study_row_options(const hooke_study *study, int32_t method, double value, hooke_options **out) {
+int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value,
+                             hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(study->run, &options);
   if (status == HOOKE_OK) status = hk_trial_set_value(options, study->method[method], value);
@@ -32,7 +33,7 @@ static int compare_seconds(const void *a, const void *b) {
 }
 
 /* The first run warms up; it counts only where it is the only one. */
-static int32_t repeat_for_time(hooke_study *study, const hooke_options *options,
+static int32_t repeat_for_time(struct hk_study *study, const hooke_options *options,
                                const struct hk_listener *listener, struct hk_study_row *row) {
   double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
   int32_t count = 0, status = HOOKE_OK;
@@ -53,7 +54,7 @@ static int32_t repeat_for_time(hooke_study *study, const hooke_options *options,
   return status;
 }
 
-int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
+int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double value,
                          const struct hk_listener *listener, struct hk_study_row *row) {
   const struct hk_reference *r = &study->reference;
   hooke_options *options = NULL;
@@ -66,7 +67,7 @@ int32_t hk_study_run_row(const hooke_study *study, int32_t method, double value,
   return status;
 }
 
-int32_t hk_study_time_row(hooke_study *study, struct hk_study_row *row) {
+int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row) {
   const struct hk_listener listener = {.on_progress = hk_study_tell, .ctx = study};
   hooke_options *options = NULL;
   if (strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
@@ -77,7 +78,7 @@ int32_t hk_study_time_row(hooke_study *study, struct hk_study_row *row) {
   return status;
 }
 
-int32_t hk_study_measure(hooke_study *study, int32_t method, double value, struct hk_study_row *row) {
+int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row) {
   const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
   study->under_way = study->method[method];
   study->late = 0;

@@ -12,7 +12,7 @@ static const double EVALUATIONS_OF_STEP = 3.0; /* in time: several, or one and a
 static const double SHARE_OF_REFERENCE = 0.06; /* what a row by tolerance takes of the reference's time */
 static const double SHARE_OF_SEARCH = 0.1;     /* what the search for a recommendation adds */
 
-static int32_t time_evaluation(hooke_study *study) {
+static int32_t time_evaluation(struct hk_study *study) {
   hooke_state *state = NULL;
   double *force = hk_new(3 * hooke_system_particle_count(study->system), sizeof(double));
   int32_t status = force ? hooke_state_create(study->system, &state) : HOOKE_NO_MEMORY;
@@ -28,16 +28,16 @@ static int32_t time_evaluation(hooke_study *study) {
   return status;
 }
 
-static double guess_fixed(const hooke_study *study, double step) {
+static double guess_fixed(const struct hk_study *study, double step) {
   return EVALUATIONS_OF_STEP * study->evaluation * study->duration / step;
 }
 
-double hk_study_guess(const hooke_study *study, int32_t method, double value) {
+double hk_study_guess(const struct hk_study *study, int32_t method, double value) {
   return hk_study_is_adaptive(study, method) ? SHARE_OF_REFERENCE * study->reference.wall_seconds
                                              : guess_fixed(study, value);
 }
 
-int32_t hk_study_prepare_guesses(hooke_study *study) {
+int32_t hk_study_prepare_guesses(struct hk_study *study) {
   const int32_t status = time_evaluation(study);
   study->told = study->fixed_rows = study->adaptive_rows = 0.0;
   for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
@@ -51,17 +51,16 @@ int32_t hk_study_prepare_guesses(hooke_study *study) {
   return status;
 }
 
-static int32_t tell(hooke_study *study, double spent, double ahead) {
-  if (study->progress == NULL) return 0;
+static int32_t tell(struct hk_study *study, double spent, double ahead) {
   if (!isnan(hooke_options_number(study->options, "want"))) ahead += SHARE_OF_SEARCH * (spent + ahead);
   ahead = fmax(0.0, fmin(ahead, study->budget - spent));
   const double done = spent > 0.0 ? spent / (spent + ahead) : 0.0;
   study->told = fmax(study->told, done);
-  return study->progress(study->told, study->under_way, study->progress_ctx);
+  return hk_measurement_tell(study->measurement, study->told, study->under_way);
 }
 
 int32_t hk_study_tell_reference(double share, void *ctx) {
-  hooke_study *study = ctx;
+  struct hk_study *study = ctx;
   const double spent = hk_clock_seconds() - study->begun;
   const double reference = spent / share; /* infinite at first, and nothing is done then */
   const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
@@ -69,13 +68,13 @@ int32_t hk_study_tell_reference(double share, void *ctx) {
 }
 
 int32_t hk_study_tell(double share, void *ctx) {
-  hooke_study *study = ctx;
+  struct hk_study *study = ctx;
   (void)share;
   return tell(study, hk_clock_seconds() - study->begun, study->work_ahead);
 }
 
 int32_t hk_study_tell_row(double share, void *ctx) {
-  hooke_study *study = ctx;
+  struct hk_study *study = ctx;
   const int32_t value = hk_study_tell(share, ctx);
   if (value != 0 || hk_clock_seconds() < study->row_deadline) return value;
   study->late = 1;

@@ -24,7 +24,7 @@ static const double UNKNOWN_SHARE = 0.1;
 
 /* Seconds that the next row of a method is going to take: the last one's that came to its end, scaled by
  * the steps; NaN before the first. */
-static double predict_seconds(const hooke_study *study, int32_t method, double value) {
+static double predict_seconds(const struct hk_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hk_study_row *row = &study->row[k];
     if (row->method != method || isnan(row->trial.error)) continue;
@@ -34,12 +34,12 @@ static double predict_seconds(const hooke_study *study, int32_t method, double v
   return NAN;
 }
 
-static double expect_seconds(const hooke_study *study, int32_t method, double value) {
+static double expect_seconds(const struct hk_study *study, int32_t method, double value) {
   const double predicted = predict_seconds(study, method, value);
   return isnan(predicted) ? hk_study_guess(study, method, value) : predicted;
 }
 
-static double seconds_ahead(const hooke_study *study, int32_t level) {
+static double seconds_ahead(const struct hk_study *study, int32_t level) {
   double sum = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     for (int32_t k = level; !isnan(hk_study_ladder(study, m, k)); k++) {
@@ -64,7 +64,7 @@ struct job {
 };
 
 struct level {
-  hooke_study *study;
+  struct hk_study *study;
   int32_t count;
   struct job job[HOOKE_STUDY_METHODS];
   atomic_int next, stop, running;
@@ -76,7 +76,7 @@ static int32_t asked_to_stop(double share, void *ctx) {
   return atomic_load(&job->level->stop) || hk_clock_seconds() >= job->deadline;
 }
 
-static double deadline_of(const struct job *job, const hooke_study *study) {
+static double deadline_of(const struct job *job, const struct hk_study *study) {
   const double now = hk_clock_seconds();
   return now + job->share * (study->deadline - now);
 }
@@ -152,7 +152,7 @@ static int32_t run_one_by_one(struct level *level) {
 
 /* Rows that ran, even the one that was stopped, stay. */
 static int32_t keep_rows(struct level *level) {
-  hooke_study *study = level->study;
+  struct hk_study *study = level->study;
   int32_t status = HOOKE_OK;
   if (study->row_count + level->count > study->row_capacity) {
     const int64_t capacity = 2 * study->row_capacity + 64;
@@ -176,7 +176,7 @@ static int compare_jobs(const void *a, const void *b) {
 
 /* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none
  * of the others from being run. */
-static void plan_level(hooke_study *study, int32_t number, struct level *level) {
+static void plan_level(struct hk_study *study, int32_t number, struct level *level) {
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     const double value = hk_study_ladder(study, m, number);
@@ -198,14 +198,14 @@ static void plan_level(hooke_study *study, int32_t number, struct level *level) 
 }
 
 /* A search is to have time for a run as fine as the reference. */
-static double end_of_rows(const hooke_study *study) {
+static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
   const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_seconds);
   return end - fmin(search, MOST_SEARCH * left);
 }
 
-int32_t hk_study_run_ladders(hooke_study *study) {
+int32_t hk_study_run_ladders(struct hk_study *study) {
   const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
   int32_t status = HOOKE_OK;
   struct level *level = hk_new(1, sizeof *level);

@@ -22,7 +22,7 @@ static const double TIGHTEST = 1e-14;                              /* the smalle
 /* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
 static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
 
-static int is_adaptive(const hooke_study *study, const struct hk_study_candidate *c) {
+static int is_adaptive(const struct hk_study *study, const struct hk_study_candidate *c) {
   return hk_study_is_adaptive(study, c->method);
 }
 
@@ -50,7 +50,7 @@ static double interpolate(const struct hk_study_candidate *c) {
 
 /* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference
  * takes as long. */
-static double predict_beyond(const hooke_study *study, const struct hk_study_candidate *c) {
+static double predict_beyond(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
   if (is_adaptive(study, c)) return study->reference.run_seconds;
@@ -59,7 +59,7 @@ static double predict_beyond(const hooke_study *study, const struct hk_study_can
              : hk_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);
 }
 
-static void predict(const hooke_study *study, struct hk_study_candidate *c) {
+static void predict(const struct hk_study *study, struct hk_study_candidate *c) {
   const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
   const double value = isnan(c->fails) || isnan(c->error_at_fails) ? c->meets : interpolate(c);
   c->predicted = isnan(c->meets) ? predict_beyond(study, c)
@@ -89,7 +89,7 @@ static int learn(struct hk_study_candidate *c, const struct hk_study_row *row) {
   return !had && (best->status == NULL || isnan(best->error) || trial->error < best->error);
 }
 
-void hk_study_candidate_create(const hooke_study *study, int32_t method, double want,
+void hk_study_candidate_create(const struct hk_study *study, int32_t method, double want,
                                struct hk_study_candidate *c) {
   *c = (struct hk_study_candidate){.method = method,
                                    .most = want - study->reference.agreement,
@@ -117,7 +117,7 @@ void hk_study_candidate_release(struct hk_study_candidate *c) {
 
 /* ---- searching by runs ---- */
 
-static int32_t try_value(hooke_study *study, struct hk_study_candidate *c, double value) {
+static int32_t try_value(struct hk_study *study, struct hk_study_candidate *c, double value) {
   struct hk_study_row row;
   study->row_deadline = study->deadline;
   const int32_t status = hk_study_measure(study, c->method, value, &row);
@@ -133,7 +133,7 @@ static int32_t try_value(hooke_study *study, struct hk_study_candidate *c, doubl
 
 /* A tolerance as tight as the reference's, whose absolute one is in proportion to the extent; a step that
  * takes as many evaluations of forces. */
-static double as_fine_as_reference(const hooke_study *study, int32_t method) {
+static double as_fine_as_reference(const struct hk_study *study, int32_t method) {
   const struct hk_reference *r = &study->reference;
   if (!hk_study_is_adaptive(study, method))
     return hk_study_fitting_step(study, study->duration / fmax(1.0, r->evaluations));
@@ -143,7 +143,7 @@ static double as_fine_as_reference(const hooke_study *study, int32_t method) {
 
 /* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is
  * spent. */
-static double least_value(const hooke_study *study, const struct hk_study_candidate *c) {
+static double least_value(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
   if (is_adaptive(study, c)) return least;
   return isinf(study->budget) ? fmin(least, farthest) : 0.0;
@@ -156,20 +156,20 @@ static double by_slope(const struct hk_study_candidate *c, double slope) {
 }
 
 /* By the order that the method has been seen to have. */
-static double by_order(const hooke_study *study, const struct hk_study_candidate *c) {
+static double by_order(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   return by_slope(c, isnan(order) || order < 0.5 ? 1.0 : order);
 }
 
 /* By the best that it can have. */
-static double by_theory(const hooke_study *study, const struct hk_study_candidate *c) {
+static double by_theory(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double theory = study->order[c->method].theory;
   return by_slope(c, isnan(theory) ? 1.0 : theory);
 }
 
 /* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not
  * diverge. NaN when that has led far enough. */
-static double finer(const hooke_study *study, const struct hk_study_candidate *c) {
+static double finer(const struct hk_study *study, const struct hk_study_candidate *c) {
   if (c->most <= 0.0) return NAN;
   const double least = least_value(study, c);
   if (c->fails <= least * (1.0 + 1e-9)) return NAN;
@@ -178,7 +178,7 @@ static double finer(const hooke_study *study, const struct hk_study_candidate *c
   return fmax(least, fmax(c->fails / farthest, value));
 }
 
-static double coarser(const hooke_study *study, const struct hk_study_candidate *c) {
+static double coarser(const struct hk_study *study, const struct hk_study_candidate *c) {
   const int adaptive = is_adaptive(study, c);
   const double largest = adaptive ? LOOSEST : study->unit;
   const double value = c->meets * (adaptive ? COARSER_TOLERANCE : COARSER_STEP);
@@ -186,20 +186,20 @@ static double coarser(const hooke_study *study, const struct hk_study_candidate 
 }
 
 /* The step that fits next to `step`, strictly between those that are known; NaN if there is none. */
-static double fit_between(const hooke_study *study, const struct hk_study_candidate *c, double step) {
+static double fit_between(const struct hk_study *study, const struct hk_study_candidate *c, double step) {
   const double most = isnan(c->meets) ? INFINITY : round(study->unit / c->meets) - 1.0;
   const double least = isnan(c->fails) ? 1.0 : round(study->unit / c->fails) + 1.0;
   const double parts = fmax(least, fmin(most, round(study->unit / step)));
   return parts <= most ? study->unit / parts : NAN;
 }
 
-static int is_close(const hooke_study *study, const struct hk_study_candidate *c) {
+static int is_close(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double close = is_adaptive(study, c) ? CLOSE_TOLERANCE : CLOSE_STEP;
   return c->fails / c->meets <= close || c->error_at_meets >= CLOSE_ERROR * c->most;
 }
 
 /* Between the two by turns where the error should be right, and the middle, so that both ends move. */
-static double next_value(const hooke_study *study, const struct hk_study_candidate *c, int32_t run) {
+static double next_value(const struct hk_study *study, const struct hk_study_candidate *c, int32_t run) {
   double value;
   if (isnan(c->meets))
     value = isnan(c->fails) ? NAN : finer(study, c);
@@ -214,7 +214,7 @@ static double next_value(const hooke_study *study, const struct hk_study_candida
 
 /* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse
  * to fine. */
-static double least_cost(const hooke_study *study, const struct hk_study_candidate *c) {
+static double least_cost(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double seconds = hk_study_candidate_cost(c);
   if (isnan(c->meets)) return isnan(c->error_at_fails) ? 0.0 : seconds;
   const double power = is_adaptive(study, c) ? LARGEST_POWER : 1.0;
@@ -222,19 +222,19 @@ static double least_cost(const hooke_study *study, const struct hk_study_candida
 }
 
 /* Seconds that a run of the next value is going to take, for the deadline. */
-static double next_cost(const hooke_study *study, const struct hk_study_candidate *c, double value) {
+static double next_cost(const struct hk_study *study, const struct hk_study_candidate *c, double value) {
   const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
   return hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
 /* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical
  * order; nor, where no run has come to its end, if any other method has done better. */
-static int is_hopeless(const hooke_study *study, const struct hk_study_candidate *c, double cost) {
+static int is_hopeless(const struct hk_study *study, const struct hk_study_candidate *c, double cost) {
   if (!isnan(c->meets) || isinf(cost)) return 0;
   return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;
 }
 
-int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate *c, double cost) {
+int32_t hk_study_candidate_search(struct hk_study *study, struct hk_study_candidate *c, double cost) {
   int32_t status = HOOKE_OK;
   for (int32_t run = 0; run < MOST_RUNS && status == HOOKE_OK; run++) {
     const double value = next_value(study, c, run);
@@ -249,7 +249,7 @@ int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate 
   return status;
 }
 
-int32_t hk_study_candidate_try_finest(hooke_study *study, struct hk_study_candidate *c) {
+int32_t hk_study_candidate_try_finest(struct hk_study *study, struct hk_study_candidate *c) {
   const double value = as_fine_as_reference(study, c->method);
   if (c->most <= 0.0 || !isnan(c->meets) || c->fails <= value) return HOOKE_OK;
   if (hk_clock_seconds() < study->deadline) return try_value(study, c, value);

@@ -22,15 +22,15 @@ struct hk_study_candidate {
 double hk_study_candidate_cost(const struct hk_study_candidate *candidate);
 
 /* From the rows of the ladder. */
-void hk_study_candidate_create(const hooke_study *study, int32_t method, double want,
+void hk_study_candidate_create(const struct hk_study *study, int32_t method, double want,
                                struct hk_study_candidate *candidate);
 void hk_study_candidate_release(struct hk_study_candidate *candidate);
 
 /* Narrows it down by runs, until the deadline or until it cannot come below `cost` any more [wall
  * seconds]. */
-int32_t hk_study_candidate_search(hooke_study *study, struct hk_study_candidate *candidate, double cost);
+int32_t hk_study_candidate_search(struct hk_study *study, struct hk_study_candidate *candidate, double cost);
 
 /* Runs what is as fine as the reference, if no run of it as fine has been. */
-int32_t hk_study_candidate_try_finest(hooke_study *study, struct hk_study_candidate *candidate);
+int32_t hk_study_candidate_try_finest(struct hk_study *study, struct hk_study_candidate *candidate);
 
 #endif

@@ -30,9 +30,9 @@ STATE = _handle("hooke_state")
 INTEGRATOR = _handle("hooke_integrator")
 SCENE = _handle("hooke_scene")
 TRAJECTORY = _handle("hooke_trajectory")
+MEASUREMENT = _handle("hooke_measurement")
 COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
-STUDY = _handle("hooke_study")
 ESTIMATE = _handle("hooke_estimate")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
@@ -63,6 +63,7 @@ PROTOTYPES = {
     "hooke_abi": (INT32,),
     "hooke_build_fact": (TEXT, TEXT),
     # options.h
+    "hooke_options_create": (STATUS, TEXT, POINTER(OPTIONS)),
     "hooke_options_copy": (STATUS, OPTIONS, POINTER(OPTIONS)),
     "hooke_options_destroy": (None, OPTIONS),
     "hooke_options_set_number": (STATUS, OPTIONS, TEXT, DOUBLE),
@@ -188,6 +189,23 @@ PROTOTYPES = {
     "hooke_integrator_recent": (STATUS, INTEGRATOR, INT64, STATE),
     "hooke_integrator_stop_value": (INT32, INTEGRATOR),
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
+    # measurement.h
+    "hooke_measurement_create": (STATUS, TEXT, SYSTEM, OPTIONS, OPTIONS, POINTER(MEASUREMENT)),
+    "hooke_measurement_destroy": (None, MEASUREMENT),
+    "hooke_measurement_kind": (TEXT, MEASUREMENT),
+    "hooke_measurement_on_progress": (None, MEASUREMENT, PROGRESS, ADDRESS),
+    "hooke_measurement_run": (OUTCOME, MEASUREMENT, STATE),
+    "hooke_measurement_table": (TEXT, TEXT, INT64, TEXT),
+    "hooke_measurement_column": (TEXT, TEXT, TEXT, INT64, TEXT),
+    "hooke_measurement_row_count": (INT64, MEASUREMENT, TEXT),
+    "hooke_measurement_find": (INT64, MEASUREMENT, TEXT, TEXT, TEXT),
+    "hooke_measurement_number": (DOUBLE, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_text": (TEXT, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_series_count": (INT64, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_series": (DOUBLES, MEASUREMENT, TEXT, INT64, TEXT),
+    "hooke_measurement_label": (STATUS, MEASUREMENT, TEXT, TEXT),
+    "hooke_measurement_write": (STATUS, MEASUREMENT, TEXT),
+    "hooke_study_recommend": (OUTCOME, MEASUREMENT, DOUBLE),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
     "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),
@@ -215,26 +233,6 @@ PROTOTYPES = {
     "hooke_estimate_number": (DOUBLE, ESTIMATE, TEXT),
     "hooke_estimate_text": (TEXT, ESTIMATE, TEXT),
     "hooke_estimate_write_h5": (STATUS, ESTIMATE, TEXT),
-    # study.h
-    "hooke_study_options_create": (STATUS, POINTER(OPTIONS)),
-    "hooke_study_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(STUDY)),
-    "hooke_study_destroy": (None, STUDY),
-    "hooke_study_on_progress": (None, STUDY, PROGRESS, ADDRESS),
-    "hooke_study_run": (OUTCOME, STUDY),
-    "hooke_study_reference": (TEXT, STUDY, TEXT),
-    "hooke_study_figure": (DOUBLE, STUDY, TEXT),
-    "hooke_study_row_count": (INT64, STUDY),
-    "hooke_study_text": (TEXT, STUDY, INT64, TEXT),
-    "hooke_study_number": (DOUBLE, STUDY, INT64, TEXT),
-    "hooke_study_frame_count": (INT64, STUDY),
-    "hooke_study_series": (DOUBLES, STUDY, INT64, TEXT),
-    "hooke_study_order": (DOUBLE, STUDY, TEXT, TEXT),
-    "hooke_study_statistic": (DOUBLE, STUDY, TEXT, TEXT, TEXT),
-    "hooke_study_order_note": (TEXT, STUDY, TEXT),
-    "hooke_study_recommend": (OUTCOME, STUDY, DOUBLE),
-    "hooke_study_recommendation_text": (TEXT, STUDY, TEXT),
-    "hooke_study_recommendation_number": (DOUBLE, STUDY, TEXT),
-    "hooke_study_pick": (OUTCOME, SYSTEM, OPTIONS, DOUBLE, PROGRESS, ADDRESS),
     # limit.h
     "hooke_limit_options_create": (STATUS, POINTER(OPTIONS)),
     "hooke_limit_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(LIMIT)),
@@ -341,9 +339,6 @@ PROTOTYPES = {
     "hooke_view_destroy": (None, VIEW),
     "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
     "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
-    "hooke_study_write_csv": (STATUS, STUDY, TEXT),
-    "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
-    "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
     "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
     "hooke_needs_write_report": (STATUS, NEEDS, TEXT, TEXT, TEXT),
     # checkpoint.h

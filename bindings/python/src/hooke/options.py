@@ -73,7 +73,7 @@ class Options(Owner, MutableMapping[str, Any]):
     @classmethod
     def for_study(cls) -> Options:
         """Options of a study: methods, points, steps [s], tolerances, want [m], budget [s]."""
-        return cls(_create(lib.hooke_study_options_create))
+        return cls(_create(lambda out: lib.hooke_options_create(b"study", out)))
 
     @classmethod
     def for_limit(cls) -> Options:

@@ -2,48 +2,20 @@
 
 from __future__ import annotations
 
-import ctypes
-import os
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._callback import listening
 from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, address_of, text, view
-from ._prototypes import STUDY
+from ._measurement import Measurement
 from ._status import OUTCOMES
-from ._tables import read_rows
 from ._types import BoolArray, FloatArray, Path, StrArray, Table
 from .options import Options
 from .results import Runnable, WorkProgress, prepare
 from .scene import Scene, scene_text
 from .system import Force, System
-
-_TEXTS = ("method", "status")
-_FLAGS = ("near_floor", "near_energy_floor", "timed_alone")
-_NUMBERS = (
-    "step",
-    "rtol",
-    "atol",
-    "error",
-    "error_max",
-    "error_final",
-    "energy_drift",
-    "force_evaluations",
-    "steps",
-    "linear_iterations",
-    "wall_seconds",
-    "wall_median",
-    "repeats",
-)
-_ROW = np.dtype(
-    [(name, "U32") for name in _TEXTS]
-    + [(name, float) for name in _NUMBERS]
-    + [(name, bool) for name in _FLAGS]
-)
 
 
 class Reference(NamedTuple):
@@ -188,42 +160,34 @@ class Study(Closing):
     near_energy_floor: BoolArray
     timed_alone: BoolArray
 
-    def __init__(
-        self, handle: Handle, scene: Scene | None, system: System, status: int, progress: WorkProgress | bool | None
-    ):
-        self._handle = handle
+    def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int, progress: Any):
+        self._handle = measurement
         self._scene = scene
         self._system = system  # its callbacks have to live as long as the study
-        self._status = status
         self._progress = progress
         self.outcome = OUTCOMES.get(status, "stopped")
-        count = lib.hooke_study_row_count(handle)
-        self.rows = read_rows(handle, count, _ROW, lib.hooke_study_text, lib.hooke_study_number)
-        for name in _ROW.names or ():
+        self.rows = measurement.rows("rows")
+        for name in self.rows.dtype.names or ():
             setattr(self, name, self.rows[name])
-        figure = {what: lib.hooke_study_figure(handle, what.encode()) for what in _FIGURES}
-        names = [text(lib.hooke_study_reference(handle, what)) for what in (b"method", b"check")]
+        found = measurement.record("reference") or {}
+        found["displacements"] = int(np.nan_to_num(found["displacements"]))
         self.reference = Reference(
-            (names[0], names[1]),
-            agreement=figure["agreement"],
-            trusted_until=figure["trusted_until"],
-            growth=figure["growth"],
-            growth_probability=figure["growth_probability"],
-            growth_seen=figure["growth_seen"],
-            displacements=int(np.nan_to_num(figure["displacements"])),
-            energy_agreement=figure["energy_agreement"],
-            ended=text(lib.hooke_study_reference(handle, b"ended")),
+            methods=(found["method"], found["check"]), **{name: found[name] for name in Reference._fields[1:]}
         )
-        self.duration = figure["duration"]
-        self.budget_spent = bool(figure["budget_spent"])
-        self.orders = _read_orders(handle, self.methods)
-        names = _read_quantities(handle, "watched", "watched")
-        self.watched = {name: _read_errors(handle, count, name) for name in names}
-        self.agreement = {name: lib.hooke_study_figure(handle, f"agreement:{name}".encode()) for name in names}
-        self.statistics = {
-            name: _read_statistics(handle, self.methods, name)
-            for name in _read_quantities(handle, "quantities", "quantity")
+        whole = measurement.record("study") or {}
+        self.duration, self.budget_spent = whole["duration"], whole["budget_spent"]
+        self.orders = {
+            str(row["method"]): Order(*(row[name].item() for name in Order._fields))
+            for row in measurement.rows("orders")
+            if row["method"] in self.method and not lib.hooke_method_is_adaptive(str(row["method"]).encode())
         }
+        watched, errors = measurement.rows("watched"), measurement.rows("watched_errors")
+        self.watched = {str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]}
+        self.agreement = {str(row["quantity"]): float(row["agreement"]) for row in watched}
+        self.statistics = {}
+        for row in measurement.rows("statistics"):
+            of_quantity = self.statistics.setdefault(str(row["quantity"]), {})
+            of_quantity[str(row["method"])] = Statistic(*(float(row[name]) for name in Statistic._fields))
 
     @property
     def methods(self) -> list[str]:
@@ -233,43 +197,13 @@ class Study(Closing):
     @property
     def recommendation(self) -> Recommendation | None:
         """The latest recommendation; None if there was no `want`."""
-        if lib.hooke_study_recommendation_text(self._handle, b"note") is None:
-            return None
-
-        def number(what: str) -> float:
-            return float(lib.hooke_study_recommendation_number(self._handle, what.encode()))
-
-        def word(what: str) -> str:
-            return text(lib.hooke_study_recommendation_text(self._handle, what.encode()))
-
-        def flag(what: str) -> bool | None:
-            value = number(what)
-            return None if np.isnan(value) else bool(value)
-
-        names = ("step", "rtol", "atol", "error", "wall_seconds", "force_evaluations")
-        numbers = {name: number(name) for name in names}
-        margin = Margin(
-            number("error_low"),
-            number("error_high"),
-            number("limit_share"),
-            number("error_stiffness"),
-            flag("holds_stiffness"),
-            number("error_start"),
-            flag("holds_start"),
-        )
-        return Recommendation(
-            met=bool(number("met")),
-            want=number("want"),
-            method=word("method"),
-            note=word("note"),
-            margin=margin,
-            **numbers,
-        )
+        found, margin = self._handle.record("recommendation"), self._handle.record("margin")
+        return None if found is None or margin is None else Recommendation(margin=Margin(**margin), **found)
 
     def recommend(self, want: float) -> Recommendation:
         """Finds the cheapest step or tolerance whose error is at most `want` [m], by running it."""
-        with listening(lib.hooke_study_on_progress, self._handle, self._progress):
-            lib.hooke_study_recommend(self._handle, want)
+        with self._handle.listening(self._progress):
+            lib.hooke_study_recommend(self._handle.handle, want)
         found = self.recommendation
         assert found is not None
         return found
@@ -278,21 +212,17 @@ class Study(Closing):
         """Error and energy drift of a row over the frames that are judged; NaN past the end of a run that
         diverged."""
         row = range(len(self.rows))[row]
-        count = lib.hooke_study_frame_count(self._handle)
-        arrays = []
-        for what in Series._fields:
-            pointer = lib.hooke_study_series(self._handle, row, what.encode())
-            arrays.append(view(address_of(pointer), (count,)).copy() if pointer else np.full(count, np.nan))
-        return Series(*arrays)
+        time = self._handle.series("reference", 0, "time")
+        assert time is not None
+        found = [self._handle.series("rows", row, column) for column in ("error_at", "energy_drift_at")]
+        return Series(time, *(np.full(len(time), np.nan) if one is None else one for one in found))
 
     def write(self, path: Path) -> None:
-        """Writes the rows as a table to a path that ends in ``.csv``, or the whole study to an HDF5 file
-        (docs/study.md), which `hooke.plot.study` draws."""
-        name = os.fsencode(path)
-        if name.endswith(b".csv"):
-            lib.hooke_study_write_csv(self._handle, name)
-        else:
-            lib.hooke_study_write_h5(self._handle, name, scene_text(self._scene), self._status)
+        """Writes the rows as a table to a path that ends in ``.csv``, all tables to one in ``.json``, the whole study
+        to an HDF5 file, ``.h5`` (docs/study.md), which `hooke.plot.study` draws, or to a page to look at,
+        ``.html``."""
+        title = self._scene and self._scene.title
+        self._handle.write(path, scene=scene_text(self._scene), title=title or None)
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
@@ -310,19 +240,6 @@ class Study(Closing):
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
-
-
-_FIGURES = (
-    "agreement",
-    "trusted_until",
-    "growth",
-    "growth_probability",
-    "growth_seen",
-    "displacements",
-    "energy_agreement",
-    "duration",
-    "budget_spent",
-)
 
 
 def study(
@@ -372,43 +289,9 @@ def study(
         ensemble=ensemble,
         seed=seed,
     )
-    pointer = STUDY()
-    lib.hooke_study_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
-    handle = Handle(pointer, lib.hooke_study_destroy, system._handle)
-    with listening(lib.hooke_study_on_progress, handle, progress):
-        status = lib.hooke_study_run(handle)
-    made = Study(handle, scene, system, status, progress)
+    measurement = Measurement.create("study", system, run, chosen)
+    status = measurement.run(progress)
+    made = Study(measurement, scene, system, status, progress)
     if output is not None:
         made.write(output)
     return made
-
-
-def _read_orders(handle: Handle, methods: list[str]) -> dict[str, Order]:
-    orders = {}
-    for method in methods:
-        name = method.encode()
-        if lib.hooke_method_is_adaptive(name):
-            continue
-        numbers = {what: lib.hooke_study_order(handle, name, what.encode()) for what in Order._fields[:-1]}
-        orders[method] = Order(note=text(lib.hooke_study_order_note(handle, name)), **numbers)
-    return orders
-
-
-def _read_quantities(handle: Handle, count: str, what: str) -> list[str]:
-    number = int(lib.hooke_study_figure(handle, count.encode()))
-    return [text(lib.hooke_study_reference(handle, f"{what}:{k}".encode())) for k in range(number)]
-
-
-def _read_errors(handle: Handle, count: int, quantity: str) -> FloatArray:
-    word = f"watched:{quantity}".encode()
-    return np.array([lib.hooke_study_number(handle, row, word) for row in range(count)], dtype=float)
-
-
-def _read_statistics(handle: Handle, methods: list[str], quantity: str) -> dict[str, Statistic]:
-    found = {}
-    for method in ["reference", *methods]:
-        names = (method.encode(), quantity.encode())
-        numbers = [lib.hooke_study_statistic(handle, *names, what.encode()) for what in Statistic._fields]
-        if not np.isnan(numbers[2]):  # members
-            found[method] = Statistic(*numbers)
-    return found

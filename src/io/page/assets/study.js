@@ -5,7 +5,7 @@ const study = data;
 const floor = study.reference.agreement;
 const recommended = study.recommendation;
 const want = recommended ? recommended.want : null;
-const trusted = study.reference.trusted_until, duration = study.reference.duration;
+const trusted = study.reference.trusted_until, duration = study.duration;
 const wholeRun = trusted === null || trusted >= duration * (1 - 1e-9);
 
 const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);
@@ -88,7 +88,7 @@ function drawCost(what) {
 
 /* Through the finest point clear of the floor, with the slope of the order. */
 function slopeLine(method, rows) {
-  const order = study.orders[method];
+  const order = study.orders.find((one) => one.method === method);
   const clear = rows.filter((row) => finished(row) && !row.near_floor && row.error > 0);
   if (!order || order.order === null || clear.length < 2) return [];
   const from = clear[clear.length - 1], to = clear[0].step;

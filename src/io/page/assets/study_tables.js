@@ -9,9 +9,9 @@ function writeHead() {
     `${study.rows.length} runs of ${methods.length} methods, ${study.date}.` +
     (wholeRun ? "" : ` The two integrators of the reference agree up to ${words(trusted, 6)} s: ` +
       "all errors are those up to there.") +
-    (study.reference.budget_spent ? " The time that the study was given ran out." : ""));
+    (study.budget_spent ? " The time that the study was given ran out." : ""));
   document.getElementById("crosses").hidden = study.rows.every(finished);
-  document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== 0);
+  document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== false);
 }
 
 /* How it does where the scene is a little different. */
@@ -70,7 +70,7 @@ function numberCell(row, what) {
   if (value !== null) cell.title = String(value);
   if (what === "error" && row.near_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "energy_drift" && row.near_energy_floor && value !== null) cell.textContent += " \u25cb";
-  if (what === "wall_seconds" && row.timed_alone === 0) cell.textContent += " +";
+  if (what === "wall_seconds" && row.timed_alone === false) cell.textContent += " +";
   if (what === "error" && want !== null && value !== null && value <= want) cell.className = "enough";
   return cell;
 }
@@ -92,10 +92,10 @@ function writeRows() {
 
 function writeOrders() {
   const body = element("tbody");
-  for (const [method, order] of Object.entries(study.orders)) {
+  for (const order of study.orders.filter(({ theory }) => theory !== null)) {
     const line = element("tr");
     const range = order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`;
-    line.append(methodCell(method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
+    line.append(methodCell(order.method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
       element("td", range), element("td", words(order.theory)), element("td", order.note, { className: "word note" }));
     body.append(line);
   }
@@ -127,7 +127,8 @@ function writeWatched() {
     const line = element("tr", undefined, { className: row.status });
     if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
     line.append(methodCell(row.method), numberCell(row, "setting"),
-      ...row.watched.map((value, q) => errorCell(value, study.watched[q].agreement)));
+      ...study.watched.map((item, q) =>
+        errorCell(study.watched_errors[k * study.watched.length + q].error, item.agreement)));
     body.append(line);
   });
   document.getElementById("watched").append(headOf([["", "method", "", "word"], ["", "step [s]", "or rtol"],
@@ -137,15 +138,15 @@ function writeWatched() {
 /* ---- statistics ---- */
 
 /* A bias below two standard errors is one that chance makes. */
-function biasWords(name, source) {
-  if (name === "reference") return "";
+function biasWords(source) {
+  if (source.method === "reference") return "";
   if (source.failed > 0) return "unknown: a run did not come to its end";
   if (source.bias === null) return "unknown";
   return Math.abs(source.bias) < 2 ? `none seen (${source.bias.toFixed(1)})` : `${words(source.bias)} standard errors`;
 }
 
 function writeStatistics() {
-  const found = study.statistics;
+  const found = study.ensemble, quantities = [...new Set(study.statistics.map(({ quantity }) => quantity))];
   document.getElementById("statistics-section").hidden = !found;
   if (!found) return;
   document.getElementById("statistics-words").textContent =
@@ -154,14 +155,14 @@ function writeStatistics() {
     "standard deviation of the runs. Bias: the difference from the mean of the reference, in standard errors of it; " +
     "below 2 none is seen, and where there is none, one figure in twenty is above, more with few runs.";
   const body = element("tbody");
-  for (const item of found.quantities) {
-    Object.entries(item.sources).forEach(([name, source], k) => {
+  for (const quantity of quantities) {
+    study.statistics.filter((source) => source.quantity === quantity).forEach((source, k) => {
       const line = element("tr");
       if (k === 0) line.classList.add("first");
-      line.append(element("td", k === 0 ? `${item.quantity} ${inUnit(item)}` : "", { className: "word" }),
-        name === "reference" ? element("td", name, { className: "word" }) : methodCell(name),
+      line.append(element("td", k === 0 ? `${quantity} ${inUnit(source)}` : "", { className: "word" }),
+        source.method === "reference" ? element("td", source.method, { className: "word" }) : methodCell(source.method),
         numberCell(source, "setting"), element("td", whole(source.members)), element("td", words(source.mean, 4)),
-        element("td", words(source.spread, 4)), element("td", biasWords(name, source), { className: "word note" }));
+        element("td", words(source.spread, 4)), element("td", biasWords(source), { className: "word note" }));
       body.append(line);
     });
   }
@@ -173,7 +174,7 @@ function writeStatistics() {
 
 function writeReference() {
   document.getElementById("about-head").textContent = "Reference";
-  const { method, check, agreement, growth, growth_seen: seen, growth_probability: sure, displacements, frames, ended } = study.reference;
+  const { method, check, agreement, growth, growth_seen: seen, growth_probability: sure, displacements, ended } = study.reference;
   const why = ended === "rounding" ? "rounding keeps the two apart after that"
     : "the time was too short to know more";
   fact("about", "made by", method);
@@ -188,7 +189,7 @@ function writeReference() {
     ? `${words(seen)} times, what a random displacement of the start grows; others may grow more`
     : `at most ${words(growth)} times${sure < 1 ? ` (with a probability of 1 - 1e-${displacements})` : ""}, of a small ` +
       `displacement of the start; ${sure < 1 ? "random ones grow" : "that of one coordinate at most"} ${words(seen)} times`);
-  fact("about", "frames", whole(frames));
+  fact("about", "frames", whole(study.frames));
 }
 
 /* ---- all of it ---- */

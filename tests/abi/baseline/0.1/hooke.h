@@ -42,6 +42,7 @@ HOOKE_API const char *hooke_build_fact(const char *what);
 extern "C" {
 #endif
 typedef struct hooke_options hooke_options;
+HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy);
 HOOKE_API void hooke_options_destroy(hooke_options *options);
 HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);
@@ -242,6 +243,41 @@ HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator
 }
 #endif
 #endif
+#ifndef HOOKE_MEASUREMENT_H
+#define HOOKE_MEASUREMENT_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct hooke_measurement hooke_measurement;
+HOOKE_API int32_t hooke_measurement_create(const char *kind, const hooke_system *system,
+                                           const hooke_options *run, const hooke_options *options,
+                                           hooke_measurement **measurement);
+HOOKE_API void hooke_measurement_destroy(hooke_measurement *measurement);
+HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measurement);
+HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
+                                             void *ctx);
+HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
+HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, const char *what);
+HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
+                                               const char *what);
+HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
+HOOKE_API int64_t hooke_measurement_find(const hooke_measurement *measurement, const char *table,
+                                         const char *column, const char *text);
+HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
+                                          int64_t row, const char *column);
+HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
+                                             int64_t row, const char *column);
+HOOKE_API int64_t hooke_measurement_series_count(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
+HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
+HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+#ifdef __cplusplus
+}
+#endif
+#endif
 #ifndef HOOKE_MEASURE_H
 #define HOOKE_MEASURE_H
 #ifdef __cplusplus
@@ -292,38 +328,6 @@ HOOKE_API int32_t hooke_estimate_measure(hooke_estimate *estimate, const hooke_i
 HOOKE_API int32_t hooke_estimate_refine(hooke_estimate *estimate, hooke_options *run);
 HOOKE_API double hooke_estimate_number(const hooke_estimate *estimate, const char *what);
 HOOKE_API const char *hooke_estimate_text(const hooke_estimate *estimate, const char *what);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_STUDY_H
-#define HOOKE_STUDY_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef struct hooke_study hooke_study;
-HOOKE_API int32_t hooke_study_options_create(hooke_options **options);
-HOOKE_API int32_t hooke_study_create(const hooke_system *system, const hooke_options *run,
-                                     const hooke_options *options, hooke_study **study);
-HOOKE_API void hooke_study_destroy(hooke_study *study);
-HOOKE_API void hooke_study_on_progress(hooke_study *study, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_study_run(hooke_study *study);
-HOOKE_API const char *hooke_study_reference(const hooke_study *study, const char *what);
-HOOKE_API double hooke_study_figure(const hooke_study *study, const char *what);
-HOOKE_API int64_t hooke_study_row_count(const hooke_study *study);
-HOOKE_API const char *hooke_study_text(const hooke_study *study, int64_t row, const char *what);
-HOOKE_API double hooke_study_number(const hooke_study *study, int64_t row, const char *what);
-HOOKE_API int64_t hooke_study_frame_count(const hooke_study *study);
-HOOKE_API const double *hooke_study_series(const hooke_study *study, int64_t row, const char *what);
-HOOKE_API double hooke_study_order(const hooke_study *study, const char *method, const char *what);
-HOOKE_API const char *hooke_study_order_note(const hooke_study *study, const char *method);
-HOOKE_API int32_t hooke_study_recommend(hooke_study *study, double want);
-HOOKE_API const char *hooke_study_recommendation_text(const hooke_study *study, const char *what);
-HOOKE_API double hooke_study_recommendation_number(const hooke_study *study, const char *what);
-HOOKE_API double hooke_study_statistic(const hooke_study *study, const char *method, const char *quantity,
-                                       const char *what);
-HOOKE_API int32_t hooke_study_pick(const hooke_system *system, hooke_options *run, double want,
-                                   hooke_progress *progress, void *ctx);
 #ifdef __cplusplus
 }
 #endif
@@ -501,11 +505,6 @@ HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const cha
 HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
 HOOKE_API void hooke_view_destroy(hooke_view *view);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
-HOOKE_API int32_t hooke_study_write_h5(const hooke_study *study, const char *path, const char *scene_text,
-                                       int32_t outcome);
-HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *path);
-HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
-                                           const char *command);
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
                                            const char *path, const char *scene);
 HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,

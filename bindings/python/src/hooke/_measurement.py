@@ -1,0 +1,116 @@
+"""What all measurements share: making one, running it, and reading its tables as NumPy arrays."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+import numpy as np
+
+from ._callback import listening
+from ._library import lib
+from ._memory import Handle, address_of, text, view
+from ._prototypes import MEASUREMENT
+from ._types import FloatArray, Path, Table
+
+
+class Measurement:
+    """A measurement of the library, and its tables. `system` has to live as long as it."""
+
+    def __init__(self, handle: Handle):
+        self.handle = handle
+        self.kind = text(lib.hooke_measurement_kind(handle))
+
+    @classmethod
+    def create(cls, kind: str, system: Any, run: Any, options: Any) -> Measurement:
+        pointer = MEASUREMENT()
+        lib.hooke_measurement_create(
+            kind.encode(), system._committed(), run and run._handle, options and options._handle, ctypes.byref(pointer)
+        )
+        return cls(Handle(pointer, lib.hooke_measurement_destroy, system._handle))
+
+    def run(self, progress: Any, state: Any = None) -> int:
+        """The status."""
+        with self.listening(progress):
+            return int(lib.hooke_measurement_run(self.handle, state and state._handle))
+
+    def listening(self, progress: Any) -> Any:
+        """A context in which `progress` is told of the work."""
+        return listening(lib.hooke_measurement_on_progress, self.handle, progress)
+
+    # ---- tables ----
+
+    def columns(self, table: str) -> dict[str, str]:
+        """The types of the columns of a table, by their names."""
+        return columns(self.kind, table)
+
+    def count(self, table: str) -> int:
+        return int(lib.hooke_measurement_row_count(self.handle, table.encode()))
+
+    def number(self, table: str, row: int, column: str) -> float:
+        return float(lib.hooke_measurement_number(self.handle, table.encode(), row, column.encode()))
+
+    def text(self, table: str, row: int, column: str) -> str:
+        """Empty where there is none."""
+        return text(lib.hooke_measurement_text(self.handle, table.encode(), row, column.encode()))
+
+    def series(self, table: str, row: int, column: str) -> FloatArray | None:
+        """A copy; None where there is none."""
+        place = (self.handle, table.encode(), row, column.encode())
+        pointer = lib.hooke_measurement_series(*place)
+        count = int(lib.hooke_measurement_series_count(*place))
+        return view(address_of(pointer), (count,)).copy() if pointer else None
+
+    def value(self, table: str, row: int, column: str) -> Any:
+        """A number, a text, or a flag: True, False, or None where that is unknown."""
+        kind = self.columns(table)[column]
+        if kind == "text":
+            return self.text(table, row, column)
+        number = self.number(table, row, column)
+        if kind == "flag":
+            return None if np.isnan(number) else bool(number)
+        return number
+
+    def record(self, table: str) -> dict[str, Any] | None:
+        """The one row of a record; None where there is none."""
+        if self.count(table) < 1:
+            return None
+        return {name: self.value(table, 0, name) for name, kind in self.columns(table).items() if kind != "series"}
+
+    def rows(self, table: str) -> Table:
+        """A structured array with a field for each column but series; of flags bool, where all are known."""
+        count = self.count(table)
+        fields = []
+        for name, kind in self.columns(table).items():
+            if kind == "series":
+                continue
+            read = self.text if kind == "text" else self.number
+            values = np.array([read(table, row, name) for row in range(count)], None if count else float)
+            if kind == "text":
+                values = np.asarray(values, f"U{max(32, max((len(v) for v in values), default=0))}")
+            elif kind == "flag" and not np.isnan(values).any():
+                values = values.astype(bool)
+            fields.append((name, values))
+        made = np.empty(count, [(name, values.dtype) for name, values in fields])
+        for name, values in fields:
+            made[name] = values
+        made.flags.writeable = False
+        return made
+
+    # ---- files ----
+
+    def write(self, path: Path, **labels: str | bytes | None) -> None:
+        """By the ending of `path`: .csv, .json, .h5 or .html."""
+        for what, label in labels.items():
+            encoded = label.encode() if isinstance(label, str) else label
+            lib.hooke_measurement_label(self.handle, what.encode(), encoded)
+        lib.hooke_measurement_write(self.handle, os.fsencode(path))
+
+
+def columns(kind: str, table: str) -> dict[str, str]:
+    """The types of the columns of a table of a kind, by their names."""
+    found: dict[str, str] = {}
+    while name := lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"name"):
+        found[text(name)] = text(lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"type"))
+    return found

@@ -1,0 +1,19 @@
+/* Tables of a measurement as JSON: every column by its name. */
+#ifndef HOOKE_CLI_TABLE_H
+#define HOOKE_CLI_TABLE_H
+
+#include "print.h"
+
+#include <hooke/measurement.h>
+
+/* The members of one row, into an object that is open. Series are left out. */
+void cli_table_print_row(struct cli_json *json, const hooke_measurement *measurement, const char *table,
+                         int64_t row);
+/* The same but for the column `without` (NULL: none). */
+void cli_table_print_row_but(struct cli_json *json, const hooke_measurement *measurement, const char *table,
+                             int64_t row, const char *without);
+/* The whole table under `key`: a record as an object, null where it has no row, rows as an array. */
+void cli_table_print(struct cli_json *json, const char *key, const hooke_measurement *measurement,
+                     const char *table);
+
+#endif

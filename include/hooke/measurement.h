@@ -1,0 +1,117 @@
+/* hooke/measurement.h - what hooke measures of a scene: how accurate each method is for what it costs, how
+ * large its step may be, what the scene needs, what each ingredient costs, and why a run ended early.
+ *
+ *   hooke_measurement_create("limit", system, run, NULL, &limit);
+ *   hooke_measurement_run(limit, NULL);
+ *   hooke_measurement_number(limit, "rows", 0, "predicted");
+ *   hooke_measurement_destroy(limit);
+ *
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its
+ * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
+ * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
+ * numbers of the whole. The record that is named like the kind has what concerns the measurement itself. Kinds,
+ * tables and columns are listed by hooke_measurement_table() and hooke_measurement_column(), and in the
+ * reference.
+ *
+ * A measurement belongs to one thread at a time. */
+#ifndef HOOKE_MEASUREMENT_H
+#define HOOKE_MEASUREMENT_H
+
+#include "integrator.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hooke_measurement hooke_measurement;
+
+/* A measurement of a committed system, which must outlive it. `run` (options of a run) and `options` (of this
+ * kind; NULL: defaults) are copied. `run` may be NULL where the kind takes no duration from it: "limit" and
+ * "cost". A "why" is made by hooke_why_create(), a "verify" by hooke_verify_create(). HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL, HOOKE_NOT_BUILT without a library that the kind needs, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_measurement_create(const char *kind, const hooke_system *system,
+                                           const hooke_options *run, const hooke_options *options,
+                                           hooke_measurement **measurement);
+/* NULL is allowed. */
+HOOKE_API void hooke_measurement_destroy(hooke_measurement *measurement);
+/* The name of its kind; lives as long as the process. */
+HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measurement);
+
+/* Has `progress` told of the work; NULL takes it back. Anything but 0 from it stops the measurement. */
+HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
+                                             void *ctx);
+
+/* Measures. "limit" and "cost" look at `state` (NULL: the initial state), the others begin at the initial state
+ * and want NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps what
+ * was found so far; so do other outcomes of a run. HOOKE_BAD_VALUE for a state of another system;
+ * HOOKE_BAD_CALL for a second call, but for "limit" and "cost"; HOOKE_NO_MEMORY, and what the kind adds. */
+HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
+
+/* ---- tables ---- */
+
+/* Of table `table` of a kind "name", "doc" and "shape" ("record" or "rows"); NULL past the last table, and for
+ * another word. hooke_measurement_table(NULL, k, "name") is the name of kind `k`. */
+HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, const char *what);
+/* Of column `column` of a table "name", "unit" ("" if it has none), "doc" and "type": "number", "count" (a
+ * number that is whole), "flag" (0, 1, or NaN: unknown), "text" or "series". NULL past the last column, and for
+ * another word. */
+HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
+                                               const char *what);
+
+/* Rows that a table has by now; -1 if the kind has no such table. A record has one row, or none where there is
+ * nothing to say. */
+HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
+/* The first row whose `column` is `text`; -1 if there is none. In a matrix such as "statistics" rows are ordered by
+ * the first index, then the second: the row of a method and a quantity is the sum of the first rows of both. */
+HOOKE_API int64_t hooke_measurement_find(const hooke_measurement *measurement, const char *table,
+                                         const char *column, const char *text);
+/* A value. NaN where a number does not apply or is not known, and for a row, table or column that is not there;
+ * NULL likewise. Texts and series stay valid until the measurement is run again or destroyed. */
+HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
+                                          int64_t row, const char *column);
+HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
+                                             int64_t row, const char *column);
+HOOKE_API int64_t hooke_measurement_series_count(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
+                                                 int64_t row, const char *column);
+
+/* ---- files ---- */
+
+/* A text that files show, copied: "title" over a page, "command" (the line to type for what is recommended) on
+ * it, "scene" (the text of the scene) in HDF5. NULL takes it back. HOOKE_BAD_VALUE for another word,
+ * HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
+
+/* Writes what was found so far, by the ending of `path`: .csv (the table "rows"), .json and .h5 (all tables),
+ * .html (a page to read offline, of "study", "limit" and "needs"). An older file is replaced when the new one
+ * is complete. HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(),
+ * HOOKE_NOT_BUILT, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
+
+/* ---- a study: how accurate each method is for what it costs, and which one to take ----
+ * It makes a reference by two integrators that check each other and share only the force, runs every method over
+ * a ladder of steps or tolerances, measures error and cost of each run over the frames that the reference is
+ * trusted for, and fits orders; with the option `want` it recommends, with `ensemble` it adds statistics where
+ * the motion cannot be judged to its end. Runs that diverge stay as rows. Needs SUNDIALS.
+ *
+ * Two fifths of a `budget`, and at least half a second, are for the reference, three tenths for an ensemble. When
+ * the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table "study" is 1.
+ *
+ * Starts of an ensemble have every free particle displaced by Gaussian noise of root mean square "noise": a tenth
+ * of the wanted error, or a millionth of the extent without one. Statistics are of each run's means over the
+ * frames from "from" to "until", which follow those that are trusted; of a period, of its period over these.
+ *
+ * A watched quantity is 57.x, 57.y or 57.z (a coordinate of a particle [m]), part:0.y (of a part's particle),
+ * group:3.length [m], group:3.strain or group:3.tension [N] (of a spring of a group: the force along it, of
+ * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time between
+ * passages of one of these upwards through its mean. Indices begin at 0. */
+
+/* The cheapest run for another wanted error [m], found by running more of them; the tables "recommendation" and
+ * "margin" then tell of it. HOOKE_OK also when nothing meets it, with "note" of what is in the way. */
+HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,104 @@
+/* The rows of a measurement as CSV, in the same bytes whatever the locale. A matrix that has a row for each of
+ * them adds a column for each of its inner index: the errors in watched quantities. */
+#include "core/number.h"
+#include "core/status.h"
+#include "io/file/place.h"
+#include "io/measurement/measurement_file.h"
+
+#include <math.h>
+#include <string.h>
+
+struct sheet {
+  const hooke_measurement *m;
+  const struct hk_table *rows;
+  const struct hk_table *matrix;          /* NULL: there is none */
+  const struct hk_column *label, *number; /* of the matrix: what a column is called, what it has */
+};
+
+static void add(struct hk_text *text, const char *words) {
+  hk_text_add(text, words, (int64_t)strlen(words));
+}
+
+static void add_quoted(struct hk_text *text, const char *name) {
+  add(text, "\"");
+  for (; *name; name++)
+    hk_text_add(text, *name == '"' ? "\"\"" : name, *name == '"' ? 2 : 1);
+  add(text, "\"");
+}
+
+/* Texts that would break the line are quoted. */
+static void add_text(struct hk_text *text, const char *words) {
+  if (words == NULL) return;
+  if (strpbrk(words, ",\"\r\n"))
+    add_quoted(text, words);
+  else
+    add(text, words);
+}
+
+static void add_value(struct hk_text *text, const struct hk_column *column, const struct hk_line *line) {
+  char number[HOOKE_NUMBER_SIZE] = "";
+  const double value = hk_column_number(column, line);
+  if (isfinite(value)) hk_number_print(value, number);
+  add(text, number);
+  if (column->type == HOOKE_COLUMN_TEXT) add_text(text, hk_column_text(column, line));
+}
+
+static int64_t matrix_columns(const struct sheet *sheet) {
+  return sheet->matrix ? sheet->matrix->inner(sheet->m->object) : 0;
+}
+
+/* Line `row`, that of names if it is -1. */
+static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t row) {
+  struct hk_line line;
+  int32_t first = 1;
+  if (row >= 0) sheet->rows->read(sheet->m->object, row, &line);
+  for (int32_t k = 0; k < sheet->rows->column_count; k++) {
+    const struct hk_column *column = &sheet->rows->columns[k];
+    if (column->type == HOOKE_COLUMN_SERIES) continue;
+    if (!first) add(text, ",");
+    first = 0;
+    if (row < 0)
+      add(text, column->name);
+    else
+      add_value(text, column, &line);
+  }
+  const int64_t columns = matrix_columns(sheet);
+  for (int64_t k = 0; k < columns; k++) {
+    add(text, ",");
+    sheet->matrix->read(sheet->m->object, row < 0 ? k : row * columns + k, &line);
+    if (row < 0)
+      add_quoted(text, hk_column_text(sheet->label, &line));
+    else
+      add_value(text, sheet->number, &line);
+  }
+  add(text, "\n");
+}
+
+/* A matrix whose outer index is the number of a row. */
+static void find_matrix(struct sheet *sheet) {
+  const struct hk_measurement_kind *kind = sheet->m->kind;
+  for (int32_t k = 0; k < kind->table_count; k++) {
+    const struct hk_table *table = kind->tables[k];
+    if (table->inner == NULL || hk_table_find(table, "row") == NULL) continue;
+    if (hk_table_count(table, sheet->m->object) > 0) sheet->matrix = table;
+    for (int32_t c = 0; c < table->column_count; c++) {
+      const struct hk_column *column = &table->columns[c];
+      if (column->axis == HOOKE_AXIS_INNER) sheet->label = column;
+      if (column->axis == HOOKE_AXIS_BOTH && column->type == HOOKE_COLUMN_NUMBER) sheet->number = column;
+    }
+  }
+}
+
+int32_t hk_measurement_write_csv(const hooke_measurement *m, const char *path) {
+  struct sheet sheet = {.m = m, .rows = hk_measurement_table(m->kind, "rows")};
+  struct hk_text text = {.bytes = NULL};
+  if (sheet.rows == NULL)
+    return hk_fail(HOOKE_BAD_VALUE, "path", "%s: a %s has no rows to write as CSV", path, m->kind->name);
+  find_matrix(&sheet);
+  for (int64_t row = -1; row < hk_table_count(sheet.rows, m->object); row++)
+    add_line(&text, &sheet, row);
+  const int32_t status =
+      text.status == HOOKE_OK ? hk_place_write(path, text.bytes, text.length) : text.status;
+  hk_text_release(&text);
+  return status;
+}

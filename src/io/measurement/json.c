@@ -1,0 +1,61 @@
+/* Measurements as JSON. */
+#include "io/file/place.h"
+#include "io/measurement/measurement_file.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static void add_value(struct hk_text *text, const struct hk_column *column, const struct hk_line *line) {
+  const double number = hk_column_number(column, line);
+  if (column->type == HOOKE_COLUMN_TEXT)
+    hk_text_word(text, column->name, hk_column_text(column, line));
+  else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
+    hk_text_flag(text, column->name, number != 0.0);
+  else if (column->type != HOOKE_COLUMN_SERIES)
+    hk_text_number(text, column->name, number);
+}
+
+void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
+                            int64_t row) {
+  struct hk_line line;
+  table->read(m->object, row, &line);
+  for (int32_t k = 0; k < table->column_count; k++)
+    add_value(text, &table->columns[k], &line);
+}
+
+static void add_table(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
+  const int64_t count = hk_table_count(table, m->object);
+  if (table->record && count == 0) {
+    hk_text_word(text, table->name, NULL);
+    return;
+  }
+  hk_text_open(text, table->name, table->record ? '{' : '[');
+  for (int64_t row = 0; row < count; row++) {
+    if (!table->record) hk_text_open(text, NULL, '{');
+    hk_measurement_add_row(text, m, table, row);
+    if (!table->record) hk_text_close(text, '}');
+  }
+  hk_text_close(text, table->record ? '}' : ']');
+}
+
+void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, const char *table) {
+  add_table(text, m, hk_measurement_table(m->kind, table));
+}
+
+void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m) {
+  for (int32_t k = 0; k < m->kind->table_count; k++)
+    add_table(text, m, m->kind->tables[k]);
+}
+
+int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) {
+  struct hk_text text = {.bytes = NULL}, laid = {.bytes = NULL};
+  hk_text_open(&text, NULL, '{');
+  hk_measurement_add_tables(&text, m);
+  hk_text_close(&text, '}');
+  if (text.status == HOOKE_OK) hk_text_lay_out(&text, &laid);
+  int32_t status = text.status == HOOKE_OK ? laid.status : text.status;
+  if (status == HOOKE_OK) status = hk_place_write(path, laid.bytes, laid.length);
+  hk_text_release(&laid);
+  hk_text_release(&text);
+  return status;
+}

@@ -1,0 +1,60 @@
+/* The kinds of measurements by name, and what their tables have. */
+#include "core/status.h"
+#include "io/measurement/measurement_file.h"
+#include "measure/study/study.h"
+
+#include <string.h>
+
+static const struct hk_measurement_kind *const kinds[] = {
+    &hk_study_kind,
+    NULL,
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
+
+static const struct hk_measurement_kind *find(const char *name) {
+  for (int k = 0; kinds[k]; k++) {
+    if (strcmp(kinds[k]->name, name) == 0) return kinds[k];
+  }
+  return NULL;
+}
+
+int32_t hooke_measurement_create(const char *kind, const hooke_system *system, const hooke_options *run,
+                                 const hooke_options *options, hooke_measurement **measurement) {
+  const struct hk_measurement_kind *found = find(kind);
+  if (found == NULL || found->made_by) {
+    char names[160] = "";
+    for (int k = 0; kinds[k]; k++) {
+      if (!kinds[k]->made_by) strcat(strcat(names, names[0] ? ", " : ""), kinds[k]->name);
+    }
+    if (found) return hk_fail(HOOKE_BAD_VALUE, "kind", "a \"%s\" is made by %s", kind, found->made_by);
+    return hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind \"%s\"; there are %s", kind, names);
+  }
+  return hk_measurement_create(found, NULL, system, run, options, measurement);
+}
+
+const struct hk_option_table *hk_measurement_options(const char *kind) {
+  const struct hk_measurement_kind *k = find(kind);
+  return k ? k->options : NULL;
+}
+
+const char *hooke_measurement_table(const char *kind, int64_t table, const char *what) {
+  if (kind == NULL)
+    return table >= 0 && table < KINDS && strcmp(what, "name") == 0 ? kinds[table]->name : NULL;
+  const struct hk_measurement_kind *k = find(kind);
+  if (k == NULL || table < 0 || table >= k->table_count) return NULL;
+  const struct hk_table *t = k->tables[table];
+  if (strcmp(what, "name") == 0) return t->name;
+  if (strcmp(what, "doc") == 0) return t->doc;
+  return strcmp(what, "shape") == 0 ? (t->record ? "record" : "rows") : NULL;
+}
+
+const char *hooke_measurement_column(const char *kind, const char *table, int64_t column, const char *what) {
+  const struct hk_measurement_kind *k = find(kind);
+  const struct hk_table *t = k ? hk_measurement_table(k, table) : NULL;
+  if (t == NULL || column < 0 || column >= t->column_count) return NULL;
+  const struct hk_column *c = &t->columns[column];
+  if (strcmp(what, "name") == 0) return c->name;
+  if (strcmp(what, "unit") == 0) return c->unit;
+  if (strcmp(what, "doc") == 0) return c->doc;
+  return strcmp(what, "type") == 0 ? hk_column_type_name(c->type) : NULL;
+}

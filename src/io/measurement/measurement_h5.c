@@ -1,0 +1,255 @@
+/* A measurement in one HDF5 file:
+ *
+ *   /hooke, /h5md               as in every file (h5md_h5.h): versions, units, the options of the run, the scene, the
+ *                               status
+ *   /<kind>                     attributes: the record of that name
+ *   /<kind>/options             an attribute for each option that is set
+ *   /<kind>/<column>            [rows] of the table "rows"; NaN where a number does not apply
+ *   /<kind>/series/<column>     [rows][frames], without the ending _at; of a record [frames]; NaN past the end of a run
+ *   /<kind>/<table>             attributes of a record; arrays of other tables, [rows], or of a matrix [outer][inner]
+ *
+ * Texts are padded with zeros. A table without rows is left out. The file takes its place when it is complete. */
+#include "core/memory.h"
+#include "core/status.h"
+#include "io/measurement/measurement_file.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "io/hdf5/file_h5.h"
+#include "io/hdf5/object_h5.h"
+#include "io/scene/scene.h"
+#include "io/trajectory/h5md_h5.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LEAST_LENGTH = 32, NAME_SIZE = 64 };
+
+static hid_t open_group(hid_t where, const char *name) {
+  return H5Lexists(where, name, H5P_DEFAULT) > 0
+             ? H5Gopen2(where, name, H5P_DEFAULT)
+             : H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+/* ---- one column ---- */
+
+/* Which rows of a table a column takes: every `stride`-th of the first `count` strides. */
+struct extent {
+  int64_t count, stride;
+  hsize_t size[2];
+  int rank;
+};
+
+static struct extent extent_of(const struct hk_table *table, const struct hk_column *column,
+                               const void *object) {
+  const int64_t rows = hk_table_count(table, object), inner = table->inner ? table->inner(object) : 1;
+  const struct extent outer = {rows / inner, inner, {(hsize_t)(rows / inner)}, 1};
+  if (column->axis == HOOKE_AXIS_OUTER) return outer;
+  if (column->axis == HOOKE_AXIS_INNER) return (struct extent){inner, 1, {(hsize_t)inner}, 1};
+  if (table->inner == NULL) return (struct extent){rows, 1, {(hsize_t)rows}, 1};
+  return (struct extent){rows, 1, {(hsize_t)(rows / inner), (hsize_t)inner}, 2};
+}
+
+static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                            const struct hk_column *column, struct extent extent) {
+  struct hk_line line;
+  double *value = hk_new(extent.count, sizeof *value);
+  if (value == NULL) return -1;
+  for (int64_t k = 0; k < extent.count; k++) {
+    table->read(m->object, k * extent.stride, &line);
+    value[k] = hk_column_number(column, &line);
+  }
+  const herr_t result =
+      hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
+  hk_free(value);
+  return result;
+}
+
+static int64_t longest_text(const hooke_measurement *m, const struct hk_table *table,
+                            const struct hk_column *column) {
+  size_t length = LEAST_LENGTH;
+  for (int64_t row = 0; row < hk_table_count(table, m->object); row++) {
+    struct hk_line line;
+    table->read(m->object, row, &line);
+    const char *text = hk_column_text(column, &line);
+    const size_t own = text ? strlen(text) + 1 : 0;
+    length = own > length ? own : length;
+  }
+  return (int64_t)length;
+}
+
+static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                          const struct hk_column *column, struct extent extent) {
+  hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
+  herr_t result = data < 0 ? -1 : 0;
+  for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
+    struct hk_line line;
+    table->read(m->object, k * extent.stride, &line);
+    const char *text = hk_column_text(column, &line);
+    result = hk_h5_write_text(data, k, text ? text : "");
+  }
+  hk_h5_drop(data);
+  return result;
+}
+
+/* ---- series ---- */
+
+/* A row at a time, so that no second copy of all series is held. */
+static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *series) {
+  const hsize_t line = (hsize_t)series->count, begin[2] = {(hsize_t)row, 0}, size[2] = {1, line};
+  hid_t there = H5Dget_space(data), here = H5Screate_simple(1, &line, NULL);
+  herr_t result = there < 0 || here < 0 ? -1 : 0;
+  if (result >= 0) result = H5Sselect_hyperslab(there, H5S_SELECT_SET, begin, NULL, size, NULL);
+  if (result >= 0) result = H5Dwrite(data, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, series->value);
+  hk_h5_drop(here);
+  hk_h5_drop(there);
+  return result;
+}
+
+static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row) {
+  struct hk_line line;
+  if (row >= hk_table_count(table, m->object)) return (struct hk_series){NULL, 0};
+  table->read(m->object, row, &line);
+  return hk_column_series(column, &line);
+}
+
+static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                           const struct hk_column *column) {
+  const int64_t rows = hk_table_count(table, m->object);
+  struct hk_series series = series_at(m, table, column, 0);
+  const hsize_t size[2] = {(hsize_t)rows, (hsize_t)series.count};
+  const double none = NAN;
+  char name[NAME_SIZE];
+  snprintf(name, sizeof name, "%s", column->name);
+  const size_t length = strlen(name);
+  if (length > 3 && strcmp(name + length - 3, "_at") == 0) name[length - 3] = '\0';
+  if (table->record)
+    return hk_h5_array_of(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, size + 1,
+                          series.value ? series.value : &none);
+  hid_t data = hk_h5_array(group, name, H5T_IEEE_F64LE, 2, size, &none);
+  herr_t result = data < 0 ? -1 : 0;
+  for (int64_t row = 0; result >= 0 && row < rows; row++) {
+    series = series_at(m, table, column, row);
+    if (series.value && series.count > 0) result = write_series_row(data, row, &series);
+  }
+  hk_h5_drop(data);
+  return result;
+}
+
+/* ---- tables ---- */
+
+static herr_t write_record(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
+  struct hk_line line;
+  herr_t result = 0;
+  table->read(m->object, 0, &line);
+  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
+    const struct hk_column *column = &table->columns[k];
+    const double number = hk_column_number(column, &line);
+    const char *text = hk_column_text(column, &line);
+    if (column->type == HOOKE_COLUMN_TEXT)
+      result = hk_h5_text_attribute(group, column->name, text ? text : "");
+    else if (column->type != HOOKE_COLUMN_SERIES)
+      result = hk_h5_number_attribute(group, column->name, 1, &number);
+  }
+  return result;
+}
+
+static herr_t write_columns(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
+  herr_t result = 0;
+  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
+    const struct hk_column *column = &table->columns[k];
+    const struct extent extent = extent_of(table, column, m->object);
+    /* tables that share a group share the names of their indices */
+    if (column->type == HOOKE_COLUMN_SERIES || H5Lexists(group, column->name, H5P_DEFAULT) > 0) continue;
+    result = column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
+                                               : write_numbers(group, m, table, column, extent);
+  }
+  return result;
+}
+
+static herr_t write_all_series(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
+  herr_t result = 0;
+  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
+    if (table->columns[k].type != HOOKE_COLUMN_SERIES) continue;
+    hid_t group = open_group(kind, "series");
+    result = group < 0 ? -1 : write_series(group, m, table, &table->columns[k]);
+    hk_h5_drop(group);
+  }
+  return result;
+}
+
+static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
+  const char *name = table->group ? table->group : table->name;
+  const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
+  if (hk_table_count(table, m->object) == 0 && !is_rows) return 0;
+  hid_t group = is_own || is_rows ? kind : open_group(kind, name);
+  herr_t result = group < 0 ? -1 : 0;
+  if (result >= 0) result = table->record ? write_record(group, m, table) : write_columns(group, m, table);
+  if (result >= 0 && (is_rows || table->record)) result = write_all_series(kind, m, table);
+  if (group != kind) hk_h5_drop(group);
+  return result;
+}
+
+/* ---- the file ---- */
+
+static herr_t write_all(hid_t file, const hooke_measurement *m) {
+  hid_t kind = open_group(file, m->kind->name);
+  herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
+  for (int32_t k = 0; result >= 0 && k < m->kind->table_count; k++)
+    result = write_table(kind, m, m->kind->tables[k]);
+  hk_h5_drop(kind);
+  return result;
+}
+
+/* About, and rather more. */
+static double bytes_of(const hooke_measurement *m) {
+  double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
+  for (int32_t k = 0; k < m->kind->table_count; k++) {
+    const struct hk_table *table = m->kind->tables[k];
+    const double rows = (double)hk_table_count(table, m->object);
+    for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
+      const struct hk_column *column = &table->columns[c];
+      const int64_t length = column->type == HOOKE_COLUMN_TEXT     ? longest_text(m, table, column)
+                             : column->type == HOOKE_COLUMN_SERIES ? 8 * series_at(m, table, column, 0).count
+                                                                   : 8;
+      bytes += 512.0 + rows * (double)length;
+    }
+  }
+  return bytes;
+}
+
+static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
+  struct hk_h5_guard guard;
+  struct hk_h5_file file;
+  hk_h5_guard_begin(&guard);
+  int32_t status = hk_h5_file_create(&guard, path, bytes_of(m), &file);
+  if (status == HOOKE_OK) {
+    herr_t result = hk_h5md_describe(file.id, NULL, m->run, scene_text);
+    if (result >= 0) result = write_all(file.id, m);
+    if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
+    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_finish(&guard, &file);
+  }
+  hk_h5_file_release(&file);
+  hk_h5_guard_end(&guard);
+  return status;
+}
+
+int32_t hk_measurement_write_h5(const hooke_measurement *m, const char *path) {
+  char *whole = NULL;
+  const char *scene = m->label[HOOKE_LABEL_SCENE];
+  int32_t status = hk_scene_make_whole(scene, m->system, m->run, &whole);
+  if (status == HOOKE_OK) status = write_file(m, path, whole ? whole : scene);
+  hk_free(whole);
+  return status;
+}
+
+#else
+
+int32_t hk_measurement_write_h5(const hooke_measurement *m, const char *path) {
+  (void)m;
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "%s: results in HDF5 need HDF5, which this build is without", path);
+}
+
+#endif

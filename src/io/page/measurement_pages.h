@@ -1,0 +1,9 @@
+/* What the pages of measurements show, as members of a JSON object; the context is the measurement. */
+#ifndef HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
+#define HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
+
+#include "io/file/text.h"
+
+void hk_study_page_add(struct hk_text *data, const void *measurement);
+
+#endif

@@ -1,0 +1,54 @@
+/* Options by the name of their table. */
+#include "core/option.h"
+#include "core/status.h"
+#include "hooke/build.h"
+#include "hooke/integrator.h"
+#include "hooke/io.h"
+#include "hooke/cost.h"
+#include "hooke/verify.h"
+#include "io/measurement/measurement_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct maker {
+  const char *name;
+  int32_t (*create)(hooke_options **options);
+} makers[] = {{"run", hooke_run_options_create},           {"springs", hooke_spring_options_create},
+              {"altitude", hooke_altitude_options_create}, {"view", hooke_view_options_create},
+              {"limit", hooke_limit_options_create},       {"cost", hooke_cost_options_create},
+              {"needs", hooke_needs_options_create},       {"verify", hooke_verify_options_create}};
+enum { MAKERS = sizeof makers / sizeof makers[0] };
+static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
+enum { SCENE_NAMES = sizeof scene_names / sizeof scene_names[0] };
+
+static int32_t refuse(const char *name) {
+  char names[512] = "";
+  for (int k = 0; k < MAKERS; k++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", makers[k].name);
+  for (int k = 0; k < SCENE_NAMES; k++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", scene_names[k]);
+  for (int64_t k = 0; k < hooke_part_kind_count(); k++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", hooke_part_kind(k));
+  for (int64_t k = 0; hooke_measurement_table(NULL, k, "name"); k++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ",
+             hooke_measurement_table(NULL, k, "name"));
+  names[strlen(names) - 2] = '\0';
+  return hk_fail(HOOKE_BAD_VALUE, "name", "there are no options for \"%.64s\"; there are those for %s", name,
+                 names);
+}
+
+int32_t hooke_options_create(const char *name, hooke_options **options) {
+  const struct hk_option_table *of_kind = hk_measurement_options(name);
+  if (of_kind) return hk_options_create(of_kind, options);
+  for (int k = 0; k < MAKERS; k++) {
+    if (strcmp(makers[k].name, name) == 0) return makers[k].create(options);
+  }
+  for (int k = 0; k < SCENE_NAMES; k++) {
+    if (strcmp(scene_names[k], name) == 0) return hooke_scene_options_create(name, options);
+  }
+  for (int64_t k = 0; k < hooke_part_kind_count(); k++) {
+    if (strcmp(hooke_part_kind(k), name) == 0) return hooke_part_options_create(name, options);
+  }
+  return refuse(name);
+}

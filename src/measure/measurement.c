@@ -1,0 +1,170 @@
+/* Measurements: making them, running them, reading their tables. */
+#include "measure/measurement.h"
+
+#include "core/handle.h"
+#include "core/memory.h"
+#include "core/status.h"
+#include "integrate/integrator.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- making ---- */
+
+static int32_t check(const struct hk_measurement_kind *kind, const hooke_system *system,
+                     const hooke_options *run, const hooke_options *options) {
+  int32_t status = system ? hk_system_require_committed(system) : HOOKE_OK;
+  if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
+  if (status == HOOKE_OK && options)
+    status = hk_options_require(options, kind->options, "options", "hooke_options_create()");
+  return status;
+}
+
+int32_t hk_measurement_create(const struct hk_measurement_kind *kind, void *object,
+                              const hooke_system *system, const hooke_options *run,
+                              const hooke_options *options, hooke_measurement **out) {
+  int32_t status = check(kind, system, run, options);
+  hooke_measurement *m = status == HOOKE_OK ? hk_handle_new("hooke_measurement", sizeof *m) : NULL;
+  if (m == NULL) {
+    kind->destroy(object);
+    return status == HOOKE_OK ? HOOKE_NO_MEMORY : status;
+  }
+  m->kind = kind;
+  m->object = object;
+  m->system = system;
+  if (run) status = hooke_options_copy(run, &m->run);
+  if (status == HOOKE_OK)
+    status =
+        options ? hooke_options_copy(options, &m->options) : hk_options_create(kind->options, &m->options);
+  if (status == HOOKE_OK) status = kind->create(m);
+  if (status == HOOKE_OK)
+    *out = m;
+  else
+    hooke_measurement_destroy(m);
+  return status;
+}
+
+void hooke_measurement_destroy(hooke_measurement *m) {
+  if (m == NULL) return;
+  m->kind->destroy(m->object);
+  for (int k = 0; k < HOOKE_LABELS; k++)
+    hk_free(m->label[k]);
+  hooke_options_destroy(m->run);
+  hooke_options_destroy(m->options);
+  hk_handle_free(m);
+}
+
+int32_t hk_measurement_require(const hooke_measurement *m, const struct hk_measurement_kind *kind,
+                               const char *function) {
+  if (m->kind == kind) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_CALL, NULL, "%s() needs a measurement of the kind \"%s\", this is a \"%s\"",
+                 function, kind->name, m->kind->name);
+}
+
+int32_t hk_measurement_require_fresh(const hooke_measurement *m, const hooke_state *state) {
+  if (m->has_run) return hk_fail(HOOKE_BAD_CALL, NULL, "the %s has been run; make a new one", m->kind->name);
+  if (state == NULL) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "state", "a %s begins at the initial state; NULL is allowed",
+                 m->kind->name);
+}
+
+const char *hooke_measurement_kind(const hooke_measurement *m) {
+  return m->kind->name;
+}
+
+int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const char *text) {
+  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene"};
+  for (int k = 0; k < HOOKE_LABELS; k++) {
+    if (strcmp(what, names[k]) != 0) continue;
+    char *copy = text ? hk_copy_text(text) : NULL;
+    if (text && copy == NULL) return HOOKE_NO_MEMORY;
+    hk_free(m->label[k]);
+    m->label[k] = copy;
+    return HOOKE_OK;
+  }
+  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command and scene are", what);
+}
+
+/* ---- running ---- */
+
+void hooke_measurement_on_progress(hooke_measurement *m, hooke_progress *progress, void *ctx) {
+  m->progress = progress;
+  m->progress_ctx = ctx;
+}
+
+int32_t hk_measurement_tell(const hooke_measurement *m, double done, const char *what) {
+  if (m->progress == NULL || m->progress(done, what, m->progress_ctx) == 0) return HOOKE_OK;
+  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+}
+
+int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
+  const int32_t outcome = m->kind->run(m, state);
+  if (outcome < 0) return outcome;
+  m->has_run = 1;
+  m->outcome = outcome;
+  return outcome;
+}
+
+/* ---- tables ---- */
+
+const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name) {
+  for (int32_t k = 0; k < kind->table_count; k++) {
+    if (strcmp(kind->tables[k]->name, name) == 0) return kind->tables[k];
+  }
+  return NULL;
+}
+
+int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *table) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  return t ? hk_table_count(t, m->object) : -1;
+}
+
+int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, const char *column,
+                               const char *text) {
+  const int64_t count = hooke_measurement_row_count(m, table);
+  for (int64_t row = 0; row < count; row++) {
+    const char *own = hooke_measurement_text(m, table, row, column);
+    if (own && strcmp(own, text) == 0) return row;
+  }
+  return -1;
+}
+
+/* The column, with the line of its row; NULL if there is no such value. */
+static const struct hk_column *find(const hooke_measurement *m, const char *table, int64_t row,
+                                    const char *column, struct hk_line *line) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  const struct hk_column *c = t ? hk_table_find(t, column) : NULL;
+  if (c == NULL || row < 0 || row >= hk_table_count(t, m->object)) return NULL;
+  t->read(m->object, row, line);
+  return c;
+}
+
+double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,
+                                const char *column) {
+  struct hk_line line;
+  const struct hk_column *c = find(m, table, row, column, &line);
+  return c ? hk_column_number(c, &line) : NAN;
+}
+
+const char *hooke_measurement_text(const hooke_measurement *m, const char *table, int64_t row,
+                                   const char *column) {
+  struct hk_line line;
+  const struct hk_column *c = find(m, table, row, column, &line);
+  return c ? hk_column_text(c, &line) : NULL;
+}
+
+int64_t hooke_measurement_series_count(const hooke_measurement *m, const char *table, int64_t row,
+                                       const char *column) {
+  struct hk_line line;
+  const struct hk_column *c = find(m, table, row, column, &line);
+  const struct hk_series series = c ? hk_column_series(c, &line) : (struct hk_series){NULL, 0};
+  return series.value ? series.count : 0;
+}
+
+const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
+                                       const char *column) {
+  struct hk_line line;
+  const struct hk_column *c = find(m, table, row, column, &line);
+  return c ? hk_column_series(c, &line).value : NULL;
+}

@@ -1,0 +1,365 @@
+/* The tables of a study. */
+#include "measure/study/study.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before
+ * it. */
+static double time_until(const struct hk_study *study, int64_t count) {
+  const struct hk_frames *frames = &study->reference.frames;
+  if (count <= 0) return NAN;
+  return count == frames->count ? frames->time[0] + study->duration : frames->time[count - 1];
+}
+
+static int is_made(const struct hk_study *study) {
+  return study->reference.frames.count > 0;
+}
+
+/* ---- the study ---- */
+
+struct study_line {
+  double duration, frames, budget_spent;
+};
+
+static void read_study(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  (void)row;
+  *(struct study_line *)line =
+      (struct study_line){.duration = study->duration,
+                          .frames = is_made(study) ? (double)study->reference.trusted : NAN,
+                          .budget_spent = (double)study->budget_spent};
+}
+
+static const struct hk_column study_columns[] = {
+    HOOKE_COLUMN(struct study_line, duration, NUMBER, "s", "duration of the run"),
+    HOOKE_COLUMN(struct study_line, frames, COUNT, "", "frames over which errors are judged"),
+    HOOKE_COLUMN(struct study_line, budget_spent, FLAG, "", "rows are missing for lack of time"),
+};
+
+static const struct hk_table study_table = {
+    .name = "study",
+    .doc = "the study itself",
+    .record = 1,
+    HOOKE_TABLE_COLUMNS(study_columns, struct study_line),
+    .read = read_study,
+};
+
+/* ---- the reference ---- */
+
+struct reference_line {
+  const char *method, *check, *ended;
+  double agreement, energy_agreement, trusted_until, checked_until;
+  double growth, growth_probability, growth_seen, displacements;
+  struct hk_series time;
+};
+
+static const char *how_it_ended(const struct hk_reference *r) {
+  if (r->trusted == r->frames.count && !r->coarse) return "agreed";
+  return r->hurried ? "time" : "rounding";
+}
+
+static void read_reference(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_reference *r = &study->reference;
+  (void)row;
+  if (!is_made(study)) {
+    *(struct reference_line *)line =
+        (struct reference_line){NULL, NULL, NULL, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, {NULL, 0}};
+    return;
+  }
+  *(struct reference_line *)line = (struct reference_line){
+      .method = r->method,
+      .check = r->check,
+      .ended = how_it_ended(r),
+      .agreement = r->agreement,
+      .energy_agreement = r->energy_agreement,
+      .trusted_until = time_until(study, r->trusted),
+      .checked_until = time_until(study, r->checked),
+      .growth = r->growth,
+      .growth_probability = r->growth_probability,
+      .growth_seen = r->growth_seen,
+      .displacements = (double)r->displacements,
+      .time = {r->frames.time, r->trusted},
+  };
+}
+
+static const struct hk_column reference_columns[] = {
+    HOOKE_COLUMN(
+        struct reference_line, agreement, NUMBER, "m",
+        "twice the largest root mean square distance between the two over the frames that are trusted; no "
+        "error below it means anything, and none within ten times of it much"),
+    HOOKE_COLUMN(struct reference_line, trusted_until, NUMBER, "s",
+                 "time up to which the two agree to the wanted digits; errors are judged up to there"),
+    HOOKE_COLUMN(
+        struct reference_line, growth, NUMBER, "",
+        "factor by which a small displacement of the start grows at most, with growth_probability; NaN "
+        "where that is not known"),
+    HOOKE_COLUMN(struct reference_line, growth_probability, NUMBER, "", "probability that growth holds"),
+    HOOKE_COLUMN(struct reference_line, growth_seen, NUMBER, "",
+                 "the largest growth of the displacements tried"),
+    HOOKE_COLUMN(struct reference_line, displacements, COUNT, "", "displacements tried"),
+    HOOKE_COLUMN(struct reference_line, energy_agreement, NUMBER, "J",
+                 "twice the largest difference of their energies there"),
+    HOOKE_COLUMN(
+        struct reference_line, ended, TEXT, "",
+        "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
+        "them apart at the tightest tolerances)"),
+    HOOKE_COLUMN(struct reference_line, method, TEXT, "", "integrator that made the reference"),
+    HOOKE_COLUMN(struct reference_line, check, TEXT, "",
+                 "integrator that checked it; they share only the forces"),
+    HOOKE_COLUMN(struct reference_line, checked_until, NUMBER, "s",
+                 "time up to which the two were compared; before the end where the budget was spent"),
+    HOOKE_COLUMN(struct reference_line, time, SERIES, "s", "times of the frames that are judged"),
+};
+
+static const struct hk_table reference_table = {
+    .name = "reference",
+    .doc = "the solution that errors are measured against, made by two integrators that check each other",
+    .record = 1,
+    HOOKE_TABLE_COLUMNS(reference_columns, struct reference_line),
+    .read = read_reference,
+};
+
+/* ---- rows ---- */
+
+struct row_line {
+  const char *method, *status;
+  double step, rtol, atol, error, error_max, error_final, energy_drift;
+  double force_evaluations, steps, linear_iterations, wall_seconds, wall_median, repeats;
+  double near_floor, near_energy_floor, timed_alone;
+  struct hk_series error_at, energy_drift_at;
+};
+
+static int64_t count_rows(const void *object) {
+  return ((const struct hk_study *)object)->row_count;
+}
+
+static double is_near(double value, double floor) {
+  return value <= 10.0 * floor ? 1.0 : 0.0;
+}
+
+static void read_row(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_study_row *r = &study->row[row];
+  const struct hk_trial *t = &r->trial;
+  const int64_t frames = study->reference.trusted;
+  *(struct row_line *)line = (struct row_line){
+      .method = study->method[r->method],
+      .status = t->status,
+      .step = t->step,
+      .rtol = t->rtol,
+      .atol = t->atol,
+      .error = t->error,
+      .error_max = t->error_max,
+      .error_final = t->error_final,
+      .energy_drift = t->energy_drift,
+      .force_evaluations = t->force_evaluations,
+      .steps = t->steps,
+      .linear_iterations = t->linear_iterations,
+      .wall_seconds = t->wall_seconds,
+      .wall_median = r->wall_median,
+      .repeats = (double)r->repeats,
+      .near_floor = is_near(t->error, study->reference.agreement),
+      .near_energy_floor = is_near(t->energy_drift, study->reference.energy_agreement),
+      .timed_alone = (double)r->timed_alone,
+      .error_at = {t->error_at, frames},
+      .energy_drift_at = {t->drift_at, frames},
+  };
+}
+
+static const struct hk_column row_columns[] = {
+    HOOKE_COLUMN(struct row_line, method, TEXT, "", "method"),
+    HOOKE_COLUMN(struct row_line, step, NUMBER, "s", "step of a fixed-step method"),
+    HOOKE_COLUMN(struct row_line, rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
+    HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
+                 "largest root mean square over the free particles of the distance to the reference"),
+    HOOKE_COLUMN(struct row_line, error_max, NUMBER, "m", "largest distance of any free particle"),
+    HOOKE_COLUMN(struct row_line, error_final, NUMBER, "m", "root mean square distance at the last frame"),
+    HOOKE_COLUMN(struct row_line, energy_drift, NUMBER, "J",
+                 "largest difference of energy from the reference"),
+    HOOKE_COLUMN(struct row_line, force_evaluations, COUNT, "", "evaluations of the forces"),
+    HOOKE_COLUMN(struct row_line, steps, COUNT, "", "steps taken"),
+    HOOKE_COLUMN(struct row_line, wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
+    HOOKE_COLUMN(struct row_line, status, TEXT, "", "finished, diverged, stopped or failed"),
+    HOOKE_COLUMN(struct row_line, atol, NUMBER, "m", "absolute tolerance of positions"),
+    HOOKE_COLUMN(struct row_line, linear_iterations, COUNT, "", "iterations of linear solvers"),
+    HOOKE_COLUMN(struct row_line, wall_median, NUMBER, "s", "median of the repeated runs"),
+    HOOKE_COLUMN(struct row_line, repeats, COUNT, "", "runs that were timed"),
+    HOOKE_COLUMN(struct row_line, near_floor, FLAG, "", "the error is within ten times of the agreement"),
+    HOOKE_COLUMN(struct row_line, near_energy_floor, FLAG, "",
+                 "the energy drift is within ten times of the agreement of energies"),
+    HOOKE_COLUMN(struct row_line, timed_alone, FLAG, "",
+                 "0: timed while other rows were running, so its time may be too long"),
+    HOOKE_COLUMN(struct row_line, error_at, SERIES, "m", "root mean square distance at every frame"),
+    HOOKE_COLUMN(struct row_line, energy_drift_at, SERIES, "J",
+                 "energy less that of the reference at every frame"),
+};
+
+static const struct hk_table row_table = {
+    .name = "rows",
+    .doc = "a method with one step or tolerance each, the coarsest first",
+    HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
+    .count = count_rows,
+    .read = read_row,
+};
+
+/* ---- orders ---- */
+
+struct order_line {
+  const char *method, *note;
+  double order, low, high, theory;
+};
+
+static int64_t count_orders(const void *object) {
+  const struct hk_study *study = object;
+  return is_made(study) ? study->method_count : 0;
+}
+
+static void read_order(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_study_order *o = &study->order[row];
+  *(struct order_line *)line = (struct order_line){.method = study->method[row],
+                                                   .note = o->note,
+                                                   .order = o->order,
+                                                   .low = o->low,
+                                                   .high = o->high,
+                                                   .theory = o->theory};
+}
+
+static const struct hk_column order_columns[] = {
+    HOOKE_COLUMN(struct order_line, method, TEXT, "", "method"),
+    HOOKE_COLUMN(
+        struct order_line, order, NUMBER, "",
+        "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
+        "with fewer than three of them, and for an error-controlled method"),
+    HOOKE_COLUMN(
+        struct order_line, low, NUMBER, "",
+        "lower end of the 95 % confidence interval of that slope, as if errors scattered about a line by "
+        "chance"),
+    HOOKE_COLUMN(struct order_line, high, NUMBER, "", "upper end of that interval"),
+    HOOKE_COLUMN(struct order_line, theory, NUMBER, "", "the method's order"),
+    HOOKE_COLUMN(struct order_line, note, TEXT, "", "why they may differ"),
+};
+
+static const struct hk_table order_table = {
+    .name = "orders",
+    .doc = "the order that each method showed",
+    HOOKE_TABLE_COLUMNS(order_columns, struct order_line),
+    .count = count_orders,
+    .read = read_order,
+};
+
+/* ---- the recommendation ---- */
+
+struct recommendation_line {
+  const char *method, *note;
+  double met, want, step, rtol, atol, error, wall_seconds, force_evaluations;
+};
+
+static int64_t count_recommendations(const void *object) {
+  return ((const struct hk_study *)object)->recommendation.made;
+}
+
+static void read_recommendation(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_study_recommendation *r = &study->recommendation;
+  const int adaptive = r->method >= 0 && hk_study_is_adaptive(study, r->method);
+  (void)row;
+  *(struct recommendation_line *)line = (struct recommendation_line){
+      .method = r->method >= 0 ? study->method[r->method] : NULL,
+      .note = r->note,
+      .met = (double)r->met,
+      .want = r->want,
+      .step = adaptive ? NAN : r->value,
+      .rtol = adaptive ? r->value : NAN,
+      .atol = adaptive ? r->atol : NAN,
+      .error = r->error,
+      .wall_seconds = r->wall_seconds,
+      .force_evaluations = r->force_evaluations,
+  };
+}
+
+static const struct hk_column recommendation_columns[] = {
+    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m", "the wanted error"),
+    HOOKE_COLUMN(struct recommendation_line, method, TEXT, "",
+                 "method of the cheapest run that meets the wanted error, else of the closest run"),
+    HOOKE_COLUMN(struct recommendation_line, step, NUMBER, "s", "its step"),
+    HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
+    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m", "its error"),
+    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s", "its wall time"),
+    HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
+    HOOKE_COLUMN(struct recommendation_line, note, TEXT, "",
+                 "what is in the way where nothing meets it, else empty"),
+    HOOKE_COLUMN(struct recommendation_line, atol, NUMBER, "m", "its absolute tolerance of positions"),
+    HOOKE_COLUMN(struct recommendation_line, force_evaluations, COUNT, "", "its evaluations of the forces"),
+};
+
+static const struct hk_table recommendation_table = {
+    .name = "recommendation",
+    .doc = "which run to make for the wanted error",
+    .record = 1,
+    HOOKE_TABLE_COLUMNS(recommendation_columns, struct recommendation_line),
+    .count = count_recommendations,
+    .read = read_recommendation,
+};
+
+/* ---- its margin ---- */
+
+struct margin_line {
+  double error_low, error_high, limit_share, holds_stiffness, error_stiffness, holds_start, error_start;
+};
+
+static void read_margin(const void *object, int64_t row, void *line) {
+  const struct hk_study *study = object;
+  const struct hk_study_recommendation *r = &study->recommendation;
+  const double agreement = study->reference.agreement;
+  (void)row;
+  *(struct margin_line *)line = (struct margin_line){
+      .error_low = isnan(r->error) ? NAN : fmax(0.0, r->error - agreement),
+      .error_high = r->error + agreement,
+      .limit_share = r->margin.limit_share,
+      .holds_stiffness = r->margin.holds[HOOKE_STUDY_STIFFNESS],
+      .error_stiffness = r->margin.error[HOOKE_STUDY_STIFFNESS],
+      .holds_start = r->margin.holds[HOOKE_STUDY_START],
+      .error_start = r->margin.error[HOOKE_STUDY_START],
+  };
+}
+
+static const struct hk_column margin_columns[] = {
+    HOOKE_COLUMN(struct margin_line, error_low, NUMBER, "m", "error less the agreement of the reference"),
+    HOOKE_COLUMN(struct margin_line, error_high, NUMBER, "m", "error plus the agreement of the reference"),
+    HOOKE_COLUMN(struct margin_line, limit_share, NUMBER, "",
+                 "its step over the largest stable one at the start"),
+    HOOKE_COLUMN(struct margin_line, holds_stiffness, FLAG, "",
+                 "the wanted error is met with 10 % more stiffness, and with 10 % less"),
+    HOOKE_COLUMN(struct margin_line, error_stiffness, NUMBER, "m", "the larger error of those two"),
+    HOOKE_COLUMN(
+        struct margin_line, holds_start, FLAG, "",
+        "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at the start, and "
+        "against it"),
+    HOOKE_COLUMN(struct margin_line, error_start, NUMBER, "m", "the larger error of those two"),
+};
+
+static const struct hk_table margin_table = {
+    .name = "margin",
+    .doc = "what the recommendation has to spare",
+    .group = "recommendation",
+    .record = 1,
+    HOOKE_TABLE_COLUMNS(margin_columns, struct margin_line),
+    .count = count_recommendations,
+    .read = read_margin,
+};
+
+/* ---- the list ---- */
+
+const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES] = {&study_table,
+                                                                    &reference_table,
+                                                                    &row_table,
+                                                                    &order_table,
+                                                                    &recommendation_table,
+                                                                    &margin_table,
+                                                                    &hk_study_watched_table,
+                                                                    &hk_study_error_table,
+                                                                    &hk_study_ensemble_table,
+                                                                    &hk_study_statistic_table};
