@@ -25,8 +25,9 @@ demo: all build/venv/done
 venv: build/venv/done
 
 .PHONY: docs
-docs: build/venv/done
-	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
+docs: all build/venv/done
+	$(VENV) docs/make_reference.py build/release
+	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees -c docs build/release/docs build/docs
 	@echo build/docs/index.html
 
 test: $(PRESETS:%=tests-%) build/fuzz/packages

@@ -16,6 +16,7 @@ if(HOOKE_FORTRAN_SOURCES)
     FILES_MATCHING PATTERN "*.f90" PATTERN sources.txt)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL) # where `make docs` has made them
 
 # Two sets of targets: the static library alone needs the other libraries to be found.
 install(TARGETS hooke EXPORT hooke_shared_targets)

@@ -19,7 +19,7 @@ MARK = re.compile(r"(<!-- table: (?P<name>\w+) -->\n).*?(<!-- end -->)", re.DOTA
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]\d+)?")
 ROUNDING = 1e-12  # figures below are rounding: their digits mean nothing
 
-sys.path.insert(0, str(ROOT / "build/release/python"))
+sys.path.append(str(ROOT / "build/release/python"))
 
 import hooke  # noqa: E402
 
