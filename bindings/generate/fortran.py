@@ -1,7 +1,8 @@
-"""Writes the interfaces of C as Fortran sees them: python bindings/generate/fortran.py FOLDER
+"""Writes what of the Fortran module is not written by hand: python bindings/generate/fortran.py FOLDER
 
-FOLDER/c.f90 has a module hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to
-numbers and text are optional arguments: one that is absent arrives as NULL."""
+FOLDER/queries.f90 has the procedures that only hand on (queries.py). FOLDER/c.f90 has the interfaces of C: a module
+hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to numbers and text are
+optional arguments: one that is absent arrives as NULL."""
 
 import re
 import sys
@@ -9,6 +10,9 @@ import textwrap
 from pathlib import Path
 
 import headers
+import queries
+
+HAND = Path(__file__).resolve().parents[1] / "fortran"
 
 NUMBERS = {"double": "real(c_double)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)"}
 WIDTH = 120
@@ -67,4 +71,7 @@ def interfaces(public):
 
 
 if __name__ == "__main__":
-    headers.write(Path(sys.argv[1]) / "c.f90", interfaces(headers.public()))
+    public = headers.public()
+    by_hand = [path.read_text(encoding="utf-8") for path in sorted(HAND.glob("*.f90"))]
+    headers.write(Path(sys.argv[1]) / "c.f90", interfaces(public))
+    headers.write(Path(sys.argv[1]) / "queries.f90", queries.modules(public, by_hand))
