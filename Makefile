@@ -1,4 +1,6 @@
 # All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
+#   make        sets up, and builds the library, the program and the Python package
+#   make venv   makes a Python environment in build/venv that has what the package, its tests and the pages need
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make test   sets up, builds, and runs every test
@@ -8,26 +10,27 @@
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
 
-PACKAGES = build-essential gfortran cmake ninja-build pkg-config python3-venv libcmocka-dev \
-           libsundials-dev libsuitesparse-dev liblapack-dev libblas-dev libgsl-dev libarpack2-dev libhdf5-dev \
-           libjansson-dev libjs-chart.js libjs-three chromium abigail-tools mandoc groff-base
+PACKAGES = $(shell awk 'NR > 1 { print $$2 }' cmake/packages.txt)
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python
 export PYTHONDONTWRITEBYTECODE = 1
 
-all: build-release
+all: build/release/build.ninja
+	cmake --build --preset release
 
-demo: build-release
-	PYTHONPATH=bindings/python/src HOOKE_LIBRARY=build/release/libhooke.so \
-	  $(VENV) examples/demo.py build/release/hooke build/demo
+demo: all build/venv/done
+	PYTHONPATH=build/release/python $(VENV) examples/demo.py build/release/hooke build/demo
+
+venv: build/venv/done
 
 .PHONY: docs
-docs: build/venv/done
-	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees docs build/docs
+docs: all build/venv/done
+	$(VENV) docs/make_reference.py build/release
+	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees -c docs build/release/docs build/docs
 	@echo build/docs/index.html
 
-test: $(PRESETS:%=build-%) build/fuzz/packages
+test: $(PRESETS:%=tests-%) build/fuzz/packages
 	@failed=0; \
 	$(PYTHON) tests/fuzz/run.py --seconds 5 || failed=1; \
 	for preset in $(PRESETS); do \
@@ -84,27 +87,36 @@ build/wheel/libraries/done: $(wildcard bindings/python/wheel/*) | build/packages
 	cmake --build build/wheel/libraries
 	touch $@
 
-$(PRESETS:%=build-%): build-%: build/%/build.ninja
-	cmake --build --preset $*
+build/release/build.ninja: CMakePresets.json | build/packages
+	cmake --preset release
 
-build/%/build.ninja: CMakePresets.json | build/venv/done
-	cmake --preset $*
+# Whatever the tests need has to be there.
+$(PRESETS:%=tests-%): tests-%: build/venv/done
+	cmake --preset $* -DHOOKE_EVERYTHING=ON
+	cmake --build --preset $* --target tests
 
 build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 	$(PYTHON) -m venv build/venv
 	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
 
-# What is missing is installed as root or through sudo; without either, the line to type is printed.
+# What is missing is installed as root or through sudo; without either, the line to type is printed. Where there is no
+# apt-get, the tools have to be there, and CMake names each library that it does without.
+TOOLS = cc cmake ninja $(PYTHON)
 build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
 build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): | build/packages
-build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): Makefile
+build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): Makefile cmake/packages.txt
 	@mkdir -p $(@D)
-	@missing=$$(for package in $(PACKAGES); do \
+	@command -v apt-get >/dev/null || for tool in $(TOOLS); do command -v $$tool >/dev/null || { \
+	  printf '%s is missing, and there is no apt-get to install it. These packages have what hooke is built with\n' $$tool; \
+	  printf '(build), what it can do without (use) and what its tests need besides (test):\n\n'; \
+	  cat cmake/packages.txt; exit 1; }; done
+	@command -v apt-get >/dev/null || exit 0; \
+	missing=$$(for package in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
 	if [ -n "$$missing" ]; then \
 	  if [ $$(id -u) = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
@@ -115,6 +127,6 @@ build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long
 	fi
 	@touch $@
 
-.PHONY: all demo test test-long tidy wheel wheel-test $(PRESETS:%=build-%)
+.PHONY: all venv demo test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -1,6 +1,6 @@
 """Times what `hooke run --want` picks against the best row of a fine ladder of every method.
 
-HOOKE_EXTRAPOLATE=build/release/tests/long/extrapolate PYTHONPATH=bindings/python/src python bench/picked.py SCENE...
+HOOKE_EXTRAPOLATE=build/release/tests/long/extrapolate PYTHONPATH=build/release/python python bench/picked.py SCENE...
 
 Rows whose largest error at a frame, by extrapolation in long double, is at most the want; medians of 5, runs in turn. Needs a
 build with -DHOOKE_LONG_TESTS=ON.

@@ -1,6 +1,6 @@
 """Times the calls of the Python package that a time loop makes: of each the time that Python adds to the library.
 
-    HOOKE_LIBRARY=build/release/libhooke.so PYTHONPATH=bindings/python/src python bench/python_calls.py
+    PYTHONPATH=build/release/python python bench/python_calls.py
 
 One particle on one spring, so that the library itself has next to nothing to do. What it does take is timed by steps in
 one call (``step(state, 10**6)``) and by evaluations of the energy from C, and is not taken off the other rows, so that

@@ -1,9 +1,20 @@
 # hooke::fortran: the module `hooke`, compiled by the Fortran compiler of the project that wants it, since no compiler
-# reads the module files of another. `folder` holds the sources, in the order of its sources.txt.
+# reads the module files of another. `folder` holds the sources, in the order of its sources.txt; in the build of hooke
+# itself another folder holds what is made.
 function(hooke_add_fortran folder)
-  file(STRINGS ${folder}/sources.txt sources)
-  list(TRANSFORM sources PREPEND ${folder}/)
+  file(STRINGS ${folder}/sources.txt names)
+  set(sources)
+  foreach(name IN LISTS names)
+    cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${folder} OUTPUT_VARIABLE source)
+    if(NOT EXISTS ${source})
+      cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${ARGV1} OUTPUT_VARIABLE source)
+    endif()
+    list(APPEND sources ${source})
+  endforeach()
   add_library(hooke_fortran STATIC EXCLUDE_FROM_ALL ${sources})
+  if(TARGET hooke_fortran_made)
+    add_dependencies(hooke_fortran hooke_fortran_made)
+  endif()
   add_library(hooke::fortran ALIAS hooke_fortran)
   set(modules ${CMAKE_CURRENT_BINARY_DIR}/hooke_fortran_modules)
   set_target_properties(hooke_fortran PROPERTIES Fortran_MODULE_DIRECTORY ${modules} POSITION_INDEPENDENT_CODE ON)

@@ -11,8 +11,12 @@ if(HOOKE_CHARTJS_FOUND)
   install(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/share/hooke/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hooke)
 endif()
 set(HOOKE_FORTRAN_DIR ${CMAKE_INSTALL_DATADIR}/hooke/fortran)
-install(DIRECTORY bindings/fortran/ DESTINATION ${HOOKE_FORTRAN_DIR} FILES_MATCHING PATTERN "*.f90" PATTERN sources.txt)
+if(HOOKE_FORTRAN_SOURCES)
+  install(DIRECTORY bindings/fortran/ ${PROJECT_BINARY_DIR}/fortran/ DESTINATION ${HOOKE_FORTRAN_DIR}
+    FILES_MATCHING PATTERN "*.f90" PATTERN sources.txt)
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL) # where `make docs` has made them
 
 # Two sets of targets: the static library alone needs the other libraries to be found.
 install(TARGETS hooke EXPORT hooke_shared_targets)
@@ -63,10 +67,6 @@ foreach(dependency IN LISTS HOOKE_DEPENDENCIES)
 endforeach()
 file(RELATIVE_PATH HOOKE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" HOOKE_PREFIX_FROM_PC "${HOOKE_PREFIX_FROM_PC}")
-set(HOOKE_FORTRAN_SOURCES)
-if(EXISTS ${PROJECT_SOURCE_DIR}/bindings/fortran/sources.txt) # sources may come along without the Fortran module
-  file(STRINGS bindings/fortran/sources.txt HOOKE_FORTRAN_SOURCES)
-endif()
 list(TRANSFORM HOOKE_FORTRAN_SOURCES PREPEND "\${fortrandir}/")
 list(JOIN HOOKE_FORTRAN_SOURCES " " HOOKE_FORTRAN_SOURCES)
 configure_file(cmake/hooke.pc.in hooke.pc @ONLY)

@@ -1,4 +1,5 @@
-"""How Sphinx makes the site: `make docs`. The pages are plain Markdown; docs/index.md orders them."""
+"""How Sphinx makes the site: `make docs`. The pages are plain Markdown, those of the references are made besides;
+docs/index.md orders them."""
 
 from __future__ import annotations
 
@@ -34,21 +35,18 @@ def navigation(index: str) -> str:
     return "\n\n".join(found)
 
 
-def add_navigation(app, name, source) -> None:
+def adapt(app, name, source) -> None:
+    """Adds tables of contents. Links to files that are not on the site lose their address, and the page about the
+    references gets its links to them."""
     if name == "index":
         source[0] += "\n\n" + navigation(source[0]) + "\n"
-
-
-def link_to_repository(app, doctree) -> None:
-    """Links to pages that are not below docs/ lead to nothing on a site: their words stay."""
-    from docutils import nodes
-    from sphinx.addnodes import pending_xref
-
-    for node in list(doctree.findall(pending_xref)):
-        if node.get("reftarget", "").startswith("/"):
-            node.replace_self(nodes.inline("", "", *node.children))
+    if not name.startswith("reference/"):
+        source[0] = re.sub(r"\[([^\]]*)\]\(\.\./[^)]*\)", r"\1", source[0])
+    if name == "reference":
+        pages = re.findall(r"`(reference/[\w-]+)\.md`", source[0])
+        source[0] = re.sub(r"`(reference/([\w-]+)\.md)`", r"[\2](\1)", source[0])
+        source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
 
 
 def setup(app) -> None:
-    app.connect("source-read", add_navigation)
-    app.connect("doctree-read", link_to_repository)
+    app.connect("source-read", adapt)

@@ -1,18 +1,19 @@
-"""Writes the pages of docs/reference from the sources: python docs/make_reference.py BUILD [--check]
+"""Writes the pages of the site, those of the references made from the sources: python docs/make_reference.py BUILD
 
-BUILD is a build folder with the library and the program, such as build/release. The C reference comes from the headers,
-the Fortran one from the modules, the Python one from docstrings, that of scenes from the option tables and the schema,
-that of the command line from --help. With --check nothing is written; pages that are out of date are named.
+BUILD is a build folder with the library and the program, such as build/release; the pages are in BUILD/docs, those of the
+references in BUILD/docs/reference. The C reference comes from the headers, the Fortran one from the modules, the Python
+one from docstrings, that of scenes from the option tables and the schema, that of the command line from --help.
 """
 
 from __future__ import annotations
 
-import os
+import importlib.util
+import shutil
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "docs/generate"), str(ROOT / "bindings/python/src")]
+sys.path.insert(0, str(ROOT / "docs/generate"))
 
 import headers  # noqa: E402
 import modules  # noqa: E402
@@ -22,32 +23,27 @@ import scenes  # noqa: E402
 
 
 def pages(build: Path) -> dict[str, str]:
-    os.environ.setdefault("HOOKE_LIBRARY", str(build / "libhooke.so"))  # for `import hooke`
+    if not importlib.util.find_spec("hooke"):
+        sys.path.insert(0, str(build / "python"))
     return {
         "scene": scenes.page(ROOT),
         "command-line": program.page(str(build / "hooke")),
         "c": headers.page(ROOT),
-        "fortran": modules.page(ROOT),
+        "fortran": modules.page(ROOT, build / "fortran/queries.f90"),
         "python": package.page(),
     }
 
 
-def main(build: Path, check: bool) -> int:
-    late = []
-    for name, text in pages(build.resolve()).items():
-        path = ROOT / f"docs/reference/{name}.md"
-        if not text or (path.exists() and path.read_text("utf-8") == text):
-            continue
-        late.append(str(path.relative_to(ROOT)))
-        if not check:
-            path.write_text(text, "utf-8")
-    if check and late:
-        print("out of date:", *late, "\npython docs/make_reference.py", build, "writes them again")
-    return 1 if check and late else 0
+def write(build: Path, folder: Path) -> None:
+    """All pages of the site."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(ROOT / "docs", folder, ignore=shutil.ignore_patterns("*.py", "*.json", "*.txt", "generate"))
+    (folder / "reference").mkdir()
+    for name, text in pages(build).items():
+        (folder / f"reference/{name}.md").write_text(text, "utf-8")
 
 
 if __name__ == "__main__":
-    words = [w for w in sys.argv[1:] if w != "--check"]
-    if len(words) != 1:
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    sys.exit(main(Path(words[0]), "--check" in sys.argv))
+    write(Path(sys.argv[1]).resolve(), Path(sys.argv[1]).resolve() / "docs")

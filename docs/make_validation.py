@@ -5,7 +5,6 @@ Takes a second. With --check nothing is written; rows that differ are printed.
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 import warnings
@@ -20,8 +19,7 @@ MARK = re.compile(r"(<!-- table: (?P<name>\w+) -->\n).*?(<!-- end -->)", re.DOTA
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]\d+)?")
 ROUNDING = 1e-12  # figures below are rounding: their digits mean nothing
 
-sys.path.insert(0, str(ROOT / "bindings/python/src"))
-os.environ.setdefault("HOOKE_LIBRARY", str(ROOT / "build/release/libhooke.so"))
+sys.path.append(str(ROOT / "build/release/python"))
 
 import hooke  # noqa: E402
 

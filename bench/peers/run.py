@@ -61,7 +61,7 @@ def main() -> int:
     wanted = arguments()
     enter_environment(wanted.install)
     os.environ["HOOKE_LIBRARY"] = wanted.library
-    sys.path.insert(0, str(ROOT / "bindings/python/src"))
+    sys.path.insert(0, str(Path(wanted.library).resolve().parent / "python"))
     import compare
     from fixed import Different
     from rows import Printer

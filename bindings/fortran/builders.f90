@@ -6,8 +6,8 @@ module hooke_builders
   use hooke_c_io, only: c_scene_options_apply
   use hooke_c_system
   use hooke_forces
-  use hooke_handles, only: hooke_handle
   use hooke_option_tables, only: hooke_options
+  use hooke_queries_of_system
   implicit none
   private
   public :: hooke_builder, part_kind_count, part_kind, part_kind_summary
@@ -15,7 +15,7 @@ module hooke_builders
   integer, parameter :: place_of_force = 1
 
   ! What hooke_system can do until it is committed.
-  type, extends(hooke_handle) :: hooke_builder
+  type, extends(hooke_system_queries) :: hooke_builder
   contains
     procedure :: create
     procedure, private :: add_particles_alike, add_particles_each
@@ -28,14 +28,11 @@ module hooke_builders
     procedure :: add_altitude
     procedure :: add_part
     procedure :: set_gravity
-    procedure :: set_drag
-    procedure :: limit_memory
     procedure :: set_force
     procedure :: drive_harmonic
     procedure :: drive_table
     procedure :: drive_callback
     procedure :: apply
-    procedure :: commit
   end type
 
 contains
@@ -224,24 +221,6 @@ contains
     call accept(c_system_set_gravity(self%address(), gravity), status)
   end subroutine
 
-  ! What the system may need of memory [bytes]; 0: as much as the machine has.
-  subroutine limit_memory(self, bytes, status)
-    class(hooke_builder), intent(inout) :: self
-    real(c_double), intent(in) :: bytes
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_system_limit_memory(self%address(), bytes), status)
-  end subroutine
-
-  ! Ether drag -c v on every free particle, c in N s/m.
-  subroutine set_drag(self, coefficient, status)
-    class(hooke_builder), intent(inout) :: self
-    real(c_double), intent(in) :: coefficient
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_system_set_drag(self%address(), coefficient), status)
-  end subroutine
-
   ! A force of the caller's own, which has to stay where it is as long as the system is used.
   subroutine set_force(self, force, status)
     class(hooke_builder), intent(inout) :: self
@@ -329,11 +308,4 @@ contains
     call accept(c_scene_options_apply(options%address(), self%address()), status)
   end subroutine
 
-  ! Checks the system as a whole and makes it constant.
-  subroutine commit(self, status)
-    class(hooke_builder), intent(inout) :: self
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_system_commit(self%address()), status)
-  end subroutine
 end module

@@ -5,7 +5,7 @@ module hooke_estimates
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_estimate
   use hooke_c_io, only: c_estimate_write_h5
-  use hooke_handles, only: hooke_handle
+  use hooke_queries_of_estimate
   use hooke_integrators, only: hooke_integrator
   use hooke_observers, only: call_progress, hooke_progress, progress_holder
   use hooke_option_tables, only: hooke_options
@@ -17,7 +17,7 @@ module hooke_estimates
 
   integer, parameter :: of_progress = 1
 
-  type, extends(hooke_handle) :: hooke_estimate
+  type, extends(hooke_estimate_queries) :: hooke_estimate
   contains
     procedure :: create
     procedure :: on_progress
@@ -26,9 +26,6 @@ module hooke_estimates
     procedure :: see
     procedure :: measure
     procedure :: refine
-    procedure :: write_h5
-    procedure :: number
-    procedure :: text
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -113,28 +110,6 @@ contains
     if (self%is_missing(status)) return
     call accept(c_estimate_refine(self%address(), run%address()), status)
   end subroutine
-
-  ! Adds it to the trajectory file that the run wrote.
-  subroutine write_h5(self, path, status)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_estimate_write_h5(self%address(), to_c(path)), status)
-  end subroutine
-
-  real(c_double) function number(self, what)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: what
-    number = c_estimate_number(self%address(), to_c(what))
-  end function
-
-  function text(self, what)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_estimate_text(self%address(), to_c(what)))
-  end function
 
   impure elemental subroutine assign(self, other)
     class(hooke_estimate), intent(inout) :: self

@@ -6,7 +6,7 @@ module hooke_integrators
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
   use hooke_c_why, only: c_integrator_on_warning
-  use hooke_handles, only: hooke_handle
+  use hooke_queries_of_integrator
   use hooke_observers
   use hooke_option_tables, only: hooke_options
   use hooke_states, only: hooke_state
@@ -19,7 +19,7 @@ module hooke_integrators
   integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
     of_progress = 6
 
-  type, extends(hooke_handle) :: hooke_integrator
+  type, extends(hooke_integrator_queries) :: hooke_integrator
     ! The options it runs with: its own copy, with defaults filled in.
     type(hooke_options) :: options
   contains
@@ -30,19 +30,13 @@ module hooke_integrators
     procedure :: on_checkpoint
     procedure :: on_progress
     procedure :: on_warning
-    procedure :: frame_count
     procedure :: run
     procedure :: resume
     procedure :: write_checkpoint
     procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
-    procedure :: count => count_of
-    procedure :: wall_seconds
-    procedure :: recent_count
     procedure :: recent
-    procedure :: stop_value
-    procedure :: diverged_at
     procedure :: destroy
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -250,12 +244,6 @@ contains
 
   ! ---- running ----
 
-  ! Frames that run() reports, the initial one included.
-  integer function frame_count(self)
-    class(hooke_integrator), intent(in) :: self
-    frame_count = to_integer(c_integrator_frame_count(self%address()))
-  end function
-
   ! Runs `duration` from the state's time on; `state` is the final state on return.
   subroutine run(self, state, status)
     class(hooke_integrator), intent(inout) :: self
@@ -325,26 +313,6 @@ contains
 
   ! ---- what it did, since it was made ----
 
-  ! "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
-  ! "linear_iterations", "error_test_failures", "coincident_springs", "memory_bytes"; -1 for any other word.
-  integer(hooke_long) function count_of(self, what)
-    class(hooke_integrator), intent(in) :: self
-    character(*), intent(in) :: what
-    count_of = c_integrator_count(self%address(), to_c(what))
-  end function
-
-  ! Time spent stepping [s].
-  real(c_double) function wall_seconds(self)
-    class(hooke_integrator), intent(in) :: self
-    wall_seconds = c_integrator_wall_seconds(self%address())
-  end function
-
-  ! The last good states of the run: the first place is the last one.
-  integer function recent_count(self)
-    class(hooke_integrator), intent(in) :: self
-    recent_count = to_integer(c_integrator_recent_count(self%address()))
-  end function
-
   subroutine recent(self, place, state, status)
     class(hooke_integrator), intent(in) :: self
     integer, intent(in) :: place
@@ -354,18 +322,6 @@ contains
     if (state%is_missing(status)) return
     call accept(c_integrator_recent(self%address(), zero_based(place), state%address()), status)
   end subroutine
-
-  ! What the callback that stopped the run set; 0 if none did.
-  integer function stop_value(self)
-    class(hooke_integrator), intent(in) :: self
-    stop_value = int(c_integrator_stop_value(self%address()))
-  end function
-
-  ! Time at which divergence was noticed [s], NaN if it was not.
-  real(c_double) function diverged_at(self)
-    class(hooke_integrator), intent(in) :: self
-    diverged_at = c_integrator_diverged_at(self%address())
-  end function
 
   impure elemental subroutine assign(self, other)
     class(hooke_integrator), intent(inout) :: self

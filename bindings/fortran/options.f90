@@ -11,12 +11,12 @@ module hooke_option_tables
   use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
   use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
-  use hooke_handles, only: hooke_handle
+  use hooke_queries_of_options
   implicit none
   private
   public :: hooke_options, options_or_null
 
-  type, extends(hooke_handle) :: hooke_options
+  type, extends(hooke_options_queries) :: hooke_options
   contains
     procedure :: create_run      ! made for the options of a run,
     procedure :: create_spring   ! of a group of springs,
@@ -34,15 +34,7 @@ module hooke_option_tables
     generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
     procedure :: set_mesh        ! the surface of a part of the kind "mesh", from arrays
     procedure :: read_mesh       ! or from an OBJ file
-    procedure :: unset
-    procedure :: is_set
-    procedure :: number          ! the first number, NaN if there is none
     procedure :: numbers         ! all of them
-    procedure :: number_count
-    procedure :: text            ! the word, "" if there is none
-    procedure :: row_count       ! the table itself
-    procedure :: row             ! "name", "type", "unit", "default", "allowed" or "doc" of a row
-    procedure :: row_number      ! "low", "high", "required" and more of a row, NaN where it has none
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -258,67 +250,15 @@ contains
     call accept(c_mesh_read(to_c(path), self%address()), status)
   end subroutine
 
-  subroutine unset(self, name, status)
-    class(hooke_options), intent(inout) :: self
-    character(*), intent(in) :: name
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_options_unset(self%address(), to_c(name)), status)
-  end subroutine
-
-  logical function is_set(self, name)
-    class(hooke_options), intent(in) :: self
-    character(*), intent(in) :: name
-    is_set = c_options_is_set(self%address(), to_c(name)) == 1
-  end function
-
-  real(c_double) function number(self, name)
-    class(hooke_options), intent(in) :: self
-    character(*), intent(in) :: name
-    number = c_options_number(self%address(), to_c(name))
-  end function
-
   function numbers(self, name) result(values)
     class(hooke_options), intent(in) :: self
     character(*), intent(in) :: name
     real(c_double), allocatable :: values(:)
     real(c_double), pointer, contiguous :: there(:)
     there => to_series(c_options_numbers(self%address(), to_c(name)), &
-      c_options_number_count(self%address(), to_c(name)))
+      int(self%number_count(name), c_int64_t))
     allocate (values(0))
     if (associated(there)) values = there
   end function
 
-  integer function number_count(self, name)
-    class(hooke_options), intent(in) :: self
-    character(*), intent(in) :: name
-    number_count = to_integer(c_options_number_count(self%address(), to_c(name)))
-  end function
-
-  function text(self, name)
-    class(hooke_options), intent(in) :: self
-    character(*), intent(in) :: name
-    character(:), allocatable :: text
-    text = to_text(c_options_text(self%address(), to_c(name)))
-  end function
-
-  integer function row_count(self)
-    class(hooke_options), intent(in) :: self
-    row_count = to_integer(c_options_row_count(self%address()))
-  end function
-
-  function row(self, number, property) result(text)
-    class(hooke_options), intent(in) :: self
-    integer, intent(in) :: number
-    character(*), intent(in) :: property
-    character(:), allocatable :: text
-    text = to_text(c_options_row(self%address(), zero_based(number), to_c(property)))
-  end function
-
-  real(c_double) function row_number(self, row, property)
-    class(hooke_options), intent(in) :: self
-    integer, intent(in) :: row
-    character(*), intent(in) :: property
-    row_number = c_options_row_number(self%address(), zero_based(row), to_c(property))
-  end function
 end module

@@ -3,23 +3,20 @@ module hooke_scenes
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_io
-  use hooke_handles, only: hooke_handle
   use hooke_option_tables, only: hooke_options, options_or_null
+  use hooke_queries_of_scene
   use hooke_systems, only: hooke_system
   implicit none
   private
   public :: hooke_scene, own_process
 
-  type, extends(hooke_handle) :: hooke_scene
+  type, extends(hooke_scene_queries) :: hooke_scene
     type(hooke_system) :: system ! built, not yet committed
     type(hooke_options) :: run   ! those of `run`, which may be changed
   contains
     procedure :: load
     procedure :: parse
     procedure :: of_system
-    procedure :: commit
-    procedure :: title
-    procedure :: text
     procedure :: destroy
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -101,26 +98,6 @@ contains
     call self%system%take(c_scene_system(scene), owner=self)
     call self%run%take(c_scene_run_options(scene), owner=self)
   end subroutine
-
-  ! Commits the system, with messages that give the place in the file.
-  subroutine commit(self, status)
-    class(hooke_scene), intent(inout) :: self
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_scene_commit(self%address()), status)
-  end subroutine
-
-  function title(self)
-    class(hooke_scene), intent(in) :: self
-    character(:), allocatable :: title
-    title = to_text(c_scene_title(self%address()))
-  end function
-
-  function text(self)
-    class(hooke_scene), intent(in) :: self
-    character(:), allocatable :: text
-    text = to_text(c_scene_text(self%address()))
-  end function
 
   impure elemental subroutine assign(self, other)
     class(hooke_scene), intent(inout) :: self

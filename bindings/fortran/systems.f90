@@ -17,44 +17,19 @@ module hooke_systems
 
   type, extends(hooke_builder) :: hooke_system
   contains
-    procedure :: is_committed
-    procedure :: particle_count
-    procedure :: free_count
-    procedure :: spring_count
-    procedure :: dropped_spring_count
-    procedure :: idle_count
-    procedure :: group_count
-    procedure :: group_name
-    procedure :: group_size
     procedure :: mass
     procedure :: inverse_mass
     procedure :: spring_ends
     procedure :: spring_material
-    procedure :: bending_count
-    procedure :: bending_group_count
-    procedure :: bending_group_name
-    procedure :: bending_group_size
     procedure :: bending_ends
     procedure :: bending_coefficient
-    procedure :: altitude_count
-    procedure :: altitude_group_count
-    procedure :: altitude_group_name
-    procedure :: altitude_group_size
     procedure :: altitude_ends
     procedure :: altitude_material
     procedure :: altitude_lengths
-    procedure :: derived_count
-    procedure :: derived_text
-    procedure :: derived_value
-    procedure :: force_count
-    procedure :: force_name
-    procedure :: memory
-    procedure :: spring_memory
     procedure :: force
     procedure :: acceleration
     procedure :: coincident_springs
     procedure :: derivative_product
-    procedure :: block_count
     procedure :: derivative_pattern
     procedure :: derivative_blocks
     procedure :: kinetic_energy
@@ -82,69 +57,18 @@ contains
     call self%share(other)
   end subroutine
 
-  logical function is_committed(self)
-    class(hooke_system), intent(in) :: self
-    is_committed = c_system_is_committed(self%address()) == 1
-  end function
-
-  integer function particle_count(self)
-    class(hooke_system), intent(in) :: self
-    particle_count = to_integer(c_system_particle_count(self%address()))
-  end function
-
-  ! Particles that are neither pinned nor driven.
-  integer function free_count(self)
-    class(hooke_system), intent(in) :: self
-    free_count = to_integer(c_system_free_count(self%address()))
-  end function
-
-  integer function spring_count(self)
-    class(hooke_system), intent(in) :: self
-    spring_count = to_integer(c_system_spring_count(self%address()))
-  end function
-
-  ! Springs that commit has dropped, since they have neither stiffness nor damping.
-  integer function dropped_spring_count(self)
-    class(hooke_system), intent(in) :: self
-    dropped_spring_count = to_integer(c_system_dropped_spring_count(self%address()))
-  end function
-
-  ! Pinned particles that nothing touches.
-  integer function idle_count(self)
-    class(hooke_system), intent(in) :: self
-    idle_count = to_integer(c_system_idle_count(self%address()))
-  end function
-
-  integer function group_count(self)
-    class(hooke_system), intent(in) :: self
-    group_count = to_integer(c_system_group_count(self%address()))
-  end function
-
-  function group_name(self, group) result(text)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    character(:), allocatable :: text
-    text = to_text(c_system_group_name(self%address(), zero_based(group)))
-  end function
-
-  integer function group_size(self, group)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    group_size = to_integer(c_system_group_size(self%address(), zero_based(group)))
-  end function
-
   ! Masses [kg] and inverse masses [1/kg], 0 where held or driven; not associated before commit.
 
   function mass(self) result(series)
     class(hooke_system), intent(in) :: self
     real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_mass(self%address()), c_system_particle_count(self%address()))
+    series => to_series(c_system_mass(self%address()), int(self%particle_count(), c_int64_t))
   end function
 
   function inverse_mass(self) result(series)
     class(hooke_system), intent(in) :: self
     real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_inverse_mass(self%address()), c_system_particle_count(self%address()))
+    series => to_series(c_system_inverse_mass(self%address()), int(self%particle_count(), c_int64_t))
   end function
 
   ! The particles ends(2, spring_count) of every spring.
@@ -171,31 +95,6 @@ contains
     call accept(c_system_spring_material(self%address(), kappa, gamma, rest_length), status)
   end subroutine
 
-  ! The same of bending.
-
-  integer function bending_count(self)
-    class(hooke_system), intent(in) :: self
-    bending_count = to_integer(c_system_bending_count(self%address()))
-  end function
-
-  integer function bending_group_count(self)
-    class(hooke_system), intent(in) :: self
-    bending_group_count = to_integer(c_system_bending_group_count(self%address()))
-  end function
-
-  function bending_group_name(self, group) result(text)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    character(:), allocatable :: text
-    text = to_text(c_system_bending_group_name(self%address(), zero_based(group)))
-  end function
-
-  integer function bending_group_size(self, group)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    bending_group_size = to_integer(c_system_bending_group_size(self%address(), zero_based(group)))
-  end function
-
   subroutine bending_ends(self, ends, status)
     class(hooke_system), intent(in) :: self
     integer, allocatable, intent(out) :: ends(:, :)
@@ -217,29 +116,6 @@ contains
   end subroutine
 
   ! The same of altitude springs on tetrahedra, ends(4, altitude_count).
-
-  integer function altitude_count(self)
-    class(hooke_system), intent(in) :: self
-    altitude_count = to_integer(c_system_altitude_count(self%address()))
-  end function
-
-  integer function altitude_group_count(self)
-    class(hooke_system), intent(in) :: self
-    altitude_group_count = to_integer(c_system_altitude_group_count(self%address()))
-  end function
-
-  function altitude_group_name(self, group) result(text)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    character(:), allocatable :: text
-    text = to_text(c_system_altitude_group_name(self%address(), zero_based(group)))
-  end function
-
-  integer function altitude_group_size(self, group)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: group
-    altitude_group_size = to_integer(c_system_altitude_group_size(self%address(), zero_based(group)))
-  end function
 
   subroutine altitude_ends(self, ends, status)
     class(hooke_system), intent(in) :: self
@@ -275,51 +151,6 @@ contains
     call accept(c_system_altitude_lengths(self%address(), q, length), status)
   end subroutine
 
-  ! Numbers that parts derived from their options: texts "part", "family", "name" and "unit", and the value.
-
-  integer function derived_count(self)
-    class(hooke_system), intent(in) :: self
-    derived_count = to_integer(c_system_derived_count(self%address()))
-  end function
-
-  function derived_text(self, number, what) result(text)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: number
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_system_derived_text(self%address(), zero_based(number), to_c(what)))
-  end function
-
-  real(c_double) function derived_value(self, number)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: number
-    derived_value = c_system_derived_value(self%address(), zero_based(number))
-  end function
-
-  ! The forces that this system computes.
-  integer function force_count(self)
-    class(hooke_system), intent(in) :: self
-    force_count = to_integer(c_system_force_count(self%address()))
-  end function
-
-  function force_name(self, number) result(text)
-    class(hooke_system), intent(in) :: self
-    integer, intent(in) :: number
-    character(:), allocatable :: text
-    text = to_text(c_system_force_name(self%address(), zero_based(number)))
-  end function
-
-  ! Memory of the committed system [bytes], and how much of it goes with its springs.
-  integer(hooke_long) function memory(self)
-    class(hooke_system), intent(in) :: self
-    memory = c_system_memory(self%address())
-  end function
-
-  integer(hooke_long) function spring_memory(self)
-    class(hooke_system), intent(in) :: self
-    spring_memory = c_system_spring_memory(self%address())
-  end function
-
   ! ---- forces and energies at q(3, n) and v(3, n) ----
 
   ! Whether arrays of (3, n) suit; where there is nobody to tell, they have to.
@@ -331,7 +162,7 @@ contains
     integer(c_int64_t) :: n
     suits = .not. self%is_missing(status)
     if (.not. suits) return
-    n = c_system_particle_count(self%address())
+    n = int(self%particle_count(), c_int64_t)
     suits = is_3_by(first, n)
     if (suits .and. present(second)) suits = is_3_by(second, n)
     if (.not. suits) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
@@ -388,11 +219,6 @@ contains
     if (.not. suits(self, status, product)) return
     call accept(c_system_derivative_product(self%address(), t, q, v, dq, dv, product), status)
   end subroutine
-
-  integer function block_count(self)
-    class(hooke_system), intent(in) :: self
-    block_count = to_integer(c_system_block_count(self%address()))
-  end function
 
   ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
   subroutine derivative_pattern(self, row_start, column, status)

@@ -9,40 +9,34 @@ module hooke_trajectories
   use hooke_handles, only: hooke_handle
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
+  use hooke_queries_of_record
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
+  use hooke_queries_of_trajectory
   implicit none
   private
   public :: hooke_trajectory, hooke_record, hooke_comparison_file
 
   ! A file under way. One that goes out of scope is closed as "stopped".
-  type, extends(hooke_handle) :: hooke_trajectory
+  type, extends(hooke_trajectory_queries) :: hooke_trajectory
   contains
     procedure :: create => create_trajectory
     procedure :: resume => resume_trajectory
-    procedure :: origin
     procedure :: checkpoint
     procedure :: write => write_frame
-    procedure :: write_behind
-    procedure :: sync
-    procedure :: run => run_of_trajectory
     procedure :: close => close_trajectory
     procedure, private :: assign_trajectory
     generic :: assignment(=) => assign_trajectory
   end type
 
   ! A file read back.
-  type, extends(hooke_handle) :: hooke_record
+  type, extends(hooke_record_queries) :: hooke_record
     type(hooke_options) :: options ! of the run, as it ran
   contains
     procedure :: open => open_record
-    procedure :: text
-    procedure :: frame_count
     procedure :: check => check_frame
     procedure :: read => read_frame
     procedure :: numbers
-    procedure :: place
-    procedure :: write_xdmf
     procedure :: destroy => close_record
     procedure, private :: assign_record
     generic :: assignment(=) => assign_record
@@ -98,13 +92,6 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! From where a run went on, in words.
-  function origin(self) result(words)
-    class(hooke_trajectory), intent(in) :: self
-    character(:), allocatable :: words
-    words = to_text(c_trajectory_origin(self%address()))
-  end function
-
   ! Writes a checkpoint beside the file, for resume().
   subroutine checkpoint(self, integrator, state, status)
     class(hooke_trajectory), intent(inout) :: self
@@ -127,29 +114,6 @@ contains
     if (state%is_missing(status)) return
     call accept(c_trajectory_write(self%address(), step, state%address()), status)
   end subroutine
-
-  ! From here on large frames are written by a thread while steps go on.
-  subroutine write_behind(self, status)
-    class(hooke_trajectory), intent(inout) :: self
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_trajectory_write_behind(self%address()), status)
-  end subroutine
-
-  ! Brings all frames to the disk, so that they outlast a power failure.
-  subroutine sync(self, status)
-    class(hooke_trajectory), intent(inout) :: self
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_trajectory_sync(self%address()), status)
-  end subroutine
-
-  ! Which run the file is of: 32 hexadecimal digits that no other run has.
-  function run_of_trajectory(self) result(run)
-    class(hooke_trajectory), intent(in) :: self
-    character(:), allocatable :: run
-    run = to_text(c_trajectory_run(self%address()))
-  end function
 
   ! Writes the outcome, the status of hooke_integrator's run(), and closes the file.
   subroutine close_trajectory(self, outcome, status)
@@ -195,19 +159,6 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! "scene", "status" or "run"; "" for another word.
-  function text(self, what)
-    class(hooke_record), intent(in) :: self
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_record_text(self%address(), to_c(what)))
-  end function
-
-  integer function frame_count(self)
-    class(hooke_record), intent(in) :: self
-    frame_count = to_integer(c_record_frame_count(self%address()))
-  end function
-
   ! Refuses a frame whose numbers are not those that were written: 1 is the first, -1 the last.
   subroutine check_frame(self, frame, status)
     class(hooke_record), intent(in) :: self
@@ -243,17 +194,6 @@ contains
     from_zero = merge(frame - 1, frame, frame > 0)
   end function
 
-  ! Writes the companion by which ParaView reads it: beside the trajectory, or at `path`.
-  subroutine write_xdmf(self, path, status)
-    class(hooke_record), intent(in) :: self
-    character(*), intent(in), optional :: path
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_path
-    if (self%is_missing(status)) return
-    call to_c_if(path, c_path)
-    call accept(c_record_write_xdmf(self%address(), c_path), status)
-  end subroutine
-
   ! A whole array of the file: "time", "step", "kinetic_energy" and so on, a column a frame; "springs", a column a spring,
   ! whose ends count from 1; "mass" and "species", a column a particle.
   subroutine numbers(self, what, values, status)
@@ -272,13 +212,6 @@ contains
     if (code == 0 .and. what == "springs") values = values + 1
     call accept(code, status)
   end subroutine
-
-  ! Where in the file "position" or "velocity" begins [bytes]; -1 where they are not stored as they are in memory.
-  integer(hooke_long) function place(self, what)
-    class(hooke_record), intent(in) :: self
-    character(*), intent(in) :: what
-    place = c_record_place(self%address(), to_c(what))
-  end function
 
   subroutine close_record(self)
     class(hooke_record), intent(inout) :: self

@@ -1,10 +1,12 @@
-"""The Fortran reference, from the comments of the modules: those right above a type or a procedure."""
+"""The Fortran reference, from the comments of the modules: those right above a type or a procedure. What is made from the
+headers has those of the headers."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
+import headers
 from words import markdown
 
 PROCEDURE = re.compile(r"^(?!end\b)(?P<head>[^!\"'=]*?\b(?:subroutine|function)\s+(?P<name>\w+)\b.*)$", re.IGNORECASE)
@@ -37,6 +39,12 @@ def bound_names(lines: list[str]) -> set[str]:
     return found
 
 
+def names_of(lines: list[str]) -> dict[str, str]:
+    """What procedures are called by users, where that is another name."""
+    bound_to = re.findall(r"^\s*procedure :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
+    return {inside: outside for outside, inside in bound_to}
+
+
 def dummies(lines: list[str], start: int) -> list[str]:
     """The declarations of arguments and result below the head of a procedure."""
     found = []
@@ -53,6 +61,7 @@ def dummies(lines: list[str], start: int) -> list[str]:
 def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str]]:
     """(name, comment, code) of every type and procedure that may be used."""
     bound_to, comment, found = bound_names(lines), [], []
+    outside = {**names_of(lines), **outside}
     for number, line in enumerate(lines):
         words = line.strip()
         if "---- for the other modules" in words:
@@ -99,13 +108,24 @@ def module(lines: list[str], outside: dict[str, str]) -> str:
     return "\n\n".join(filter(None, pieces))
 
 
-def page(root: Path) -> str:
-    """"" while there is no module, or no page that leads to it."""
+def with_comments_of_headers(queries: str, root: Path) -> str:
+    """The modules that are made, with the comments of the functions in C that they call."""
+    for path in (root / "include/hooke").glob("*.h"):
+        for comment, declarations in headers.entries(path.read_text("utf-8")):
+            for name in [name for one in declarations for name in headers.names_in(one)][:1]:
+                above = "".join(f"  ! {line}\n" for line in comment.splitlines())
+                head = rf"^(?=  (?:function|subroutine) {name.replace('hooke_', '', 1)}\()"
+                queries = re.sub(head, lambda _, above=above: above, queries, flags=re.MULTILINE)
+    return queries
+
+
+def page(root: Path, made: Path) -> str:
+    """`made` are the modules that are made, one for each type."""
     folder = root / "bindings/fortran"
-    if not (folder / "hooke.f90").exists() or not (root / "docs/fortran.md").exists():
-        return ""
+    queries = with_comments_of_headers(made.read_text("utf-8"), root)
     front = logical_lines((folder / "hooke.f90").read_text("utf-8"))
     others = [logical_lines(path.read_text("utf-8")) for path in sorted(folder.glob("*.f90")) if path.stem != "hooke"]
+    others += map(logical_lines, re.findall(r"^! What [^\n]*\nmodule .*?^end module", queries, re.DOTALL | re.MULTILINE))
     pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
               "interface](../fortran.md) is the way in.", EXAMPLE, intro(front)]
     return "\n\n".join(filter(None, pieces + [module(lines, exported(front)) for lines in others])) + "\n"

@@ -1,6 +1,6 @@
 /* Every public function stands here: it looks at the texts that it is given, in a build with
  * HOOKE_CHECK_HANDLES at the handles, too, and goes on to the one in the library, which names.h calls
- * hooke_unchecked_<name>. calls.inc lists them all.
+ * hooke_unchecked_<name>. calls.inc lists them all; both files are made in the build tree.
  *
  * A text that is NULL is refused with HOOKE_BAD_VALUE; where no status is returned it is a word that the
  * function does not know. A handle that is no more, never was, or is of another type is refused with
@@ -8,14 +8,6 @@
  * yes or no. */
 #include "core/handle.h"
 #include "core/status.h"
-#include "hooke/build.h"
-#include "hooke/cost.h"
-#include "hooke/checkpoint.h"
-#include "hooke/estimate.h"
-#include "hooke/io.h"
-#include "hooke/measurement.h"
-#include "hooke/verify.h"
-#include "hooke/why.h"
 
 #include <math.h>
 

@@ -94,8 +94,10 @@ def test_library_has_the_baseline(baseline, tmp_path):
 
 
 def test_baseline_is_up_to_date():
-    """Every function is in the baseline of the version that it belongs to."""
+    """Every function of a version that is released is in its baseline."""
     header = freeze.one_header()
+    if f"## {numbers(header)['HOOKE_VERSION'].strip(chr(34))} (unreleased)" in (ROOT / "CHANGELOG.md").read_text():
+        pytest.skip("this version is not released yet")
     baseline = Path(__file__).with_name("baseline") / freeze.minor_version(header) / "hooke.h"
     missing = headers.functions(header) - headers.functions(baseline.read_text())
     assert not missing, f"python tests/abi/freeze.py adds {sorted(missing)}"

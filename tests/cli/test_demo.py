@@ -19,7 +19,7 @@ pytestmark = [
 
 
 def test_demo_prints_the_table_and_draws_the_picture(tmp_path):
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "bindings/python/src"), "HOOKE_LIBRARY": str(LIBRARY)}
+    environment = {**os.environ, "PYTHONPATH": str(LIBRARY.parent / "python"), "HOOKE_LIBRARY": str(LIBRARY)}
     command = [sys.executable, ROOT / "examples/demo.py", CLI, tmp_path]
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

@@ -1,6 +1,5 @@
 """The schema of scenes, held against the examples, the bad scenes, and the library's own option tables."""
 
-import ctypes
 import json
 import os
 import pathlib
@@ -82,66 +81,11 @@ def test_bad_scenes_fail_the_schema_or_are_beyond_it():
 # ---- the option tables ----
 
 
-def option_rows(create, *arguments):
-    """Names, types and defaults of a table, straight from the library."""
-    library = ctypes.CDLL(LIBRARY)
-    library.hooke_options_row.restype = ctypes.c_char_p
-    library.hooke_options_row.argtypes = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_char_p]
-    library.hooke_options_row_count.restype = ctypes.c_int64
-    library.hooke_options_row_count.argtypes = [ctypes.c_void_p]
-    library.hooke_options_destroy.argtypes = [ctypes.c_void_p]
-    options = ctypes.c_void_p()
-    assert getattr(library, create)(*arguments, ctypes.byref(options)) == 0
-    rows = {}
-    for row in range(library.hooke_options_row_count(options)):
-        name, kind, default = (
-            library.hooke_options_row(options, row, what).decode() for what in (b"name", b"type", b"default")
-        )
-        rows[name] = (kind, default)
-    library.hooke_options_destroy(options)
-    return rows
-
-
-def check_table(rows, properties, own=()):
-    top = {name for name in rows if "." not in name}
-    assert top | set(own) == set(properties)
-    for name in top:
-        kind, default = rows[name]
-        if "default" in properties[name]:
-            wanted = properties[name]["default"]
-            found = default == "true" if kind == "flag" else default if kind == "choice" else float(default)
-            assert found == wanted, name
-
-
 @pytest.mark.skipif(not LOADABLE, reason="needs a library that Python can load, without sanitizers")
-class TestTables:
-    def test_run(self):
-        rows = option_rows("hooke_run_options_create")
-        check_table(rows, SCHEMA["$defs"]["run"]["properties"])
+def test_the_schema_is_that_of_the_tables():
+    import schema
 
-    def test_springs(self):
-        rows = option_rows("hooke_spring_options_create")
-        check_table(rows, SCHEMA["$defs"]["springs"]["properties"], own=["name", "between"])
-
-    @pytest.mark.parametrize("kind", SCHEMA["properties"]["parts"]["items"]["properties"]["kind"]["enum"])
-    def test_part(self, kind):
-        rows = option_rows("hooke_part_options_create", kind.encode())
-        properties = SCHEMA["$defs"][kind]["properties"]
-        check_table(rows, properties, own=["kind", "name"])
-        for family in (name for name, (type_, _) in rows.items() if type_ == "family"):
-            table = properties[family].get("properties") or SCHEMA["$defs"]["family"]["properties"]
-            members = {name.split(".")[1]: row for name, row in rows.items() if name.startswith(family + ".")}
-            check_table(members, table)
-
-    def test_kinds_and_methods(self):
-        library = ctypes.CDLL(LIBRARY)
-        library.hooke_part_kind_count.restype = library.hooke_method_count.restype = ctypes.c_int64
-        library.hooke_part_kind.restype = library.hooke_method_name.restype = ctypes.c_char_p
-        library.hooke_part_kind.argtypes = library.hooke_method_name.argtypes = [ctypes.c_int64]
-        kinds = [library.hooke_part_kind(k).decode() for k in range(library.hooke_part_kind_count())]
-        methods = [library.hooke_method_name(k).decode() for k in range(library.hooke_method_count())]
-        assert sorted(kinds) == sorted(SCHEMA["properties"]["parts"]["items"]["properties"]["kind"]["enum"])
-        assert sorted(methods) == sorted(SCHEMA["$defs"]["run"]["properties"]["method"]["enum"])
+    assert schema.SCHEMA.read_text() == schema.laid_out(schema.schema()) + "\n", "python bindings/generate/schema.py writes it"
 
 
 # ---- what the examples are there to show ----

@@ -2,14 +2,17 @@
 
 import os
 import shutil
-from pathlib import Path
 
 import blocks
 import pytest
+from pages import ROOT, SITE
 
-ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
-PAGES = sorted((ROOT / "docs").rglob("*.md"))
+PAGES = sorted(SITE.rglob("*.md"))
 DOCUMENTS = [ROOT / "README.md", ROOT / "bindings/python/README.md", *PAGES]
+
+
+def name_of(document):
+    return str(document.relative_to(SITE.parent if SITE in document.parents else ROOT))
 
 
 @pytest.fixture
@@ -18,16 +21,16 @@ def folder(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
 def test_document(document, folder):
-    found = blocks.blocks(document.relative_to(ROOT), document.read_text(encoding="utf-8"))
+    found = blocks.blocks(name_of(document), document.read_text(encoding="utf-8"))
     complaints = [c for b in found if (c := blocks.complaint(b, folder))]
     assert not complaints, "\n\n".join(complaints)
 
 
-@pytest.mark.parametrize("document", PAGES, ids=lambda p: p.name)
+@pytest.mark.parametrize("document", PAGES, ids=name_of)
 def test_every_page_has_a_snippet_that_runs(document):
-    found = blocks.blocks(document.relative_to(ROOT), document.read_text(encoding="utf-8"))
+    found = blocks.blocks(name_of(document), document.read_text(encoding="utf-8"))
     assert any(blocks.runs(block) for block in found)
 
 

@@ -1,18 +1,19 @@
-"""Every link of README.md, CONTRIBUTING.md, SECURITY.md, CHANGELOG.md and docs/ inside the project leads somewhere."""
+"""Every link of README.md, CONTRIBUTING.md, SECURITY.md, CHANGELOG.md, docs/ and the references inside the project leads
+somewhere."""
 
-import os
 from pathlib import Path
 
 import links
 import pytest
+from pages import ROOT, SITE
 
-ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CHANGELOG.md",
              *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "bindings").rglob("*.md"))]
 
 
 def test_links_lead_somewhere():
     found = [links.complaints(document, ROOT) for document in DOCUMENTS]
+    found += [links.complaints(page, SITE) for page in (SITE / "reference").iterdir()]
     missing = [line for lines, _ in found for line in lines]
     print("not followed:", *sorted({address for _, addresses in found for address in addresses}), sep="\n  ")
     assert not missing, "\n".join(missing)

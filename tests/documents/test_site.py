@@ -1,15 +1,13 @@
 """`make docs`: the site is made without a warning, has every page, and loads nothing from elsewhere."""
 
 import html.parser
-import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from pages import ROOT, SITE
 
-ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 LOADS = {"img": "src", "script": "src", "iframe": "src", "source": "src", "video": "src", "object": "data", "embed": "src"}
 LOADED_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch", "manifest"}
 
@@ -39,7 +37,7 @@ def elsewhere(text):
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     done = subprocess.run(
-        [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-d", folder / "doctrees", ROOT / "docs", folder / "html"],
+        [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-d", folder / "doctrees", "-c", ROOT / "docs", SITE, folder / "html"],
         capture_output=True, text=True)
     assert done.returncode == 0 and not done.stderr.strip(), done.stdout + done.stderr
     return folder / "html"
@@ -47,8 +45,8 @@ def site(tmp_path_factory):
 
 def test_every_page_is_there_and_found(site):
     index = (site / "searchindex.js").read_text(encoding="utf-8")
-    for page in (ROOT / "docs").rglob("*.md"):
-        name = page.relative_to(ROOT / "docs").with_suffix("")
+    for page in SITE.rglob("*.md"):
+        name = page.relative_to(SITE).with_suffix("")
         assert (site / f"{name}.html").exists(), name
         assert f'"{name}"' in index, f"{name} is not in the search"
 

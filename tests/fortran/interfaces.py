@@ -1,10 +1,6 @@
 """What bindings/fortran declares of C and what the headers declare, both as plain tuples, to be held against each other."""
 
 import re
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "abi"))
 
 import headers
 
@@ -81,7 +77,7 @@ def of_fortran(text):
 
 def complaints(have, want):
     """What is wrong with the interfaces `have` for the functions `want`."""
-    found = [f"- {n}: no interface in bindings/fortran/c" for n in sorted(want.keys() - have.keys())]
+    found = [f"- {n}: no interface" for n in sorted(want.keys() - have.keys())]
     found += [f"+ {n}: no such function" for n in sorted(have.keys() - want.keys())]
     for name in sorted(have.keys() & want.keys()):
         if have[name] != want[name]:

@@ -142,7 +142,7 @@ static int64_t call_all(enum badness how) {
     check_refused(kind(value, function arguments), #function, #argument, #type);                             \
     calls++;                                                                                                 \
   }
-#include "../data/handle_calls.inc"
+#include "handle_calls.inc"
   return calls;
 }
 

@@ -37,7 +37,7 @@ SHORTER = SHORT | {"HOOKE_SHORT": "1"}  # and of large and many cases a share
 
 
 def configured(preset: str) -> str:
-    return f"cmake --preset {preset} -DHOOKE_TEST_TIMEOUT=7200 && cmake --build --preset {preset}"
+    return f"cmake --preset {preset} -DHOOKE_EVERYTHING=ON -DHOOKE_TEST_TIMEOUT=7200 && cmake --build --preset {preset} --target tests"
 
 
 def ctest(build: str, tests: str = "") -> str:
@@ -49,7 +49,7 @@ def level(compiler: str, optimised: str) -> Step:
     return Step(
         f"{compiler} {optimised}",
         f"cmake -S . -B {build} {PLAIN} -DCMAKE_C_COMPILER={compiler} -DCMAKE_C_FLAGS={optimised} "
-        f"-DHOOKE_KERNEL_OPTIMISATION={optimised} && cmake --build {build} && "
+        f"-DHOOKE_KERNEL_OPTIMISATION={optimised} && cmake --build {build} --target tests && "
         f"{build}/tests/long/bits >$WORK/{compiler}{optimised}.txt && "
         f"{ctest(build, C_TESTS)} && rm -r {build}",
         {"-O0": 220, "-O1": 200, "-O2": 200, "-O3": 240}[optimised],
@@ -103,18 +103,18 @@ PART = Part(
         Step("tsan", f"{configured('tsan')} && ctest --preset tsan", 400, tests_passed, SHORT),
         Step("clang, address, undefined and truncation",
              f"cmake -S . -B build/long/clang-asan {PLAIN} -DCMAKE_C_COMPILER=clang '-DCMAKE_C_FLAGS={CLANG_SANITIZERS}' "
-             "-DHOOKE_KERNEL_OPTIMISATION=-O1 && cmake --build build/long/clang-asan && "
+             "-DHOOKE_KERNEL_OPTIMISATION=-O1 && cmake --build build/long/clang-asan --target tests && "
              f"{ctest('build/long/clang-asan', C_TESTS)}", 340, tests_passed,
              SHORTER),
         Step("valgrind",
-             f"cmake -S . -B build/long/valgrind {PLAIN} -DCMAKE_C_FLAGS='-O1 -g' && cmake --build build/long/valgrind && "
+             f"cmake -S . -B build/long/valgrind {PLAIN} -DCMAKE_C_FLAGS='-O1 -g' && cmake --build build/long/valgrind --target tests && "
              "printf '%s\\n' build/long/valgrind/tests/unit_* | grep -v -E '"
              f"{VALGRIND_LEAVES}' | OPENBLAS_CORETYPE=Haswell xargs -P 2 -I PROGRAM sh -c 'valgrind -q --error-exitcode=9 "
              "--child-silent-after-fork=yes --leak-check=full --errors-for-leak-kinds=definite PROGRAM && echo valgrind: $(basename PROGRAM) clean'",
              480, valgrind, SHORTER),
         Step("coverage",
              f"cmake -S . -B {COVERAGE} -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS='-O1 --coverage' "
-             f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} && "
+             f"-DHOOKE_KERNEL_OPTIMISATION=-O1 -DHOOKE_TEST_TIMEOUT=7200 && cmake --build {COVERAGE} --target tests && "
              f"find {COVERAGE} -name '*.gcda' -delete && "
              f"ctest --test-dir {COVERAGE} -j2 --output-on-failure -LE 'abi|layers|documents|clients|fortran' && "
              f"python3 tests/long/coverage.py {COVERAGE}", 1200, reached, SHORT | {"HOOKE_FAULT_PLACES": "1"}),

@@ -96,8 +96,8 @@ PART = Part(
     "soak",
     [],
     [
-        Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
-                      f"cmake --build {BUILD}", 240),
+        Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_EVERYTHING=ON -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
+                      f"cmake --build {BUILD} --target tests", 240),
         billion("verlet"),
         billion("symplectic-euler"),
         lives(KINDS, 750),

@@ -54,7 +54,7 @@ PART = Part(
     "want",
     [],
     [
-        Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
+        Step("build", f"cmake --preset release -B {BUILD} -DHOOKE_EVERYTHING=ON -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=7200 && "
                       f"cmake --build {BUILD} --target hooke_cli hooke_long_extrapolate hooke_long_random_scenes", 240),
         hold("small example scenes", examples([name for name in EXAMPLES if name not in {*LARGE, LARGEST}]), 300),
         hold("twenty random scenes", "random:20", 120),

@@ -1,6 +1,6 @@
 """What the tests of the Python package share.
 
-The package is imported from the checkout; HOOKE_LIBRARY names the library to test (CTest sets it).
+The package is imported from the build tree, HOOKE_BUILD_DIR; HOOKE_LIBRARY names the library to test (CTest sets both).
 """
 
 import os
@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("HOOKE_BUILD_DIR", ROOT / "build/release"))
+PACKAGES = BUILD / "python"  #: holds the package
 
-sys.path.insert(0, str(ROOT / "bindings/python/src"))
-os.environ.setdefault("HOOKE_LIBRARY", str(ROOT / "build/release/libhooke.so"))
+sys.path[:0] = [str(PACKAGES), str(ROOT / "bindings/generate")]
+os.environ.setdefault("HOOKE_LIBRARY", str(BUILD / "libhooke.so"))
 os.environ.setdefault("MPLBACKEND", "Agg")
 
 import hooke  # noqa: E402

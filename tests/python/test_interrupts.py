@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import ROOT, build_oscillator
+from conftest import PACKAGES, build_oscillator
 
 import hooke
 
@@ -68,7 +68,7 @@ except KeyboardInterrupt:
 
 @pytest.mark.parametrize("work", ["run", "step", "implicit", "cvode", "limit", "along", "why", "study", "needs", "want"])
 def test_ctrl_c_is_heard(work):
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "bindings/python/src"), "PYTHONWARNINGS": "ignore"}
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGES), "PYTHONWARNINGS": "ignore"}
     call = [sys.executable, "-c", SCRIPT, work]
     done = subprocess.run(call, env=environment, capture_output=True, text=True, timeout=60)
     if "NotBuilt" in done.stderr:

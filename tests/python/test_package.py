@@ -2,16 +2,15 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 
 import pytest
-from conftest import ROOT
+from conftest import PACKAGES, ROOT
 
 import hooke
 from hooke._library import lib
-
-SOURCE = ROOT / "bindings/python/src"
 
 
 def python(code, **environment):
@@ -41,8 +40,9 @@ def test_versions_agree():
     assert hooke.build_facts()["version"] == hooke.__version__
 
 
-def test_no_library():
-    run = python("import hooke", PYTHONPATH=SOURCE)
+def test_no_library(tmp_path):
+    shutil.copytree(PACKAGES / "hooke", tmp_path / "hooke", ignore=shutil.ignore_patterns("lib*", "share"))
+    run = python("import hooke", PYTHONPATH=tmp_path)
     if run.returncode == 0:
         pytest.skip("a hooke library is installed in this machine's own folders")
     assert "ImportError: the hooke library was not found" in run.stderr
@@ -50,38 +50,38 @@ def test_no_library():
 
 
 def test_a_library_that_is_not_there():
-    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY="/nowhere/libhooke.so")
+    run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY="/nowhere/libhooke.so")
     assert run.returncode and "ImportError: HOOKE_LIBRARY names '/nowhere/libhooke.so'" in run.stderr
 
 
 def test_another_abi_is_refused(tmp_path):
     library = compiled(tmp_path, "int hooke_abi(void) { return 7; }")
-    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY=library)
     assert run.returncode and "has ABI 7, this package needs ABI 0" in run.stderr
 
 
 def test_another_library_is_refused(tmp_path):
     library = compiled(tmp_path, "int nothing(void) { return 7; }")
-    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY=library)
     assert run.returncode and "is not the hooke library" in run.stderr
 
 
 def test_a_library_without_a_function_is_refused(tmp_path):
     library = compiled(tmp_path, "int hooke_abi(void) { return 0; }")
-    run = python("import hooke", PYTHONPATH=SOURCE, HOOKE_LIBRARY=library)
+    run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY=library)
     assert run.returncode and "has no function hooke_last_error" in run.stderr
 
 
 def test_importing_is_light():
     code = "import sys, hooke; print([m for m in ('matplotlib', 'h5py', 'scipy') if m in sys.modules])"
-    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    run = python(code, PYTHONPATH=PACKAGES, HOOKE_LIBRARY=lib.path)
     assert run.stdout.strip() == "[]", run.stderr
 
 
 @pytest.mark.parametrize("module", ["plot", "animation"])
 def test_pictures_need_matplotlib_and_say_so(module):
     code = f"import sys; sys.modules['matplotlib'] = None; import hooke; import hooke.{module}"
-    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    run = python(code, PYTHONPATH=PACKAGES, HOOKE_LIBRARY=lib.path)
     assert run.returncode and "need matplotlib" in run.stderr and "pip install matplotlib h5py" in run.stderr
 
 
@@ -96,7 +96,7 @@ state = system.state()
 view = state.q
 print(integrator.run(state))
 """
-    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    run = python(code, PYTHONPATH=PACKAGES, HOOKE_LIBRARY=lib.path)
     assert (run.returncode, run.stdout, run.stderr) == (0, "finished\n", "")
 
 
@@ -113,7 +113,7 @@ for k in range(3):
     with h5py.File({str(tmp_path / "a.h5")!r}) as file:
         print(file["particles/all/position/value"][-1, 0, 0])
 """
-    run = python(code, PYTHONPATH=SOURCE, HOOKE_LIBRARY=lib.path)
+    run = python(code, PYTHONPATH=PACKAGES, HOOKE_LIBRARY=lib.path)
     assert (run.returncode, run.stdout, run.stderr) == (0, "2.0\n" * 3, "")
 
 
@@ -135,7 +135,7 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     assert set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir()) == before
     files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
     share = {"share"} if hooke.build_facts()["chartjs"] else set()  # what reports are made of
-    assert files == {path.name for path in (SOURCE / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE", "py.typed"} | share
+    assert files == {path.name for path in (PACKAGES / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE", "py.typed"} | share
     assert {path.name for path in target.iterdir()} - {"hooke"} == {f"libhooke-{hooke.__version__}.dist-info"}
     code = """
 import hooke

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT, SIX_PARTICLES, build_oscillator
+from conftest import PACKAGES, SIX_PARTICLES, build_oscillator
 
 import hooke
 
@@ -51,7 +51,7 @@ hooke.FirstOrder(lambda t, x, rate: calls.append(t), [1.0]).run(
 print(len(calls))
 hooke.FirstOrder(lambda t, x, rate: calls.append(t), [1.0]).run(method="rk4", step=0.1, duration=1, progress=True)
 """
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "bindings/python/src")}
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGES)}
     run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
     assert run.stdout == "40\n" and run.returncode
     assert 'ImportError: progress=True shows a bar of tqdm, which is not installed: pip install "libhooke[progress]"' in run.stderr

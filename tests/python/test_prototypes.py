@@ -2,8 +2,8 @@
 
 import ctypes
 import re
-import sys
 
+import headers
 import pytest
 from conftest import ROOT
 
@@ -11,58 +11,17 @@ from hooke import _library, _prototypes
 from hooke._library import lib
 from hooke._prototypes import PROTOTYPES
 
-sys.path.insert(0, str(ROOT / "tests/abi"))
-from headers import statements
-
-STATEMENTS = [
-    words
-    for path in sorted((ROOT / "include/hooke").glob("*.h"))
-    for _, words in statements(path.read_text())
-]
-# int32_t results that are no status
-PLAIN_NUMBERS = {
-    "hooke_abi",
-    "hooke_options_is_set",
-    "hooke_system_is_committed",
-    "hooke_method_is_adaptive",
-    "hooke_method_is_built",
-    "hooke_integrator_stop_value",
-    "hooke_estimate_see",
-}
-OUTCOMES = {
-    "hooke_integrator_run",
-    "hooke_integrator_resume",
-    "hooke_integrator_step",
-    "hooke_verify_run",
-    "hooke_comparison_run",
-    "hooke_measurement_run",
-    "hooke_study_recommend",
-    "hooke_limit_find",
-    "hooke_limit_along",
-    "hooke_cost_find",
-    "hooke_needs_find",
-    "hooke_needs_refine",
-}
+FUNCTIONS, CALLBACKS = (
+    {name: (result, [kind for kind, _ in parameters]) for text in headers.public().values()
+     for result, name, parameters in headers.declared(text, lead)}
+    for lead in ("HOOKE_API", "typedef")
+)  # fmt: skip
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 
-def declared(lead):
-    """Name: (result, parameters) of all declarations that begin with HOOKE_API or typedef."""
-    found = {}
-    for words in STATEMENTS:
-        match = re.fullmatch(rf"{lead} ([^(]*?)\b(hooke_[a-z0-9_]+) ?\((.*)\)", words)
-        if match:
-            parameters = [] if match.group(3) == "void" else match.group(3).split(",")
-            found[match.group(2)] = match.group(1).strip(), [parameter.strip() for parameter in parameters]
-    return found
-
-
-FUNCTIONS, CALLBACKS = declared("HOOKE_API"), declared("typedef")
-
-
 def c_type(words):
-    """("hooke_state", 1) for "const hooke_state *state"."""
-    match = re.fullmatch(r"(?:const )?(\w+) ?(\**) ?(?:const )?\w*", words)
+    """("hooke_state", 1) for "const hooke_state *"."""
+    match = re.fullmatch(r"(?:const )?(\w+) ?(\**)", words)
     assert match, words
     return match.group(1), len(match.group(2))
 
@@ -84,7 +43,7 @@ def expected(words):
 def test_the_parser_sees_the_headers():
     text = "".join(path.read_text() for path in (ROOT / "include/hooke").glob("*.h"))
     assert len(FUNCTIONS) == len(re.findall(r"^HOOKE_API ", text, re.MULTILINE)) > 100
-    assert FUNCTIONS["hooke_state_copy"] == ("int32_t", ["const hooke_state *from", "hooke_state *to"])
+    assert FUNCTIONS["hooke_state_copy"] == ("int32_t", ["const hooke_state *", "hooke_state *"])
 
 
 def test_the_table_names_exactly_the_public_functions():
@@ -92,13 +51,18 @@ def test_the_table_names_exactly_the_public_functions():
     assert set(PROTOTYPES) == set((ROOT / "tests/abi/symbols.txt").read_text().split())
 
 
+def test_what_returns_outcomes_returns_a_status():
+    assert {PROTOTYPES[name][0] for name in _library.OUTCOMES} == {_prototypes.STATUS}
+
+
 @pytest.mark.parametrize("name", sorted(FUNCTIONS))
 def test_a_prototype_is_that_of_the_header(name):
     result, parameters = FUNCTIONS[name]
     row = PROTOTYPES[name]
     assert list(row[1:]) == [expected(words) for words in parameters]
-    if result == "int32_t" and name not in PLAIN_NUMBERS:
-        assert row[0] is (_prototypes.OUTCOME if name in OUTCOMES else _prototypes.STATUS)
+    answers = result == "int32_t" and re.search(r"_is_|^hooke_abi$|_stop_value$|_see$", name)
+    if result == "int32_t" and not answers:
+        assert row[0] is _prototypes.STATUS
     else:
         assert row[0] == expected(result)
 
@@ -120,7 +84,7 @@ def test_every_prototype_is_installed():
     for name, (result, *arguments) in PROTOTYPES.items():
         function = getattr(lib, name)
         function = getattr(function, "__wrapped__", function)
-        status = result in (_prototypes.STATUS, _prototypes.OUTCOME)
+        status = result is _prototypes.STATUS
         assert list(function.argtypes) == arguments
         assert function.restype is (ctypes.c_int32 if status else result)
         assert hasattr(function, "errcheck") == status or not status

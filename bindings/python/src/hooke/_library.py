@@ -8,7 +8,7 @@ import functools
 import operator
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
 
@@ -17,6 +17,25 @@ from ._status import BadValue, checker
 
 #: The ABI that this package was written for, HOOKE_ABI of the headers.
 ABI = 0
+
+#: Functions whose positive status is an outcome, which their callers look at; of all others it is raised.
+OUTCOMES = frozenset(
+    (
+        "hooke_comparison_run",
+        "hooke_cost_find",
+        "hooke_integrator_resume",
+        "hooke_integrator_run",
+        "hooke_integrator_step",
+        "hooke_limit_along",
+        "hooke_limit_find",
+        "hooke_needs_find",
+        "hooke_needs_refine",
+        "hooke_study_pick",
+        "hooke_study_recommend",
+        "hooke_study_run",
+        "hooke_verify_run",
+    )
+)
 
 _FILE_NAMES = {"darwin": "libhooke.dylib", "win32": "hooke.dll"}
 
@@ -34,16 +53,13 @@ class Library:
     def __init__(self, path: str, library: ctypes.CDLL):
         self.path = path
         _require_abi(path, library)
-        words = [_install(path, library, name, {}) for name in ("hooke_last_error", "hooke_status_name")]
-        checks = {
-            _prototypes.STATUS: checker(words, outcomes=False),
-            _prototypes.OUTCOME: checker(words, outcomes=True),
-        }
+        words = [_install(path, library, name) for name in ("hooke_last_error", "hooke_status_name")]
+        checks = [checker(words, outcomes) for outcomes in (False, True)]
         for name in _prototypes.PROTOTYPES:
-            setattr(self, name, _guarded(_install(path, library, name, checks)))
+            setattr(self, name, _guarded(_install(path, library, name, checks[name in OUTCOMES])))
 
 
-def _install(path: str, library: ctypes.CDLL, name: str, checks: Mapping[Any, Any]) -> Any:
+def _install(path: str, library: ctypes.CDLL, name: str, check: Any = None) -> Any:
     result, *arguments = _prototypes.PROTOTYPES[name]
     try:
         function = getattr(library, name)
@@ -52,10 +68,9 @@ def _install(path: str, library: ctypes.CDLL, name: str, checks: Mapping[Any, An
             f"{path} has no function {name}; it and this package are of different versions"
         ) from None
     function.argtypes = arguments
-    if result in checks:
-        function.restype, function.errcheck = ctypes.c_int32, checks[result]
-    else:
-        function.restype = result
+    function.restype = ctypes.c_int32 if result is _prototypes.STATUS else result
+    if result is _prototypes.STATUS:
+        function.errcheck = check
     return function
 
 
@@ -98,7 +113,7 @@ def _guarded(function: Any) -> Any:
 
 def _require_abi(path: str, library: ctypes.CDLL) -> None:
     try:
-        abi = _install(path, library, "hooke_abi", {})()
+        abi = _install(path, library, "hooke_abi")()
     except ImportError:
         raise ImportError(f"{path} is not the hooke library (it has no function hooke_abi)") from None
     if abi != ABI:

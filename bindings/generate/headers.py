@@ -1,9 +1,14 @@
-"""What the public headers declare, read from their text."""
+"""What the public headers declare, read from their text. All generators use this one parser; they need Python 3.8."""
 
 import re
+from pathlib import Path
+
+INCLUDE = Path(__file__).resolve().parents[2] / "include"
 
 NUMBERS = {"double", "int32_t", "int64_t"}
 NAME = r"hooke_[a-z0-9_]+"
+# Results of type int32_t that are neither a status nor an answer; the last one is what a callback returns.
+NUMBER_RESULTS = {"hooke_abi", "hooke_integrator_stop_value", "hooke_estimate_see"}
 
 
 def statements(text):
@@ -21,10 +26,25 @@ def statements(text):
         start += len(part) + 1
 
 
+def public(include=INCLUDE):
+    """{header: text} of the public headers, by name."""
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted((include / "hooke").glob("*.h"))}
+
+
+def declared(text, lead="HOOKE_API"):
+    """(result, name, [(type, name)]) of every function declared with HOOKE_API, or of every callback with `typedef`."""
+    for _, words in statements(text):
+        match = re.fullmatch(rf"{lead} ([^(]*?)\b({NAME}) ?\((.*)\)", words)
+        if match:
+            result, name, inside = match.groups()
+            parameters = [] if inside == "void" else [re.fullmatch(r"(.*?)(\w+)", p.strip()).groups()
+                                                      for p in inside.split(",")]
+            yield result.strip(), name, [(kind.strip(), what) for kind, what in parameters]
+
+
 def functions(text):
     """Names of the functions declared with HOOKE_API."""
-    found = (re.fullmatch(rf"HOOKE_API [^(]*?\b({NAME}) ?\(.*\)", s) for _, s in statements(text))
-    return {m.group(1) for m in found if m}
+    return {name for _, name, _ in declared(text)}
 
 
 def opaque_types(text):
@@ -32,7 +52,19 @@ def opaque_types(text):
 
 
 def callback_types(text):
-    return {m.group(1) for _, s in statements(text) if (m := re.fullmatch(rf"typedef [^(]*?\b({NAME}) ?\(.*\)", s))}
+    return {name for _, name, _ in declared(text, "typedef")}
+
+
+def is_status(result, name):
+    """Whether the result of a function is a status: every int32_t is, but for answers and these numbers."""
+    return result == "int32_t" and "_is_" not in name and name not in NUMBER_RESULTS
+
+
+def write(path, text):
+    """Writes a file, and leaves one that has this text as it is, so that nothing is compiled again."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
 
 
 def value_complaint(words, opaque, callbacks, is_result=False):
@@ -40,7 +72,7 @@ def value_complaint(words, opaque, callbacks, is_result=False):
     match = re.fullmatch(r"((?:const )?\w+) ?((?:\*(?: ?const\b)? ?)*) ?(\w*)", words)
     if not match:
         return f"`{words}` is not a plain value or pointer"
-    kind, stars = match.group(1).removeprefix("const "), match.group(2).count("*")
+    kind, stars = match.group(1).split()[-1], match.group(2).count("*")
     if kind in NUMBERS:
         return None
     if kind == "void" and (stars or is_result):

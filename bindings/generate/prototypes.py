@@ -1,0 +1,77 @@
+"""Writes the module of the Python package that has the prototype of every public function:
+python bindings/generate/prototypes.py FOLDER makes FOLDER/_prototypes.py"""
+
+import sys
+from pathlib import Path
+
+import headers
+
+INTRO = '''"""Every function of the library with the types of its result and arguments; made from the headers in include/hooke by
+bindings/generate/prototypes.py.
+
+Handles are pointers to types without members, so that a state cannot be passed where a system is expected. Arguments of
+callbacks that are arrays or states arrive as plain addresses, which is quicker than typed pointers.
+"""
+
+from __future__ import annotations
+
+from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
+from typing import Any
+
+
+class STATUS(c_int32):
+    """Marks a result that is a status."""
+
+
+def _handle(name: str) -> Any:
+    return POINTER(type(name, (Structure,), {}))
+
+
+INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
+DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
+
+'''
+TYPES = {"int32_t": "INT32", "int64_t": "INT64", "double": "DOUBLE", "double *": "DOUBLES", "int64_t *": "INTEGERS",
+         "char *": "TEXT", "void *": "ADDRESS", "void": "None"}
+
+
+def short(name):
+    """STATE for hooke_state."""
+    return name[len("hooke_"):].upper()
+
+
+def argument(kind, callbacks):
+    """The name of a type such as "const double *" in Python."""
+    plain = kind[len("const "):] if kind.startswith("const ") else kind
+    if plain in TYPES:
+        return TYPES[plain]
+    name, stars = plain.split()
+    return short(name) if stars == "*" or name in callbacks else f"POINTER({short(name)})"
+
+
+def passed(kind):
+    """The same in a callback: arrays and handles are addresses."""
+    return "ADDRESS" if kind.endswith("*") and "char" not in kind else argument(kind, ())
+
+
+def row(function, callbacks):
+    result, name, parameters = function
+    first = "STATUS" if headers.is_status(result, name) else argument(result, callbacks)
+    return f'    "{name}": ({", ".join([first, *(argument(kind, callbacks) for kind, _ in parameters)])},),'
+
+
+def module(public):
+    """The text of the module, from {header: text}."""
+    text = "".join(public.values())
+    callbacks = list(headers.declared(text, "typedef"))
+    names = {name for _, name, _ in callbacks}
+    return INTRO + "\n".join([
+        *(f'{short(name)} = _handle("{name}")' for name in sorted(headers.opaque_types(text))), "",
+        *(f"{short(name)} = CFUNCTYPE({', '.join(map(passed, [result, *(kind for kind, _ in parameters)]))})"
+          for result, name, parameters in callbacks), "",
+        "# name: (result, argument, argument, ...)", "PROTOTYPES = {",
+        *(row(function, names) for function in headers.declared(text)), "}", ""])
+
+
+if __name__ == "__main__":
+    headers.write(Path(sys.argv[1]) / "_prototypes.py", module(headers.public()))

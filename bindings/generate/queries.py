@@ -1,0 +1,93 @@
+"""Procedures of Fortran that hand numbers and texts on and nothing else. A type that extends hooke_system_queries has one for
+every function hooke_system_<name>() of C that takes and gives only those and that no procedure written by hand calls."""
+
+import re
+
+import guard
+import headers
+
+COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers say which one, and count from 1 in Fortran
+SIMPLE = {"double", "int32_t", "int64_t", "const char *"}
+RESULTS = {"int32_t", "int64_t", "double", "const char *", "void"}
+
+
+def called(texts):
+    """Names of C, as c_<name>, that the modules use outside of their use statements."""
+    lines = re.sub(r"&\s*\n\s*", " ", re.sub(r"!.*", "", "\n".join(texts))).splitlines()
+    return {name for line in lines if not line.strip().startswith("use ") for name in re.findall(r"\bc_\w+", line)}
+
+
+def argument(name, kind, what):
+    """(declaration, what is passed, what is done before) of one parameter."""
+    if kind == "double":
+        return f"real(c_double), intent(in) :: {what}", what, []
+    if kind == "const char *" and guard.may_be_no_text(name, what):
+        return (f"character(*), intent(in), optional :: {what}", f"c_{what}",
+                [f"character(:), allocatable :: c_{what}", f"call to_c_if({what}, c_{what})"])
+    if kind == "const char *":
+        return f"character(*), intent(in) :: {what}", f"to_c({what})", []
+    number = f"int({what}, c_{kind})" if kind == "int32_t" or what in COUNTS else f"zero_based({what})"
+    return f"integer, intent(in) :: {what}", number, []
+
+
+def answer(result, name, whats):
+    """(type, how it is made of what C returns) of the result of a function."""
+    if result == "const char *":
+        return "character(:), allocatable", "to_text({})"
+    if result == "double":
+        return "real(c_double)", "to_number({}, what)" if "what" in whats else "{}"
+    if result == "int64_t":
+        return ("integer", "to_integer({})") if name.endswith(("_count", "_size")) else ("integer(c_int64_t)", "{}")
+    return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
+
+
+def procedure(function):
+    """One procedure as lines."""
+    result, name, ((own, _), *parameters) = function
+    short, of = name[len("hooke_"):], own.split()[-2]
+    whats = [what for _, what in parameters]
+    arguments = [argument(name, kind, what) for kind, what in parameters]
+    head = [f"class({of}_queries), intent({'in' if own.startswith('const') else 'inout'}) :: self", *(a[0] for a in arguments)]
+    call = f"c_{short}({', '.join(['self%address()', *(a[1] for a in arguments)])})"
+    first, then = [a[2][0] for a in arguments if a[2]], [a[2][1] for a in arguments if a[2]]
+    if headers.is_status(result, name):
+        kind, whats = "subroutine", [*whats, "status"]
+        head.append("integer, intent(out), optional :: status")
+        body = ["if (self%is_missing(status)) return", *then, f"call accept({call}, status)"]
+    elif result == "void":
+        kind, body = "subroutine", [*then, f"call {call}"]
+    else:
+        kind, (of_result, made) = "function", answer(result, name, whats)
+        first = [f"{of_result} :: found", *first]
+        body = [*then, f"found = {made.format(call)}"]
+    title = f"{kind} {short}({', '.join(['self', *whats])}){' result(found)' if kind == 'function' else ''}"
+    return [f"  {title}", *(f"    {line}" for line in [*head, *first, *body]), f"  end {kind}", ""]
+
+
+def is_query(function, type_, by_hand):
+    result, name, parameters = function
+    mine = name.startswith(type_ + "_") and parameters and parameters[0][0] in (f"{type_} *", f"const {type_} *")
+    return (mine and result in RESULTS and all(kind in SIMPLE for kind, _ in parameters[1:])
+            and not name.endswith(("_destroy", "_close")) and "c_" + name[len("hooke_"):] not in by_hand)
+
+
+def module(type_, public, by_hand):
+    found = {header: [f for f in headers.declared(text) if is_query(f, type_, by_hand)] for header, text in public.items()}
+    names = [name for functions in found.values() for _, name, _ in functions]
+    uses = [f"  use hooke_c_{header[:-2]}" for header, functions in found.items() if functions]
+    bound = [f"    procedure :: {name[len(type_) + 1:]} => {name[len('hooke_'):]}" for name in names]
+    return ["", f"! What {type_} does as the functions of C of the same names; numbers of things count from 1 here.",
+            f"module hooke_queries_of_{type_[len('hooke_'):]}",
+            "  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t",
+            "  use hooke_base, only: accept, to_c, to_c_if, to_integer, to_number, to_text, zero_based", *uses,
+            "  use hooke_handles, only: hooke_handle", "  implicit none", "  private", f"  public :: {type_}_queries", "",
+            f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound, "  end type", "", "contains", "",
+            *(line for functions in found.values() for f in functions for line in procedure(f)), "end module"]
+
+
+def modules(public, texts):
+    """The text of queries.f90, from {header: text} and the modules that are written by hand."""
+    by_hand = called(texts)
+    types = re.findall(r"extends\((hooke_\w+)_queries\)", "\n".join(texts))
+    return "\n".join(["! Made from the headers in include/hooke by bindings/generate/queries.py.",
+                      *(line for type_ in types for line in module(type_, public, by_hand))])

@@ -1,0 +1,134 @@
+"""Writes examples/scene.schema.json from scene.template.json and the option tables of the library, of the build in
+build/release if no other is in PYTHONPATH: python bindings/generate/schema.py"""
+
+import json
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TEMPLATE = Path(__file__).with_name("scene.template.json")
+SCHEMA = ROOT / "examples/scene.schema.json"
+LARGEST = 1e300  # a bound that stands for none
+WIDTH = 110
+
+
+def named(name):
+    return {"$ref": f"#/$defs/{name}"}
+
+
+def number(value):
+    return int(value) if float(value).is_integer() else float(value)
+
+
+def scalar(row):
+    schema = {"type": "integer" if row.whole else "number"}
+    if row.low is not None and row.low > -LARGEST:
+        schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
+    if row.high is not None and row.high < LARGEST:
+        schema["maximum"] = number(row.high)
+    return schema
+
+
+def array(items, least, most):
+    bounds = {"minItems": least, "maxItems": most}
+    return {"type": "array", "items": items, **{key: bound for key, bound in bounds.items() if bound}}
+
+
+def numbers(row):
+    """An array, or one in a file; or what else the table lets through."""
+    if (row.min_count, row.max_count, row.columns) == (1, None, None):
+        ways = [named("positive numbers" if row.above_low else "numbers from 0")]
+    else:
+        items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
+        rows = array(items, row.columns, row.columns) if row.columns else items
+        width = row.columns or 1
+        ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    if row.words:
+        ways.insert(0, {"enum": row.words})
+    return ways[0] if len(ways) == 1 else {"oneOf": ways}
+
+
+def value(row, methods):
+    if row.name in ("method", "file"):
+        return {"enum": methods} if row.name == "method" else named("path")
+    return {"number": scalar, "numbers": numbers, "choice": lambda row: {"enum": row.words},
+            "flag": lambda _: {"type": "boolean"}, "text": lambda _: {"type": "string"}}[row.type](row)
+
+
+def default(row):
+    if row.type in ("choice", "text") or row.default in row.words:
+        return row.default
+    if row.type == "flag":
+        return row.default == "true"
+    values = [number(float(word)) for word in row.default.split(",")]
+    return values if row.max_count else values[0]
+
+
+def members(rows, family):
+    return [row._replace(name=row.name.partition(".")[2]) for row in rows if row.name.startswith(family + ".")]
+
+
+class Tables:
+    """Objects of the schema from tables of options, each with what the template has of it."""
+
+    def __init__(self, template, methods):
+        self.template, self.methods = template["$defs"], methods
+
+    def inner(self, rows, family):
+        inside = members(rows, family)
+        springs = {row.name for row in inside} >= {"damping", "damping_ratio"}
+        found = self.table(inside, self.template["family"] if springs else {})
+        return named("family") if springs and found == self.family else found
+
+    def table(self, rows, template, **own):
+        properties = {**own, **template.get("properties", {})}
+        for row in rows:
+            if "." not in row.name:
+                schema = self.inner(rows, row.name) if row.type == "family" else value(row, self.methods)
+                schema = {**schema, "default": default(row)} if row.default else schema
+                properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
+        required = [*(["kind"] if own else []), *template.get("required", []),
+                    *(row.name for row in rows if row.required and "." not in row.name)]
+        one = {"oneOf": [{"required": ["mass"]}, {"required": ["density"]}]} if "density" in properties else {}
+        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one,
+                **{key: words for key, words in template.items() if key not in ("required", "properties")},
+                "properties": properties}
+
+    def part(self, kind, rows):
+        return self.table(rows, self.template.get(kind, {}), kind={"const": kind},
+                          name={"type": "string", "description": "of the part, and the first word of its groups"})
+
+
+def schema():
+    import hooke
+
+    template = json.loads(TEMPLATE.read_text(encoding="utf-8"))
+    definitions, kinds = template["$defs"], hooke.part_kinds()
+    tables = Tables(template, [method.name for method in hooke.methods()])
+    rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}
+    tables.family = tables.table(members(rows["rope"], "stretch"), definitions["family"])
+    parts = {kind: tables.part(kind, rows[kind]) for kind in kinds}
+    springs = tables.table(hooke.Options.for_springs().rows, definitions["springs"])
+    run = tables.table(hooke.Options.for_run().rows, definitions["run"])
+    template["properties"]["parts"]["items"] = {
+        "type": "object", "required": ["kind"], "properties": {"kind": {"enum": kinds}},
+        "allOf": [{"if": {"properties": {"kind": {"const": kind}}}, "then": named(kind)} for kind in kinds]}
+    template["$defs"] = {**definitions, "springs": springs, "family": tables.family, **parts, "run": run}
+    return template
+
+
+def laid_out(value, indent=0, lead=0):
+    """JSON with everything in one line that fits into it."""
+    line = json.dumps(value, ensure_ascii=False)
+    if len(line) + indent + lead < WIDTH or not isinstance(value, (dict, list)):
+        return line
+    keys = [json.dumps(key) + ": " for key in value] if isinstance(value, dict) else [""] * len(value)
+    values = value.values() if isinstance(value, dict) else value
+    inside = [" " * (indent + 2) + key + laid_out(one, indent + 2, len(key)) for key, one in zip(keys, values)]
+    first, last = "{}" if isinstance(value, dict) else "[]"
+    return f"{first}\n" + ",\n".join(inside) + f"\n{' ' * indent}{last}"
+
+
+if __name__ == "__main__":
+    sys.path.append(str(ROOT / "build/release/python"))
+    SCHEMA.write_text(laid_out(schema()) + "\n", encoding="utf-8")
