@@ -92,8 +92,7 @@ static int make_matrix(struct hk_factor *x, const struct hk_columns *blocks) {
   m->size = 3 * x->free_count;
   m->start = take(x, (int64_t)m->size + 1, sizeof *m->start);
   m->row = take(x, numbers, sizeof *m->row);
-  m->number = take(x, numbers, sizeof *m->number);
-  if (m->start == NULL || m->row == NULL || m->number == NULL) return 0;
+  if (m->start == NULL || m->row == NULL) return 0;
   int32_t count = 0;
   for (int32_t k = 0; k < m->size; k++) {
     m->start[k] = count;
@@ -161,20 +160,40 @@ static void count_numbers(struct hk_factor *x) {
 }
 
 /* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
-static int make_triangle(struct hk_factor *x) {
+static int begin_triangle(struct hk_factor *x) {
   struct hk_triangle *l = &x->triangle;
   const int32_t *count = hk_cholmod_counts(x->cholmod);
   l->count = x->free_count;
   l->begin = take(x, l->count + 1, sizeof *l->begin);
   for (int64_t k = 0; l->begin && k < l->count; k++)
     l->begin[k + 1] = l->begin[k] + (count[3 * k] - 3) / 3;
-  const int64_t blocks = l->begin ? l->begin[l->count] : 0;
-  l->row = take(x, blocks, sizeof *l->row);
-  l->block = take(x, 9 * blocks + HOOKE_TRIANGLE_SPARE, sizeof *l->block);
-  l->corner = take(x, 6 * l->count, sizeof *l->corner);
-  x->vector = take(x, 3 * l->count + HOOKE_TRIANGLE_SPARE, sizeof *x->vector);
-  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
-  return l->begin && l->row && l->block && l->corner && x->vector;
+  return l->begin != NULL;
+}
+
+/* Numbers of the matrix, of the triangle and of the vector. */
+static int64_t count_taken(const struct hk_factor *x) {
+  const struct hk_triangle *l = &x->triangle;
+  return x->matrix.start[x->matrix.size] + 9 * l->begin[l->count] + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE;
+}
+
+/* Before the first numbers, since many a factor is analysed and not computed. */
+static int take_numbers(struct hk_factor *x) {
+  struct hk_triangle *l = &x->triangle;
+  const int64_t blocks = l->begin[l->count], bytes = hk_factor_memory_computed(x);
+  x->matrix.number = hk_new(count_taken(x), sizeof(double));
+  l->row = hk_new(blocks, sizeof *l->row);
+  if (x->matrix.number == NULL || l->row == NULL) {
+    hk_free(x->matrix.number);
+    hk_free(l->row);
+    x->matrix.number = NULL;
+    l->row = NULL;
+    return 0;
+  }
+  l->block = x->matrix.number + x->matrix.start[x->matrix.size];
+  l->corner = l->block + 9 * blocks + HOOKE_TRIANGLE_SPARE;
+  x->vector = l->corner + 6 * l->count;
+  x->bytes = bytes;
+  return 1;
 }
 
 /* 1 with the factor found to be small enough, -1 where it is not. */
@@ -215,7 +234,7 @@ int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_fac
     number_free(x);
     found = analyse(x, &pattern, most);
     hk_pattern_release(&pattern);
-    if (found > 0) found = locate_blocks(x) && make_triangle(x);
+    if (found > 0) found = locate_blocks(x) && begin_triangle(x);
     if (found == 0) status = no_memory();
   }
   if (status == HOOKE_OK && found > 0)
@@ -228,10 +247,8 @@ int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_fac
 void hk_factor_destroy(struct hk_factor *x) {
   if (x == NULL) return;
   hk_cholmod_destroy(x->cholmod);
-  void *const blocks[] = {x->particle,       x->position,       x->matrix.start, x->matrix.row,
-                          x->matrix.number,  x->spring,         x->triple,       x->tetrahedron,
-                          x->vector,         x->triangle.begin, x->triangle.row, x->triangle.block,
-                          x->triangle.corner};
+  void *const blocks[] = {x->particle, x->position, x->matrix.start, x->matrix.row,     x->matrix.number,
+                          x->spring,   x->triple,   x->tetrahedron,  x->triangle.begin, x->triangle.row};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
     hk_free(blocks[k]);
   hk_free(x);
@@ -239,6 +256,13 @@ void hk_factor_destroy(struct hk_factor *x) {
 
 int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
+}
+
+int64_t hk_factor_memory_computed(const struct hk_factor *x) {
+  if (x->triangle.row) return x->bytes;
+  return x->bytes + count_taken(x) * (int64_t)sizeof(double) +
+         x->triangle.begin[x->triangle.count] * (int64_t)sizeof(int32_t) +
+         (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
 }
 
 int64_t hk_factor_numbers(const struct hk_factor *x) {
@@ -333,6 +357,7 @@ static int32_t fill_triangle(struct hk_factor *x) {
 
 int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const struct hk_tangent *tangent,
                           const struct hk_altitude_tangent *altitude, double alpha) {
+  if (x->triangle.row == NULL && !take_numbers(x)) return no_memory();
   memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
   add_diagonal(x, diagonal);
   add_springs(x, tangent);

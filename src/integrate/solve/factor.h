@@ -15,12 +15,14 @@ struct hk_factor;
 
 int32_t hk_factor_is_built(void);
 
-/* Finds order and sizes, and takes memory for the numbers where they are not more than `most`: HOOKE_OK with
- * *factor NULL if they are, and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
+/* Finds order and sizes where the numbers are not more than `most`: HOOKE_OK with *factor NULL if they are, and
+ * in a build without CHOLMOD. Memory for the numbers is taken when they are first computed. HOOKE_NO_MEMORY. */
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes */
+/* Bytes: now, and once it has been computed. */
+int64_t hk_factor_memory(const struct hk_factor *factor);
+int64_t hk_factor_memory_computed(const struct hk_factor *factor);
 int64_t hk_factor_numbers(const struct hk_factor *factor);
 double hk_factor_products(const struct hk_factor *factor); /* multiplications that computing it takes */
 

@@ -364,8 +364,10 @@ int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
 }
 
 int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
+  const int64_t before = hk_factor_memory(reduced->whole);
   const int32_t positive =
       hk_factor_compute(reduced->whole, reduced->block, &reduced->tangent, reduced->altitude, reduced->alpha);
+  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
   reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
 }
