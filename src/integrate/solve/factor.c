@@ -170,32 +170,6 @@ static int begin_triangle(struct hk_factor *x) {
   return l->begin != NULL;
 }
 
-/* Numbers of the matrix, of the triangle and of the vector. */
-static int64_t count_taken(const struct hk_factor *x) {
-  const struct hk_triangle *l = &x->triangle;
-  return x->matrix.start[x->matrix.size] + 9 * l->begin[l->count] + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE;
-}
-
-/* Before the first numbers, since many a factor is analysed and not computed. */
-static int take_numbers(struct hk_factor *x) {
-  struct hk_triangle *l = &x->triangle;
-  const int64_t blocks = l->begin[l->count], bytes = hk_factor_memory_computed(x);
-  x->matrix.number = hk_new(count_taken(x), sizeof(double));
-  l->row = hk_new(blocks, sizeof *l->row);
-  if (x->matrix.number == NULL || l->row == NULL) {
-    hk_free(x->matrix.number);
-    hk_free(l->row);
-    x->matrix.number = NULL;
-    l->row = NULL;
-    return 0;
-  }
-  l->block = x->matrix.number + x->matrix.start[x->matrix.size];
-  l->corner = l->block + 9 * blocks + HOOKE_TRIANGLE_SPARE;
-  x->vector = l->corner + 6 * l->count;
-  x->bytes = bytes;
-  return 1;
-}
-
 /* 1 with the factor found to be small enough, -1 where it is not. */
 static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_t most) {
   if (pattern->count > most / 9) return -1;
@@ -258,11 +232,32 @@ int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
 }
 
-int64_t hk_factor_memory_computed(const struct hk_factor *x) {
-  if (x->triangle.row) return x->bytes;
-  return x->bytes + count_taken(x) * (int64_t)sizeof(double) +
-         x->triangle.begin[x->triangle.count] * (int64_t)sizeof(int32_t) +
-         (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
+/* All numbers are in one block: of the matrix, of the triangle, and the vector. */
+int32_t hk_factor_reserve(struct hk_factor *x) {
+  struct hk_triangle *l = &x->triangle;
+  const int64_t own = x->matrix.start[x->matrix.size], blocks = l->begin[l->count];
+  if (l->row) return HOOKE_OK;
+  double *numbers = hk_new(own + 9 * blocks + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE, sizeof *numbers);
+  l->row = numbers ? take(x, blocks, sizeof *l->row) : NULL;
+  if (l->row == NULL) {
+    hk_free(numbers);
+    return no_memory();
+  }
+  x->matrix.number = numbers;
+  l->block = numbers + own;
+  l->corner = l->block + 9 * blocks + HOOKE_TRIANGLE_SPARE;
+  x->vector = l->corner + 6 * l->count;
+  x->bytes += (own + 9 * blocks + 9 * l->count) * (int64_t)sizeof *numbers;
+  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
+  return HOOKE_OK;
+}
+
+int64_t hk_factor_analysis_memory(const hooke_system *system) {
+  const int64_t n = system->particle_count,
+                per_particle = (2 + 3) * (int64_t)sizeof(int32_t) + (int64_t)sizeof(int64_t),
+                pairs = system->springs.count + 3 * system->bending.count + 6 * system->altitudes.count;
+  return n * per_particle + pairs * (int64_t)sizeof(struct place) +
+         9 * (n + pairs) * (int64_t)sizeof(int32_t);
 }
 
 int64_t hk_factor_numbers(const struct hk_factor *x) {
@@ -357,7 +352,6 @@ static int32_t fill_triangle(struct hk_factor *x) {
 
 int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const struct hk_tangent *tangent,
                           const struct hk_altitude_tangent *altitude, double alpha) {
-  if (x->triangle.row == NULL && !take_numbers(x)) return no_memory();
   memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
   add_diagonal(x, diagonal);
   add_springs(x, tangent);
