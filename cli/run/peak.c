@@ -37,6 +37,11 @@ static int64_t count_estimate(const struct cli_setup *setup, int64_t of_method) 
   return 8 * positions + of_method;
 }
 
+/* The pages of libhdf5 and its buffers, and a frame on its way into the file, as measured on cloths. */
+static int64_t count_output(const struct cli_setup *setup) {
+  return 4800000 + 150 * hooke_system_particle_count(setup->system);
+}
+
 /* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
                             int64_t *bytes) {
@@ -51,7 +56,7 @@ static int32_t count_method(const struct cli_arguments *arguments, const struct 
 }
 
 int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                    struct cli_peak loaded, int64_t *bytes, int64_t *counted) {
+                    struct cli_peak loaded, struct cli_foretold *foretold) {
   const char *method = hooke_options_text(setup->options, "method");
   const int32_t adaptive = hooke_method_is_adaptive(method);
   const int32_t can_run = !(adaptive >= 0 && !hooke_method_is_built(method)) &&
@@ -63,7 +68,8 @@ int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setu
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t running =
       (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup, of_method) : 0);
-  *bytes = running > loaded.most ? running : loaded.most;
-  *counted = model + of_method;
+  foretold->most = running > loaded.most ? running : loaded.most;
+  foretold->written = foretold->most + count_output(setup);
+  foretold->counted = model + of_method;
   return HOOKE_EXIT_DONE;
 }

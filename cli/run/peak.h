@@ -11,10 +11,15 @@ struct cli_peak {
 /* To be asked for right after the scene was loaded, by what a run does as well. */
 struct cli_peak cli_peak_look(void);
 
-/* Bytes at the peak of 'hooke run' without -o: of loading, or of what is resident after it with all that the
- * method takes; and `counted`, the part that belongs to system, state and method. A method whose options do
- * not suffice is left out. Failures are reported and come back as exit code. */
+/* Bytes at the peak of a 'hooke run': */
+struct cli_foretold {
+  int64_t most;    /* of loading, or of what is resident after it with all that the method takes */
+  int64_t written; /* with -o */
+  int64_t counted; /* the part that belongs to system, state and method */
+};
+
+/* A method whose options do not suffice is left out. Failures are reported and come back as exit code. */
 int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                    struct cli_peak loaded, int64_t *bytes, int64_t *counted);
+                    struct cli_peak loaded, struct cli_foretold *foretold);
 
 #endif

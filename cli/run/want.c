@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MOST_RISE = 0.01; /* of what the scene has: from there on energy grows by itself */
+/* Of what the scene has: from there on energy grows by itself, or more becomes heat than there is. */
+static const double MOST_RISE = 0.01, MOST_EXCESS = 0.01;
 
 /* ---- picking ---- */
 
@@ -99,12 +100,19 @@ static const char *source_of(const struct cli_run *run, const char *by) {
 }
 
 static void warn(const struct cli_run *run) {
-  const double rise = number_of(run, "energy_rise");
-  if (rise > MOST_RISE && !run->arguments->quiet)
+  const double rise = number_of(run, "energy_rise"), excess = number_of(run, "heat_excess");
+  if (run->arguments->quiet) return;
+  if (rise > MOST_RISE)
     cli_report_words(run->arguments,
                      "warning: energy rose by itself, over the last half of the run by %.3g %% of what the "
                      "scene has: this step is too large, or the method does not suit the scene",
                      100.0 * rise);
+  if (excess > MOST_EXCESS)
+    cli_report_words(
+        run->arguments,
+        "warning: damping and drag took more energy than there was to take, by %.3g %% of what the "
+        "scene has: velocities reverse at each step, which is too large for the damping",
+        100.0 * excess);
 }
 
 static void print_verdict(const struct cli_run *run) {
@@ -147,6 +155,7 @@ static void print_json_error(const struct cli_run *run, struct cli_json *json) {
   cli_json_number(json, "known_until", number_of(run, "known_until"));
   cli_json_text(json, "by", by);
   cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
+  cli_json_number(json, "heat_excess", number_of(run, "heat_excess"));
   cli_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
   cli_json_close(json);
 }

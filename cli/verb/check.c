@@ -18,9 +18,9 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_cost *cost;        /* NULL: not asked for */
-  double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
-  int64_t memory, counted; /* at the peak of a run; of system, state and method alone [bytes] */
+  hooke_cost *cost; /* NULL: not asked for */
+  double *bound;    /* on the step of each method at the initial state [s]; NaN where none is known */
+  struct cli_foretold memory;
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
 };
@@ -128,14 +128,14 @@ static double bytes_per_spring(const struct check *check) {
 }
 
 static double bytes_per_particle(const struct check *check) {
-  return (double)(check->counted - hooke_system_spring_memory(check->setup.system)) /
+  return (double)(check->memory.counted - hooke_system_spring_memory(check->setup.system)) /
          (double)hooke_system_particle_count(check->setup.system);
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64
-         " bytes at the peak of a run, without -o and without a factor of an implicit method",
-         check->memory);
+  printf("memory       %" PRId64 " bytes at the peak of a run, %" PRId64
+         " with -o; the numbers of a factor come on top where an implicit method finds that one pays",
+         check->memory.most, check->memory.written);
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_spring_count(check->setup.system) > 0)
@@ -163,7 +163,8 @@ static void print_json(const struct check *check) {
     cli_json_text(&json, NULL, hooke_system_force_name(system, i));
   }
   cli_json_close(&json);
-  cli_json_count(&json, "memory_bytes", check->memory);
+  cli_json_count(&json, "memory_bytes", check->memory.most);
+  cli_json_count(&json, "memory_bytes_output", check->memory.written);
   cli_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
   cli_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
   cli_json_open(&json, "step_limit", '{');
@@ -253,7 +254,7 @@ static void print_words(const struct check *check) {
 }
 
 static int check_and_tell(struct check *check, struct cli_peak loaded) {
-  int code = cli_peak_of_run(check->arguments, &check->setup, loaded, &check->memory, &check->counted);
+  int code = cli_peak_of_run(check->arguments, &check->setup, loaded, &check->memory);
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = find_bounds(check);
   if (status == HOOKE_OK) warn_of_method(check);
@@ -289,7 +290,8 @@ const struct cli_verb cli_verb_check = {
     .name = "check",
     .summary = "validates a scene and tells its size, its memory and its step limits, without running it",
     .text =
-        "Validates the scene and tells its size, the memory at the peak of a run without -o, and for each "
+        "Validates the scene and tells its size, the memory at the peak of a run, with -o and without, and "
+        "for each "
         "method the largest step that is certain to be stable at the start, in the time of loading it. With "
         "--cost also what each ingredient costs: time of a step on this machine, unless --predict leaves it "
         "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",

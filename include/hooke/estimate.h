@@ -58,9 +58,12 @@ HOOKE_API int32_t hooke_estimate_refine(hooke_estimate *estimate, hooke_options 
 
 /* "estimate" [m], NaN if it is not known; "known_from" and "known_until" [s]: the times between which that
  * error was made, the start of the run and its end or, where nobody can know for longer, the time until which
- * the reference can be trusted; "wanted" [m]; "met" (1, 0, NaN if nobody can know); "energy_rise": by how
- * much energy rose by itself over the last half of the run, as a share of what the scene has, NaN if that
- * cannot be told; "seconds": what picking and measuring took so far. NaN for another word. */
+ * the reference can be trusted; "wanted" [m]; "met" (1, 0, NaN if nobody can know); "energy_rise": by how much
+ * energy rose by itself over the last half of the run, as a share of what the scene has, NaN if that cannot be
+ * told; "heat_excess": by how much more energy damping and drag took, at the beginning or in the last piece,
+ * than there was to take, as such a share and as far as it is the heat of velocities that reverse at each
+ * step; NaN with callbacks or error control, or where there was no time to sum it; "seconds": what picking and
+ * measuring took so far. NaN for another word. */
 HOOKE_API double hooke_estimate_number(const hooke_estimate *estimate, const char *what);
 /* "by": "half-step", "tolerance", "slice" (of a run at half the step or a hundredth of the tolerance) or
  * "reference"; NULL if there is no estimate. "note": why there is none, or why the want is not met; "" if

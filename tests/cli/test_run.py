@@ -20,7 +20,7 @@ pytestmark = pytest.mark.everything
 KEYS = ["status", "method", "step", "time", "steps", "force_evaluations", "wall_seconds", "particles", "springs",
         "energy", "momentum", "output", "diagnosis"]
 ADAPTIVE_KEYS = KEYS[:2] + ["rtol", "atol"] + KEYS[3:]
-ERROR_KEYS = ["estimate", "known_from", "known_until", "by", "energy_rise", "note"]
+ERROR_KEYS = ["estimate", "known_from", "known_until", "by", "energy_rise", "heat_excess", "note"]
 
 
 def is_number(value):
@@ -51,6 +51,24 @@ def test_json_has_exactly_the_keys_and_types(hooke, write, method, keys):
     else:
         assert (value["rtol"], value["atol"]) == (1e-6, 1e-9)
         assert value["force_evaluations"] >= value["steps"] > 10
+
+
+def test_more_heat_than_there_is_comes_with_a_warning(hooke, write):
+    """A damper whose velocity turns round at each step, by Verlet; and at a step that resolves it."""
+    scene = {
+        "hooke": 1,
+        "particles": {"position": [[0, 0, 0], [1, 0, 0]], "velocity": [[0, 0, 0], [1, 0, 0]], "mass": 1, "pinned": [0]},
+        "springs": [{"between": [[0, 1]], "stiffness": 1, "damping": 100}],
+        "run": {"method": "verlet", "duration": 10},
+    }
+    coarse, fine = (hooke("run", write(scene), "--step", step) for step in ("0.5", "1e-3"))
+    assert (coarse.code, fine.code) == (0, 0)
+    assert "warning: damping and drag took more energy than there was to take, by " in coarse.err
+    assert "took more energy" not in fine.err
+    excess = [hooke("run", write(scene), "--step", step, "--json").json["error"]["heat_excess"] for step in ("0.5", "1e-3")]
+    assert excess[0] > 1 and 0 <= excess[1] < 1e-3
+    quiet = hooke("run", write(scene), "--step", "0.5", "--quiet")
+    assert quiet.err == ""
 
 
 def test_options_come_before_the_scene(hooke, write):

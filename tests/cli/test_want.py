@@ -71,7 +71,7 @@ def in_file(path):
 def test_the_file_has_the_error(hooke, words, tmp_path):
     value = hooke("run", ENDS["six-particles"].scene, "--duration", "0.5", "-o", "out.h5", "--json", *words).json
     want, error = in_file(tmp_path / "out.h5")
-    told = value.get("error", dict.fromkeys(["estimate", "known_from", "known_until", "by", "energy_rise"]))
+    told = value.get("error", dict.fromkeys(["estimate", "known_from", "known_until", "by", "energy_rise", "heat_excess"]))
     assert error == {"note": "", "met": want["met"], **told}
     assert want == {name: value.get("want", {}).get(name) for name in ["wanted", "met"]}
     with h5py.File(tmp_path / "out.h5") as file:

@@ -80,16 +80,16 @@ static void test_a_coarse_run_is_judged_in_a_last_piece(void **unused) {
   hooke_system_destroy(system);
 }
 
-static double rise_of(const hooke_system *system, const char *method, double step) {
+static double number_of_run(const hooke_system *system, const char *method, double step, const char *what) {
   hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
   hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
-  const double rise = hooke_estimate_number(estimate, "energy_rise");
+  const double number = hooke_estimate_number(estimate, what);
   hooke_estimate_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
-  return rise;
+  return number;
 }
 
 /* By forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
@@ -98,12 +98,110 @@ static void test_energy_that_grows_by_itself_is_seen(void **unused) {
   hooke_system *system = small_oscillator(OMEGA);
   const double step = 1e-3, rate = OMEGA * OMEGA * step;
   const double expected = exp(rate * DURATION) - exp(0.5 * rate * DURATION);
-  const double found = rise_of(system, "forward-euler", step);
+  const double found = number_of_run(system, "forward-euler", step, "energy_rise");
   if (!(found > 0.9 * expected && found < 1.1 * expected))
     check_failed("a rise of %.4g of the energy, not of %.4g", found, expected);
-  check_close(rise_of(system, "symplectic-euler", 1e-2), 0.0, 0.0);
-  check_close(rise_of(system, "backward-euler", 1e-2), 0.0, 0.0);
+  check_close(number_of_run(system, "symplectic-euler", 1e-2, "energy_rise"), 0.0, 0.0);
+  check_close(number_of_run(system, "backward-euler", 1e-2, "energy_rise"), 0.0, 0.0);
   hooke_system_destroy(system);
+}
+
+/* One particle that drag alone slows down, by h lambda a step. */
+static hooke_system *slowed_particle(double rate) {
+  hooke_system *system;
+  const double mass = 2.0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, 1, &mass, NULL));
+  check_ok(hooke_system_set_drag(system, rate * mass));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* By forward Euler the velocity is r = 1 - h lambda times as large after a step. Where r < -1/2 all of the heat
+ * from the third step on is that of a velocity that reverses: 2 h lambda r^6/(1 - r^2) of the energy. The sum
+ * may be cut short on a machine that is busy. */
+static void test_heat_that_was_not_there_is_seen(void **unused) {
+  (void)unused;
+  const double step = 1e-3, r = -0.9;
+  hooke_system *system = slowed_particle((1.0 - r) / step);
+  const double expected = 2.0 * (1.0 - r) * pow(r, 6.0) / (1.0 - r * r);
+  const double found = number_of_run(system, "forward-euler", step, "heat_excess");
+  if (!(found > 0.5 * expected && found < (1.0 + 1e-9) * expected))
+    check_failed("an excess of %.6g of the energy, not of %.6g", found, expected);
+  check_close(number_of_run(system, "forward-euler", 0.25 * step, "heat_excess"), 0.0, 0.0);
+  hooke_system_destroy(system);
+}
+
+/* Whatever decays without overshooting, and what oscillates, makes no heat of its own at any of these steps. */
+static void test_heat_that_was_there_is_no_excess(void **unused) {
+  (void)unused;
+  for (double x = 0.1; x < 2.0; x += 0.1) {
+    hooke_system *system = slowed_particle(x / 1e-3);
+    const double found = number_of_run(system, "rk4", 1e-3, "heat_excess");
+    if (!(found >= 0.0 && found <= 0.01)) check_failed("rk4 at h lambda = %g: %.3g", x, found);
+    hooke_system_destroy(system);
+  }
+  hooke_system *system = small_oscillator(OMEGA);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!hooke_method_is_built(method)) continue;
+    const double found = number_of_run(system, method, 1e-2, "heat_excess");
+    if (hooke_method_is_adaptive(method) ? !isnan(found) : found != 0.0)
+      check_failed("%s: %.3g of an oscillator without damping", method, found);
+  }
+  hooke_system_destroy(system);
+}
+
+/* A chain of 0.1 kg whose particles fly apart; dampers have rates of up to 400 gamma [1/s]. */
+static hooke_system *damped_chain(double gamma, int driven) {
+  enum { COUNT = 12 };
+  double place[3 * COUNT], velocity[3 * COUNT];
+  const double mass = 0.1;
+  const int64_t first = 0;
+  int64_t ends[2 * (COUNT - 1)];
+  hooke_options *options;
+  hooke_system *system;
+  for (int k = 0; k < 3 * COUNT; k++) {
+    place[k] = k % 3 ? 0.0 : 0.1 * (k / 3);
+    velocity[k] = k < 3 ? 0.0 : (k * 29 % 17 - 8) / 8.0;
+  }
+  for (int k = 0; k < 2 * (COUNT - 1); k++)
+    ends[k] = (k + 1) / 2;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, COUNT, place, velocity, 1, &mass, NULL));
+  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  check_ok(hooke_options_set_number(options, "damping", gamma));
+  check_ok(hooke_system_add_springs(system, "", COUNT - 1, ends, options));
+  hooke_options_destroy(options);
+  if (driven)
+    check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0, 0.2, 0}, 1.5, 0.0));
+  else
+    check_ok(hooke_system_pin(system, 1, &first));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* Euler's step is just below the limit of the damping. Verlet has none, since it takes the damping in its
+ * second half as it is after the step; from h lambda = 2 on its velocities reverse. */
+static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
+  (void)unused;
+  static const struct {
+    const char *method;
+    double gamma;
+  } coarse[] = {{"forward-euler", 0.24}, {"symplectic-euler", 0.22}, {"verlet", 2.0}};
+  for (int k = 0; k < 6; k++) {
+    hooke_system *system = damped_chain(coarse[k / 2].gamma, k % 2);
+    const double found = number_of_run(system, coarse[k / 2].method, 2e-2, "heat_excess");
+    if (!(found > 0.01)) check_failed("%s: %.3g at a coarse step", coarse[k / 2].method, found);
+    for (int64_t m = 0; m < hooke_method_count(); m++) {
+      const char *method = hooke_method_name(m);
+      if (hooke_method_is_adaptive(method) || !hooke_method_is_built(method)) continue;
+      const double fine = number_of_run(system, method, 5e-4, "heat_excess");
+      if (!(fine >= 0.0 && fine < 1e-3)) check_failed("%s: %.3g at a fine step", method, fine);
+    }
+    hooke_system_destroy(system);
+  }
 }
 
 static void check_want(const hooke_system *system, const char *method, double want) {
@@ -235,6 +333,9 @@ int main(void) {
       cmocka_unit_test(test_estimates_are_within_a_factor_of_three),
       cmocka_unit_test(test_a_coarse_run_is_judged_in_a_last_piece),
       cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
+      cmocka_unit_test(test_heat_that_was_not_there_is_seen),
+      cmocka_unit_test(test_heat_that_was_there_is_no_excess),
+      cmocka_unit_test(test_a_damper_too_stiff_for_the_step_is_seen),
       cmocka_unit_test(test_what_is_picked_keeps_to_the_wanted_error),
       cmocka_unit_test(test_a_picked_step_may_pass_the_bound_but_not_the_limit),
       cmocka_unit_test(test_what_cannot_be_asked_for),

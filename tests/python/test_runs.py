@@ -230,6 +230,7 @@ def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
     exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
     truly = abs(result.state.q[1, 0] - exact)
     assert truly / 3 < result.error.estimate < 3 * truly and result.error.met is None
+    assert result.error.heat_excess == 0
 
 
 @pytest.mark.parametrize(

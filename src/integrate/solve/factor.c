@@ -92,8 +92,7 @@ static int make_matrix(struct hk_factor *x, const struct hk_columns *blocks) {
   m->size = 3 * x->free_count;
   m->start = take(x, (int64_t)m->size + 1, sizeof *m->start);
   m->row = take(x, numbers, sizeof *m->row);
-  m->number = take(x, numbers, sizeof *m->number);
-  if (m->start == NULL || m->row == NULL || m->number == NULL) return 0;
+  if (m->start == NULL || m->row == NULL) return 0;
   int32_t count = 0;
   for (int32_t k = 0; k < m->size; k++) {
     m->start[k] = count;
@@ -161,20 +160,14 @@ static void count_numbers(struct hk_factor *x) {
 }
 
 /* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
-static int make_triangle(struct hk_factor *x) {
+static int begin_triangle(struct hk_factor *x) {
   struct hk_triangle *l = &x->triangle;
   const int32_t *count = hk_cholmod_counts(x->cholmod);
   l->count = x->free_count;
   l->begin = take(x, l->count + 1, sizeof *l->begin);
   for (int64_t k = 0; l->begin && k < l->count; k++)
     l->begin[k + 1] = l->begin[k] + (count[3 * k] - 3) / 3;
-  const int64_t blocks = l->begin ? l->begin[l->count] : 0;
-  l->row = take(x, blocks, sizeof *l->row);
-  l->block = take(x, 9 * blocks + HOOKE_TRIANGLE_SPARE, sizeof *l->block);
-  l->corner = take(x, 6 * l->count, sizeof *l->corner);
-  x->vector = take(x, 3 * l->count + HOOKE_TRIANGLE_SPARE, sizeof *x->vector);
-  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
-  return l->begin && l->row && l->block && l->corner && x->vector;
+  return l->begin != NULL;
 }
 
 /* 1 with the factor found to be small enough, -1 where it is not. */
@@ -215,7 +208,7 @@ int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_fac
     number_free(x);
     found = analyse(x, &pattern, most);
     hk_pattern_release(&pattern);
-    if (found > 0) found = locate_blocks(x) && make_triangle(x);
+    if (found > 0) found = locate_blocks(x) && begin_triangle(x);
     if (found == 0) status = no_memory();
   }
   if (status == HOOKE_OK && found > 0)
@@ -228,10 +221,8 @@ int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_fac
 void hk_factor_destroy(struct hk_factor *x) {
   if (x == NULL) return;
   hk_cholmod_destroy(x->cholmod);
-  void *const blocks[] = {x->particle,       x->position,       x->matrix.start, x->matrix.row,
-                          x->matrix.number,  x->spring,         x->triple,       x->tetrahedron,
-                          x->vector,         x->triangle.begin, x->triangle.row, x->triangle.block,
-                          x->triangle.corner};
+  void *const blocks[] = {x->particle, x->position, x->matrix.start, x->matrix.row,     x->matrix.number,
+                          x->spring,   x->triple,   x->tetrahedron,  x->triangle.begin, x->triangle.row};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
     hk_free(blocks[k]);
   hk_free(x);
@@ -239,6 +230,34 @@ void hk_factor_destroy(struct hk_factor *x) {
 
 int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
+}
+
+/* All numbers are in one block: of the matrix, of the triangle, and the vector. */
+int32_t hk_factor_reserve(struct hk_factor *x) {
+  struct hk_triangle *l = &x->triangle;
+  const int64_t own = x->matrix.start[x->matrix.size], blocks = l->begin[l->count];
+  if (l->row) return HOOKE_OK;
+  double *numbers = hk_new(own + 9 * blocks + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE, sizeof *numbers);
+  l->row = numbers ? take(x, blocks, sizeof *l->row) : NULL;
+  if (l->row == NULL) {
+    hk_free(numbers);
+    return no_memory();
+  }
+  x->matrix.number = numbers;
+  l->block = numbers + own;
+  l->corner = l->block + 9 * blocks + HOOKE_TRIANGLE_SPARE;
+  x->vector = l->corner + 6 * l->count;
+  x->bytes += (own + 9 * blocks + 9 * l->count) * (int64_t)sizeof *numbers;
+  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
+  return HOOKE_OK;
+}
+
+int64_t hk_factor_analysis_memory(const hooke_system *system) {
+  const int64_t n = system->particle_count,
+                per_particle = (2 + 3) * (int64_t)sizeof(int32_t) + (int64_t)sizeof(int64_t),
+                pairs = system->springs.count + 3 * system->bending.count + 6 * system->altitudes.count;
+  return n * per_particle + pairs * (int64_t)sizeof(struct place) +
+         9 * (n + pairs) * (int64_t)sizeof(int32_t);
 }
 
 int64_t hk_factor_numbers(const struct hk_factor *x) {

@@ -15,14 +15,20 @@ struct hk_factor;
 
 int32_t hk_factor_is_built(void);
 
-/* Finds order and sizes, and takes memory for the numbers where they are not more than `most`: HOOKE_OK with
- * *factor NULL if they are, and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
+/* Finds order and sizes where the numbers are not more than `most`: HOOKE_OK with *factor NULL if they are, and
+ * in a build without CHOLMOD. HOOKE_NO_MEMORY. */
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes */
+/* Bytes that order and sizes take at most, from the system alone. */
+int64_t hk_factor_analysis_memory(const hooke_system *system);
+int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes, so far */
 int64_t hk_factor_numbers(const struct hk_factor *factor);
 double hk_factor_products(const struct hk_factor *factor); /* multiplications that computing it takes */
+
+/* Takes memory for the numbers, once, before they are computed: many a factor is analysed and never computed.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_factor_reserve(struct hk_factor *factor);
 
 /* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 1; 0 where
  * rounding or numbers that are not finite leave it not positive; HOOKE_NO_MEMORY. */

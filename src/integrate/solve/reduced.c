@@ -9,8 +9,6 @@
 #include <string.h>
 
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
-/* Numbers of a factor that is still made: 2 GB. */
-static const int64_t MOST_NUMBERS = 100000000;
 /* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of
  * work on a vector for each number, of a solve with a factor for each of its numbers, of a factor for each of
  * its multiplications. */
@@ -47,6 +45,8 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   }
   it->own_memory +=
       numbers * (int64_t)sizeof(double) + system->altitudes.count * (int64_t)sizeof *reduced->altitude;
+  /* what a run comes to, unless it never iterates for long */
+  if (!symmetric && hk_factor_is_built()) it->own_memory += hk_factor_analysis_memory(system);
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++)
     reduced->rows_needed |= !is_own(system->force_row[k]) && system->force_row[k]->add_product;
   reduced->diagonal = part(&block, n);
@@ -356,14 +356,22 @@ int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double t
 
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   if (reduced->whole_state != HOOKE_WHOLE_UNKNOWN) return HOOKE_OK;
-  const int32_t status = hk_factor_create(reduced->integrator->system, MOST_NUMBERS, &reduced->whole);
+  const int32_t status = hk_factor_create(reduced->integrator->system, HOOKE_MOST_NUMBERS, &reduced->whole);
   if (status != HOOKE_OK) return status;
   reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
-  if (reduced->whole) reduced->integrator->own_memory += hk_factor_memory(reduced->whole);
   return HOOKE_OK;
 }
 
+int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced) {
+  const int64_t before = hk_factor_memory(reduced->whole);
+  const int32_t status = hk_factor_reserve(reduced->whole);
+  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
+  return status;
+}
+
 int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
+  const int32_t status = hk_reduced_reserve_whole(reduced);
+  if (status != HOOKE_OK) return status;
   const int32_t positive =
       hk_factor_compute(reduced->whole, reduced->block, &reduced->tangent, reduced->altitude, reduced->alpha);
   reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;

@@ -37,7 +37,10 @@ struct hk_reduced {
   double *rows; /* q, v, dq, dv and a product, in rows of x y z */
 };
 
-/* Its memory is counted as the method's. */
+/* Numbers of a factor that is still made: 2 GB. */
+enum { HOOKE_MOST_NUMBERS = 100000000 };
+
+/* Its memory is counted as the method's, with that for the analysis of a factor. */
 int32_t hk_reduced_create(hooke_integrator *integrator, int32_t kind, struct hk_reduced *reduced);
 void hk_reduced_release(struct hk_reduced *reduced);
 
@@ -52,6 +55,8 @@ int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tol
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
+/* Takes memory for the numbers of `whole` ahead of them, and counts it. HOOKE_NO_MEMORY. */
+int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
  * positive; HOOKE_NO_MEMORY. */
 int32_t hk_reduced_factorise(struct hk_reduced *reduced);

@@ -233,6 +233,7 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   s->direct_only = strcmp(word, "direct") == 0;
   s->by_blocks = strcmp(word, "blocks") == 0;
   if (status == HOOKE_OK && s->direct_only) status = hk_reduced_prepare_whole(&s->reduced);
+  if (status == HOOKE_OK && s->reduced.whole) status = hk_reduced_reserve_whole(&s->reduced);
   forget(s);
   return status;
 }

@@ -17,8 +17,8 @@
 #include <string.h>
 #include <unistd.h>
 
-const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "known_from", "known_until",
-                                                        "energy_rise", "wanted",     "met"};
+const char *const hk_error_number[HOOKE_ERROR_COUNT] = {
+    "estimate", "known_from", "known_until", "energy_rise", "wanted", "met", "heat_excess"};
 
 enum { STATUS_LENGTH = 16 }; /* less than a page, and on a multiple of it: never torn */
 

@@ -6,6 +6,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
 
 #include <math.h>
@@ -15,8 +16,8 @@
 
 enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const int64_t KEPT_BYTES = 1 << 26;
-static const double SHORT = 2.0;                          /* [s] a run under which is run again, coarser */
-static const double SLICE = 0.045, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
+static const double SHORT = 2.0;                         /* [s] a run under which is run again, coarser */
+static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7; /* of what refines */
 static const double MOST_RUNS = 30.0;  /* times as long as the first run something finer may take */
@@ -30,7 +31,7 @@ int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_est
   if (e == NULL) return HOOKE_NO_MEMORY;
   e->system = system;
   e->want = want;
-  e->error = e->known_from = e->known_until = e->rise = e->first = NAN;
+  e->error = e->known_from = e->known_until = e->rise = e->heat_excess = e->first = NAN;
   *out = e;
   return HOOKE_OK;
 }
@@ -42,7 +43,7 @@ static void forget_run(hooke_estimate *e) {
   hooke_state_destroy(e->late);
   e->options = NULL;
   e->late = NULL;
-  e->error = e->known_from = e->known_until = e->rise = e->order = NAN;
+  e->error = e->known_from = e->known_until = e->rise = e->heat_excess = e->order = NAN;
   e->by = NULL;
   e->note[0] = '\0';
 }
@@ -214,6 +215,7 @@ int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, co
     measure_by_reference(e, state);
   else
     status = measure_alone(e);
+  if (status == HOOKE_OK) status = hk_estimate_heat(e);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && isnan(e->error) && !e->note[0])
     hk_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
@@ -289,6 +291,7 @@ double hooke_estimate_number(const hooke_estimate *e, const char *what) {
       {"wanted", e->want},
       {"met", met(e)},
       {"energy_rise", e->rise},
+      {"heat_excess", e->heat_excess},
       {"seconds", e->spent},
   };
   return HOOKE_FIGURE(figures, what);

@@ -32,18 +32,25 @@ struct hooke_estimate {
   /* what came of it */
   double error, known_from, known_until, order; /* the order: of the error in the step or tolerance */
   const char *by;
-  double rise, spent;
+  double rise, heat_excess, spent;
   char note[256];
 };
 
 /* The method and its step or tolerance in options of a run. */
 double hk_estimate_value(const hooke_options *options);
 
-/* The run once more by another step or tolerance, in `frames` (its start and as many as there is memory for,
- * `every` apart [s]): from `from` (NULL: from the beginning) for `duration`. What ends it early leaves fewer
- * frames. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
-int32_t hk_estimate_rerun(struct hooke_estimate *estimate, double value, const hooke_state *from,
-                          double duration, double every, struct hk_frames *frames);
+/* The run once more: by a step or tolerance, for `duration` with frames `every` apart [s]. */
+struct hk_rerun {
+  double value, duration, every;
+  const hooke_state *from;  /* NULL: from the beginning */
+  hooke_observer *observer; /* of its frames, with `ctx`; or NULL */
+  void *ctx;
+};
+
+/* `frames` receives its start and as many frames as there is memory for. What ends it early leaves fewer.
+ * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+int32_t hk_estimate_rerun(struct hooke_estimate *estimate, const struct hk_rerun *rerun,
+                          struct hk_frames *frames);
 /* Estimates from reruns: coarser ones, and finer ones of the last piece or of all. They leave the error NaN
  * where they cannot tell (estimate_runs.c). */
 int32_t hk_estimate_by_coarser(struct hooke_estimate *estimate);

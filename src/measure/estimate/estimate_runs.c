@@ -26,29 +26,35 @@ static const struct hk_method *method_of(const struct hooke_estimate *e) {
 
 /* ---- running again ---- */
 
-struct rerun {
+struct run {
   struct hooke_estimate *estimate;
-  const hooke_state *from;
+  const struct hk_rerun *rerun;
 };
 
 static void start_from(hooke_state *state, void *ctx) {
-  const struct rerun *rerun = ctx;
+  const struct hk_rerun *rerun = ((const struct run *)ctx)->rerun;
   if (rerun->from) hooke_state_copy(rerun->from, state);
 }
 
 static int32_t tell(double share, void *ctx) {
-  const struct hooke_estimate *e = ((const struct rerun *)ctx)->estimate;
+  const struct hooke_estimate *e = ((const struct run *)ctx)->estimate;
   return e->progress ? e->progress(share, "error", e->ctx) : 0;
 }
 
-int32_t hk_estimate_rerun(struct hooke_estimate *e, double value, const hooke_state *from, double duration,
-                          double every, struct hk_frames *frames) {
-  struct rerun rerun = {e, from};
-  const struct hk_listener listener = {.on_progress = tell, .on_start = start_from, .ctx = &rerun};
+static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
+  const struct hk_rerun *rerun = ((const struct run *)ctx)->rerun;
+  (void)frame;
+  return rerun->observer ? rerun->observer(step, state, rerun->ctx) : 0;
+}
+
+int32_t hk_estimate_rerun(struct hooke_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
+  struct run run = {e, rerun};
+  const struct hk_listener listener = {tell, show, start_from, &run};
+  const char *method = hooke_options_text(e->options, "method");
   hooke_options *options = NULL;
-  int32_t status = hk_pick_options(e->options, hooke_options_text(e->options, "method"), value, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", every);
+  int32_t status = hk_pick_options(e->options, method, rerun->value, &options);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", rerun->duration);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", rerun->every);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
   if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
@@ -108,7 +114,8 @@ int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
     const double next = coarser(e, adaptive, value, k + 1);
     if (isnan(next)) break;
     status = hk_frames_create(e->system, 2, &frames[k]);
-    if (status == HOOKE_OK) status = hk_estimate_rerun(e, next, NULL, e->duration, e->duration, &frames[k]);
+    const struct hk_rerun rerun = {.value = next, .duration = e->duration, .every = e->duration};
+    if (status == HOOKE_OK) status = hk_estimate_rerun(e, &rerun, &frames[k]);
     if (frames[k].recorded < 2) break;
   }
   if (status == HOOKE_OK && frames[1].recorded == 2) {
@@ -153,7 +160,9 @@ int32_t hk_estimate_by_slice(struct hooke_estimate *e) {
   if (!(duration > 0.0)) return HOOKE_OK;
   int32_t status = hk_frames_create(e->system, 2, &frames);
   if (status != HOOKE_OK) return status;
-  status = hk_estimate_rerun(e, finer_value(e), e->late, duration, duration, &frames);
+  const struct hk_rerun rerun = {
+      .value = finer_value(e), .duration = duration, .every = duration, .from = e->late};
+  status = hk_estimate_rerun(e, &rerun, &frames);
   if (status == HOOKE_OK) know(e, error_to(e, &frames), from, e->begin + e->duration, "slice");
   hk_frames_release(&frames);
   return status;
@@ -163,7 +172,8 @@ int32_t hk_estimate_by_finer(struct hooke_estimate *e) {
   struct hk_frames frames;
   int32_t status = hk_frames_create(e->system, e->kept.count, &frames);
   if (status != HOOKE_OK) return status;
-  status = hk_estimate_rerun(e, finer_value(e), NULL, e->duration, e->apart, &frames);
+  const struct hk_rerun rerun = {.value = finer_value(e), .duration = e->duration, .every = e->apart};
+  status = hk_estimate_rerun(e, &rerun, &frames);
   if (status == HOOKE_OK)
     know(e, error_to(e, &frames), e->begin, e->begin + e->duration,
          method_of(e)->adaptive ? "tolerance" : "half-step");

@@ -32,10 +32,12 @@ class RunError(NamedTuple):
     """How wrong a run is.
 
     `estimate` is the root mean square error over free particles [m], NaN if it is not known: with a wanted error the
-    largest over frames, else that at the end. It was made between `known_from` and `known_until` [s]. `by` is "half-step",
-    "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m] and `met` whether it was
-    met, None if nobody can know or none was wanted. `energy_rise` is by how much energy rose by itself over the last half of
-    the run, as a share of what the scene has, NaN if that cannot be told. `note` says why an error is not known or not met.
+    largest over frames, else that at the end. It was made between `known_from` and `known_until` [s]. `by` is "half-
+    step", "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m] and `met` whether
+    it was met, None if nobody can know or none was wanted. `energy_rise` is by how much energy rose by itself over the
+    last half of the run, as a share of what the scene has, NaN if that cannot be told; `heat_excess` is by how much more
+    energy damping and drag took than there was to take, as such a share, since velocities reverse at each step. `note`
+    says why an error is not known or not met.
     """
 
     estimate: float
@@ -45,6 +47,7 @@ class RunError(NamedTuple):
     wanted: float
     met: bool | None
     energy_rise: float
+    heat_excess: float
     note: str
 
 
@@ -107,6 +110,7 @@ class Estimate(Owner):
             _number(self._handle, "wanted"),
             None if math.isnan(met) else met == 1.0,
             _number(self._handle, "energy_rise"),
+            _number(self._handle, "heat_excess"),
             text(lib.hooke_estimate_text(self._handle, b"note")),
         )
 

@@ -116,9 +116,9 @@ class Trajectory(Closing):
         by, note = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_note"))
         if not by and not note:
             return None
-        estimate, known_from, known_until, rise, wanted, met = map(float, self._numbers("error"))
+        estimate, known_from, known_until, rise, wanted, met, excess = map(float, self._numbers("error"))
         reached = None if math.isnan(met) else met == 1.0
-        return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, note)
+        return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, excess, note)
 
     @property
     def options(self) -> Options:

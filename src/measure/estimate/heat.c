@@ -1,0 +1,105 @@
+#include "measure/estimate/heat.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "measure/trial/balance.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_STEPS = 1024, LEAST_STEPS = 8, APART = 8 /* steps between two residuals */ };
+static const double SHARE = 0.01, MOMENT = 0.02; /* of the run's time, or [s], for a slice */
+
+struct slice {
+  const hooke_system *system;
+  struct hk_balance balance;
+  double
+      *difference[4]; /* of velocities, 3n each: the last velocity, and halved first to third differences */
+  double power[4];    /* at the last states */
+  double reversing;   /* U [J] */
+  double residual[MOST_STEPS / APART];
+  int64_t steps;
+  double until; /* on the clock [s] */
+  int32_t over, status;
+};
+
+static int32_t begin(struct slice *s, const hooke_state *state) {
+  const int64_t size = hooke_state_size(state);
+  double *block = hk_new(4 * size, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  for (int k = 0; k < 4; k++)
+    s->difference[k] = block + k * size;
+  memcpy(block, hooke_state_velocity(state), (size_t)size * sizeof(double));
+  const int32_t status = hk_balance_begin(&s->balance, s->system, state);
+  s->power[0] = s->balance.power_out;
+  return status;
+}
+
+/* Takes the velocity after a step of `step` [s]. */
+static void add_reversing(struct slice *s, const hooke_state *state, double step) {
+  const double *v = hooke_state_velocity(state);
+  double least = s->balance.power_out;
+  for (int64_t k = 0; k < hooke_state_size(state); k++) {
+    double new = v[k];
+    for (int d = 0; d < 4; d++) {
+      const double old = s->difference[d][k];
+      s->difference[d][k] = new;
+      new = 0.5 * (new - old);
+    }
+  }
+  s->power[++s->steps % 4] = least;
+  for (int k = 0; k < 4; k++)
+    least = fmin(least, s->power[k]);
+  if (s->steps < 3) return;
+  const double reversing =
+      hooke_system_dissipated_power(s->system, hooke_state_position(state), s->difference[3]);
+  s->reversing += step * fmin(least, reversing);
+}
+
+static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
+  struct slice *s = ctx;
+  const double time = s->balance.time;
+  s->status = step == 0 ? begin(s, state) : hk_balance_step(&s->balance, state);
+  if (s->status != HOOKE_OK || step == 0) return s->status != HOOKE_OK;
+  add_reversing(s, state, hooke_state_time(state) - time);
+  if (step % APART != 0) return 0;
+  hk_balance_close(&s->balance, state);
+  s->residual[step / APART - 1] = s->balance.residual;
+  s->over = hk_clock_seconds() > s->until;
+  return s->over;
+}
+
+static double excess_of(const struct slice *s, double scale) {
+  const int64_t count = s->steps / APART;
+  double least = s->reversing;
+  if (s->steps < LEAST_STEPS) return NAN;
+  for (int64_t k = count / 2; k < count; k++)
+    least = fmin(least, s->residual[k]);
+  return least > 0.0 && scale > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
+}
+
+/* A slice from `from` on; NULL: from the beginning. */
+static int32_t look(struct hooke_estimate *e, const hooke_state *from) {
+  const double step = hk_estimate_value(e->options);
+  const double left = e->duration - (from ? hooke_state_time(from) - e->begin : 0.0);
+  const double count = fmin(MOST_STEPS, round(left / step));
+  struct slice s = {.system = e->system, .until = hk_clock_seconds() + fmax(MOMENT, SHARE * e->seconds)};
+  const struct hk_rerun rerun = {step, count * step, step, from, see, &s};
+  struct hk_frames none = {.system = e->system};
+  if (count < LEAST_STEPS) return HOOKE_OK;
+  int32_t status = hk_estimate_rerun(e, &rerun, &none);
+  if (status == HOOKE_STOPPED && (s.over || s.status != HOOKE_OK)) status = s.status;
+  e->heat_excess = fmax(e->heat_excess, excess_of(&s, e->soundness.scale + e->soundness.swing));
+  hk_balance_release(&s.balance);
+  hk_free(s.difference[0]);
+  return status;
+}
+
+int32_t hk_estimate_heat(struct hooke_estimate *e) {
+  const char *method = hooke_options_text(e->options, "method");
+  if (hooke_method_is_adaptive(method) || e->system->force) return HOOKE_OK;
+  int32_t status = look(e, NULL);
+  if (status == HOOKE_OK && e->late && isnan(e->late_after)) status = look(e, e->late);
+  return status;
+}
