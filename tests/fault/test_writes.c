@@ -96,7 +96,8 @@ static int is_whole_checkpoint(const char *path) {
 
 /* A new file is there as a whole or not at all. */
 static int is_whole(const char *path) {
-  static const char *const ends[] = {"</html>\n", "</Xdmf>\n", "}\n", "finished\n", "diverged\n"};
+  /* lines of CSV end with a flag */
+  static const char *const ends[] = {"</html>\n", "</Xdmf>\n", "}\n", ",1\n", ",0\n"};
   char last[16] = "";
   FILE *file = fopen(path, "r");
   if (file == NULL) return 0;

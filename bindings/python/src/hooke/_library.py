@@ -28,11 +28,10 @@ OUTCOMES = frozenset(
         "hooke_integrator_step",
         "hooke_limit_along",
         "hooke_limit_find",
+        "hooke_measurement_run",
         "hooke_needs_find",
         "hooke_needs_refine",
-        "hooke_study_pick",
         "hooke_study_recommend",
-        "hooke_study_run",
         "hooke_verify_run",
     )
 )
