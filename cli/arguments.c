@@ -74,7 +74,7 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
   arguments->verb = verb;
   arguments->scene = kind;
   int32_t status = hooke_run_options_create(&arguments->run);
-  if (status == HOOKE_OK && verb->options) status = verb->options(&arguments->more);
+  if (status == HOOKE_OK && verb->options) status = hooke_options_create(verb->options, &arguments->more);
   if (status == HOOKE_OK && !verb->input && !verb->kind_options)
     status = hooke_scene_options_create("limits", &arguments->limits);
   if (status == HOOKE_OK && kind) status = verb->kind_options(kind, &arguments->of_kind);

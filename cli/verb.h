@@ -37,8 +37,7 @@ struct cli_verb {
       *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
   const struct cli_verb_row *rows;
   int32_t row_count;
-  int32_t (*options)(
-      hooke_options **options); /* makes an option table of the verb's own; NULL: it has none */
+  const char *options; /* the table of its own options, for hooke_options_create(); NULL: it has none */
   int32_t (*kind_options)(const char *kind,
                           hooke_options **options); /* takes a kind of part in place of a scene, and makes its
                                                        table; NULL: it takes a scene */

@@ -7,14 +7,13 @@
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop
  *   measurement.h studies, limits, needs, costs, comparisons: options, a run, tables
- *   measure.h     step bounds and comparisons
+ *   measure.h     step bounds
  *   study.h       the trade of error against cost, orders, recommendation
  *   limit.h       the largest stable step of each method, and what it hangs on
  *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories
- *   checkpoint.h  places from which a run goes on
- *   verify.h  whether a trajectory is what its scene gives */
+ *   checkpoint.h  places from which a run goes on */
 #ifndef HOOKE_H
 #define HOOKE_H
 
@@ -31,9 +30,7 @@
 #include "hooke/limit.h"
 #include "hooke/cost.h"
 #include "hooke/why.h"
-#include "hooke/needs.h"
 #include "hooke/io.h"
 #include "hooke/checkpoint.h"
-#include "hooke/verify.h"
 
 #endif

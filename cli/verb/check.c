@@ -295,7 +295,7 @@ const struct cli_verb cli_verb_check = {
         "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",
     .example = "hooke check cloth.json",
     HOOKE_VERB_ROWS(rows),
-    .options = hooke_cost_options_create,
+    .options = "cost",
     .without = "checkpoint",
     .function = do_check,
 };

@@ -314,7 +314,7 @@ const struct cli_verb cli_verb_limit = {
         "certain to be stable, from one pass over the springs.",
     .example = "hooke limit cloth.json --predict",
     HOOKE_VERB_ROWS(own_rows),
-    .options = hooke_limit_options_create,
+    .options = "limit",
     .without = "checkpoint",
     .function = do_limit,
 };

@@ -198,10 +198,6 @@ static int do_make(const struct cli_arguments *arguments) {
   return code;
 }
 
-static int32_t scene_options(hooke_options **options) {
-  return hooke_scene_options_create("scene", options);
-}
-
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "SCENE.json",
      "writes the scene there, replacing it; without it, or with -, to standard output"},
@@ -219,7 +215,7 @@ const struct cli_verb cli_verb_make = {
                "--structural.stiffness 100 "
                "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 0.5 -o cloth.json",
     HOOKE_VERB_ROWS(own_rows),
-    .options = scene_options,
+    .options = "scene",
     .kind_options = hooke_part_options_create,
     .function = do_make,
 };

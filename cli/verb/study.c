@@ -205,7 +205,7 @@ const struct cli_verb cli_verb_study = {
             "FILE have every digit.",
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
-    .options = hooke_study_options_create,
+    .options = "study",
     .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };

@@ -89,6 +89,6 @@ const struct cli_verb cli_verb_view = {
         "the frames it has.",
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),
-    .options = hooke_view_options_create,
+    .options = "view",
     .function = do_view,
 };

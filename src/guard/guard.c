@@ -14,7 +14,6 @@
 #include "hooke/estimate.h"
 #include "hooke/io.h"
 #include "hooke/measurement.h"
-#include "hooke/verify.h"
 #include "hooke/why.h"
 
 #include <math.h>

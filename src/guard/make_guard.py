@@ -29,8 +29,8 @@ MAY_BE_NULL = {
     ("options_unset", "options"), ("options_is_set", "options"), ("options_number_count", "options"),
     ("options_numbers", "options"), ("options_number", "options"), ("options_text", "options"),
     ("system_add_altitude", "options"), ("system_add_part", "options"), ("mesh_set", "options"),
-    ("integrator_create", "options"), ("integrator_create_first_order", "options"), ("comparison_create", "options"),
-    ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"), ("study_create", "run"),
+    ("integrator_create", "options"), ("integrator_create_first_order", "options"),
+    ("system_add_springs", "options"), ("study_create", "run"),
     ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"),
     ("why_create_kept", "run"), ("mesh_read", "options"),
     ("scene_options_apply", "options"), ("why_advice_apply", "run"),
@@ -43,10 +43,9 @@ MAY_BE_NO_TEXT = {
     ("scene_parse", "name"), ("scene_parse", "folder"),
     ("scene_parse_within", "name"), ("scene_parse_within", "folder"),
     ("scene_of_system", "title"), ("scene_of_system", "name"), ("scene_of_system", "folder"),
-    ("scene_write", "title"), ("trajectory_create", "scene_text"), ("comparison_file_create", "scene_text"),
+    ("scene_write", "title"), ("trajectory_create", "scene_text"),
     ("study_write_h5", "scene_text"), ("view_write", "title"), ("record_write_xdmf", "path"),
     ("study_write_report", "scene"), ("study_write_report", "command"), ("limit_write_report", "scene"),
-    ("needs_write_report", "scene"), ("needs_write_report", "command"),
     ("checkpoint_write", "run"), ("checkpoint_read", "run"),
 }
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}

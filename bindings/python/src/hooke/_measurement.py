@@ -15,7 +15,6 @@ from ._prototypes import MEASUREMENT
 from ._types import FloatArray, Path, Table
 
 
-
 class Measurement:
     """A measurement of the library, and its tables. `system` has to live as long as it."""
 
@@ -33,8 +32,12 @@ class Measurement:
 
     def run(self, progress: Any, state: Any = None) -> int:
         """The status."""
-        with listening(lib.hooke_measurement_on_progress, self.handle, progress):
+        with self.listening(progress):
             return int(lib.hooke_measurement_run(self.handle, state and state._handle))
+
+    def listening(self, progress: Any) -> Any:
+        """A context in which `progress` is told of the work."""
+        return listening(lib.hooke_measurement_on_progress, self.handle, progress)
 
     # ---- tables ----
 
@@ -92,6 +95,7 @@ class Measurement:
         made = np.empty(count, [(name, values.dtype) for name, values in fields])
         for name, values in fields:
             made[name] = values
+        made.flags.writeable = False
         return made
 
     # ---- files ----

@@ -31,17 +31,14 @@ INTEGRATOR = _handle("hooke_integrator")
 SCENE = _handle("hooke_scene")
 TRAJECTORY = _handle("hooke_trajectory")
 MEASUREMENT = _handle("hooke_measurement")
-COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
 ESTIMATE = _handle("hooke_estimate")
 WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 VIEW = _handle("hooke_view")
-VERIFY = _handle("hooke_verify")
 LIMIT = _handle("hooke_limit")
 COST = _handle("hooke_cost")
-NEEDS = _handle("hooke_needs")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
 DOUBLES, INTEGERS = POINTER(c_double), POINTER(c_int64)
@@ -205,21 +202,17 @@ PROTOTYPES = {
     "hooke_measurement_series": (DOUBLES, MEASUREMENT, TEXT, INT64, TEXT),
     "hooke_measurement_label": (STATUS, MEASUREMENT, TEXT, TEXT),
     "hooke_measurement_write": (STATUS, MEASUREMENT, TEXT),
+    "hooke_comparison_on_frame": (STATUS, MEASUREMENT, COMPARISON_FRAME, ADDRESS),
+    "hooke_comparison_file_create": (STATUS, TEXT, MEASUREMENT, POINTER(COMPARISON_FILE)),
+    "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
+    "hooke_needs_lean": (SYSTEM, MEASUREMENT),
+    "hooke_needs_lean_run": (OPTIONS, MEASUREMENT),
+    "hooke_needs_lean_particle": (INT64, MEASUREMENT, INT64),
+    "hooke_needs_lean_position": (STATUS, MEASUREMENT, DOUBLES, DOUBLES),
+    "hooke_verify_create": (STATUS, TEXT, OPTIONS, OPTIONS, POINTER(MEASUREMENT)),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
     "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),
-    "hooke_comparison_create": (STATUS, SYSTEM, OPTIONS, POINTER(COMPARISON)),
-    "hooke_comparison_destroy": (None, COMPARISON),
-    "hooke_comparison_add": (STATUS, COMPARISON, TEXT),
-    "hooke_comparison_on_progress": (None, COMPARISON, PROGRESS, ADDRESS),
-    "hooke_comparison_on_frame": (None, COMPARISON, COMPARISON_FRAME, ADDRESS),
-    "hooke_comparison_run": (OUTCOME, COMPARISON),
-    "hooke_comparison_row_count": (INT64, COMPARISON),
-    "hooke_comparison_text": (TEXT, COMPARISON, INT64, TEXT),
-    "hooke_comparison_number": (DOUBLE, COMPARISON, INT64, TEXT),
-    "hooke_comparison_reference": (TEXT, COMPARISON),
-    "hooke_comparison_frame_count": (INT64, COMPARISON),
-    "hooke_comparison_series": (DOUBLES, COMPARISON, INT64, TEXT),
     # estimate.h
     "hooke_estimate_create": (STATUS, SYSTEM, DOUBLE, POINTER(ESTIMATE)),
     "hooke_estimate_destroy": (None, ESTIMATE),
@@ -285,25 +278,6 @@ PROTOTYPES = {
     "hooke_cost_row_count": (INT64, COST),
     "hooke_cost_text": (TEXT, COST, INT64, TEXT),
     "hooke_cost_number": (DOUBLE, COST, INT64, TEXT),
-    # needs.h
-    "hooke_needs_options_create": (STATUS, POINTER(OPTIONS)),
-    "hooke_needs_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(NEEDS)),
-    "hooke_needs_destroy": (None, NEEDS),
-    "hooke_needs_on_progress": (None, NEEDS, PROGRESS, ADDRESS),
-    "hooke_needs_find": (OUTCOME, NEEDS),
-    "hooke_needs_refine": (OUTCOME, NEEDS),
-    "hooke_needs_figure": (DOUBLE, NEEDS, TEXT),
-    "hooke_needs_word": (TEXT, NEEDS, TEXT),
-    "hooke_needs_row_count": (INT64, NEEDS),
-    "hooke_needs_text": (TEXT, NEEDS, INT64, TEXT),
-    "hooke_needs_number": (DOUBLE, NEEDS, INT64, TEXT),
-    "hooke_needs_lean": (SYSTEM, NEEDS),
-    "hooke_needs_lean_run": (OPTIONS, NEEDS),
-    "hooke_needs_lean_particle": (INT64, NEEDS, INT64),
-    "hooke_needs_lean_position": (STATUS, NEEDS, DOUBLES, DOUBLES),
-    "hooke_needs_part_count": (INT64, NEEDS),
-    "hooke_needs_part_text": (TEXT, NEEDS, INT64, TEXT),
-    "hooke_needs_part_number": (DOUBLE, NEEDS, INT64, TEXT),
     # why.h
     "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
     "hooke_why_create": (STATUS, INTEGRATOR, c_double, PROGRESS, ADDRESS, POINTER(WHY)),
@@ -356,25 +330,14 @@ PROTOTYPES = {
     "hooke_view_write": (STATUS, VIEW, TEXT, TEXT),
     "hooke_view_number": (DOUBLE, VIEW, TEXT),
     "hooke_view_destroy": (None, VIEW),
-    "hooke_comparison_file_create": (STATUS, TEXT, SYSTEM, COMPARISON, TEXT, POINTER(COMPARISON_FILE)),
-    "hooke_comparison_file_close": (STATUS, COMPARISON_FILE),
     "hooke_study_write_csv": (STATUS, STUDY, TEXT),
     "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
     "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
     "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
-    "hooke_needs_write_report": (STATUS, NEEDS, TEXT, TEXT, TEXT),
     # checkpoint.h
     "hooke_checkpoint_write": (STATUS, TEXT, INTEGRATOR, STATE, TEXT),
     "hooke_checkpoint_read": (STATUS, TEXT, TEXT, INTEGRATOR, STATE),
     "hooke_trajectory_checkpoint": (STATUS, TRAJECTORY, INTEGRATOR, STATE),
     "hooke_trajectory_resume": (STATUS, TEXT, SYSTEM, INTEGRATOR, STATE, POINTER(TRAJECTORY)),
     "hooke_trajectory_origin": (TEXT, TRAJECTORY),
-    # verify.h
-    "hooke_verify_options_create": (STATUS, POINTER(OPTIONS)),
-    "hooke_verify_create": (STATUS, TEXT, OPTIONS, OPTIONS, POINTER(VERIFY)),
-    "hooke_verify_destroy": (None, VERIFY),
-    "hooke_verify_on_progress": (None, VERIFY, PROGRESS, ADDRESS),
-    "hooke_verify_run": (OUTCOME, VERIFY),
-    "hooke_verify_text": (TEXT, VERIFY, TEXT),
-    "hooke_verify_number": (DOUBLE, VERIFY, TEXT),
 }
