@@ -24,7 +24,7 @@ program study
 
   call run%create_run()
   call run%set("duration", 0.2_hooke_real)
-  call options%create_study()
+  call options%create("study")
   call options%set("methods", "symplectic-euler,verlet,rk4")
   call options%set("want", want)
   call rows%create(system, run, options, status)

@@ -33,16 +33,13 @@ OUTCOMES = {
     "hooke_integrator_run",
     "hooke_integrator_resume",
     "hooke_integrator_step",
-    "hooke_verify_run",
-    "hooke_comparison_run",
+    "hooke_measurement_run",
     "hooke_study_run",
     "hooke_study_recommend",
     "hooke_study_pick",
     "hooke_limit_find",
     "hooke_limit_along",
     "hooke_cost_find",
-    "hooke_needs_find",
-    "hooke_needs_refine",
 }
 SCALARS = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 

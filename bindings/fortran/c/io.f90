@@ -165,17 +165,6 @@ module hooke_c_io
       type(c_ptr), value :: record
       character(kind=c_char), intent(in), optional :: what(*)
     end function
-    integer(c_int32_t) function c_comparison_file_create(path, system, comparison, scene_text, file) &
-      bind(c, name="hooke_comparison_file_create")
-      import
-      character(kind=c_char), intent(in), optional :: path(*), scene_text(*)
-      type(c_ptr), value :: system, comparison
-      type(c_ptr), intent(out) :: file
-    end function
-    integer(c_int32_t) function c_comparison_file_close(file) bind(c, name="hooke_comparison_file_close")
-      import
-      type(c_ptr), value :: file
-    end function
     integer(c_int32_t) function c_view_options_create(options) bind(c, name="hooke_view_options_create")
       import
       type(c_ptr), intent(out) :: options
@@ -225,12 +214,6 @@ module hooke_c_io
       import
       type(c_ptr), value :: limit, state
       character(kind=c_char), intent(in), optional :: path(*), scene(*)
-    end function
-    integer(c_int32_t) function c_needs_write_report(needs, path, scene, command) &
-      bind(c, name="hooke_needs_write_report")
-      import
-      type(c_ptr), value :: needs
-      character(kind=c_char), intent(in), optional :: path(*), scene(*), command(*)
     end function
   end interface
 end module

@@ -79,5 +79,47 @@ module hooke_c_measurement
       type(c_ptr), value :: measurement
       character(kind=c_char), intent(in), optional :: path(*)
     end function
+    integer(c_int32_t) function c_comparison_on_frame(comparison, observer, ctx) &
+      bind(c, name="hooke_comparison_on_frame")
+      import
+      type(c_ptr), value :: comparison, ctx
+      type(c_funptr), value :: observer
+    end function
+    integer(c_int32_t) function c_comparison_file_create(path, comparison, file) &
+      bind(c, name="hooke_comparison_file_create")
+      import
+      character(kind=c_char), intent(in), optional :: path(*)
+      type(c_ptr), value :: comparison
+      type(c_ptr), intent(out) :: file
+    end function
+    integer(c_int32_t) function c_comparison_file_close(file) bind(c, name="hooke_comparison_file_close")
+      import
+      type(c_ptr), value :: file
+    end function
+    type(c_ptr) function c_needs_lean(needs) bind(c, name="hooke_needs_lean")
+      import
+      type(c_ptr), value :: needs
+    end function
+    type(c_ptr) function c_needs_lean_run(needs) bind(c, name="hooke_needs_lean_run")
+      import
+      type(c_ptr), value :: needs
+    end function
+    integer(c_int64_t) function c_needs_lean_particle(needs, particle) bind(c, name="hooke_needs_lean_particle")
+      import
+      type(c_ptr), value :: needs
+      integer(c_int64_t), value :: particle
+    end function
+    integer(c_int32_t) function c_needs_lean_position(needs, q, position) bind(c, name="hooke_needs_lean_position")
+      import
+      type(c_ptr), value :: needs
+      real(c_double), intent(in), optional :: q(*)
+      real(c_double), intent(inout), optional :: position(*)
+    end function
+    integer(c_int32_t) function c_verify_create(path, options, limits, verify) bind(c, name="hooke_verify_create")
+      import
+      character(kind=c_char), intent(in), optional :: path(*)
+      type(c_ptr), value :: options, limits
+      type(c_ptr), intent(out) :: verify
+    end function
   end interface
 end module
