@@ -2,7 +2,6 @@
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "core/utf8.h"
 #include "integrate/method.h"
 
