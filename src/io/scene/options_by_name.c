@@ -13,12 +13,9 @@
 static const struct maker {
   const char *name;
   int32_t (*create)(hooke_options **options);
-} makers[] = {{"run", hooke_run_options_create},
-              {"springs", hooke_spring_options_create},
-              {"altitude", hooke_altitude_options_create},
-              {"view", hooke_view_options_create},
-              {"study", hooke_study_options_create},
-              {"limit", hooke_limit_options_create},
+} makers[] = {{"run", hooke_run_options_create},           {"springs", hooke_spring_options_create},
+              {"altitude", hooke_altitude_options_create}, {"view", hooke_view_options_create},
+              {"study", hooke_study_options_create},       {"limit", hooke_limit_options_create},
               {"cost", hooke_cost_options_create}};
 enum { MAKERS = sizeof makers / sizeof makers[0] };
 static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
