@@ -31,6 +31,7 @@ struct alive {
   hooke_limit *limit;
   hooke_why *why;
   hooke_estimate *estimate;
+  hooke_measurement *measurement;
   hooke_trajectory *trajectory;
   hooke_record *record;
 };
@@ -46,6 +47,11 @@ static void bring_to_life(void) {
   check_status(hooke_integrator_run(alive.integrator, alive.state), HOOKE_DIVERGED);
   check_ok(hooke_cost_create(alive.system, NULL, NULL, &alive.cost));
   check_ok(hooke_estimate_create(alive.system, NAN, &alive.estimate));
+  hooke_options *want;
+  check_ok(hooke_options_create("needs", &want));
+  check_ok(hooke_options_set_number(want, "want", 1e-3));
+  check_ok(hooke_measurement_create("needs", alive.system, alive.options, want, &alive.measurement));
+  hooke_options_destroy(want);
 #if HOOKE_HAVE_LAPACK
   check_ok(hooke_limit_create(alive.system, NULL, NULL, &alive.limit));
   check_ok(hooke_why_create(alive.integrator, INFINITY, NULL, NULL, &alive.why));
@@ -64,6 +70,7 @@ static void end_life(void) {
   hooke_trajectory_close(alive.trajectory, HOOKE_OK);
   remove(path);
   hooke_why_destroy(alive.why);
+  hooke_measurement_destroy(alive.measurement);
   hooke_estimate_destroy(alive.estimate);
   hooke_limit_destroy(alive.limit);
   hooke_cost_destroy(alive.cost);
@@ -86,6 +93,7 @@ static void *good(const char *type) {
                  {"hooke_limit", alive.limit},
                  {"hooke_why", alive.why},
                  {"hooke_estimate", alive.estimate},
+                 {"hooke_measurement", alive.measurement},
                  {"hooke_trajectory", alive.trajectory},
                  {"hooke_record", alive.record}};
   for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
