@@ -502,6 +502,38 @@ static void what_cannot_be_is_refused(void **state) {
   hooke_system_destroy(alone);
 }
 
+/* What is special of needs and of comparisons is refused of each other. */
+static void kinds_keep_to_what_is_theirs(void **state) {
+  (void)state;
+  hooke_system *system = hanging_rope(4, 0.0);
+  hooke_options *run = run_options(half_a_second);
+  hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *comparison = NULL;
+  hooke_comparison_file *file = NULL;
+  double q[15] = {0};
+  assert_null(hooke_needs_lean(needs));
+  check_status(hooke_needs_lean_position(needs, q, q), HOOKE_BAD_CALL);
+  check_message("no lean system yet");
+  check_status(hooke_comparison_on_frame(needs, NULL, NULL), HOOKE_BAD_CALL);
+  check_message("\"comparison\", this is a \"needs\"");
+  check_status(hooke_comparison_file_create("needs.h5", needs, &file), HOOKE_BAD_CALL);
+  assert_null(file);
+  if (hooke_method_is_built("cvode-adams")) {
+    check_ok(hooke_measurement_create("comparison", system, run, NULL, &comparison));
+    assert_null(hooke_needs_lean(comparison));
+    assert_null(hooke_needs_lean_run(comparison));
+    assert_int_equal(hooke_needs_lean_particle(comparison, 0), -1);
+    check_status(hooke_needs_lean_position(comparison, q, q), HOOKE_BAD_CALL);
+    check_message("\"needs\", this is a \"comparison\"");
+    check_status(hooke_measurement_write(comparison, "comparison.csv"), HOOKE_BAD_CALL);
+  }
+  check_status(hooke_measurement_create("verify", system, run, NULL, &comparison), HOOKE_BAD_VALUE);
+  check_message("hooke_verify_create()");
+  hooke_measurement_destroy(comparison);
+  hooke_measurement_destroy(needs);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
+}
+
 /* ---- groups of triples and tetrahedra that no part brings ---- */
 
 enum { SPRINGS = 1, TRIPLES = 2, TETRAHEDRA = 4, DAMPING = 8, DRAG = 16, GROUPS = 31 };
@@ -623,6 +655,7 @@ int main(void) {
       cmocka_unit_test(chaos_is_judged_as_far_as_a_step_can_follow),
       cmocka_unit_test(whoever_stops_it_keeps_what_is_known),
       cmocka_unit_test(what_cannot_be_is_refused),
+      cmocka_unit_test(kinds_keep_to_what_is_theirs),
       cmocka_unit_test(every_ingredient_has_a_name_of_its_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
