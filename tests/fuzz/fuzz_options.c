@@ -179,16 +179,12 @@ static void read_units(const char *text, const char *base) {
 
 /* ---- the command line ---- */
 
-static int32_t verb_options(hooke_options **options) {
-  return hooke_view_options_create(options);
-}
-
 static const struct cli_verb_row rows[] = {{"output", 'o', "FILE", "where to"},
                                            {"force", 'f', NULL, "even so"}};
 static const struct cli_verb verbs[] = {
     {.name = "run", HOOKE_VERB_ROWS(rows)},
-    {.name = "view", .input = "OUT.h5", HOOKE_VERB_ROWS(rows), .options = verb_options},
-    {.name = "study", HOOKE_VERB_ROWS(rows), .options = verb_options, .without = "method step"},
+    {.name = "view", .input = "OUT.h5", HOOKE_VERB_ROWS(rows), .options = "view"},
+    {.name = "study", HOOKE_VERB_ROWS(rows), .options = "view", .without = "method step"},
     {.name = "make", HOOKE_VERB_ROWS(rows), .kind_options = hooke_part_options_create},
 };
 
