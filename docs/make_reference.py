@@ -2,8 +2,7 @@
 
 BUILD is a build folder with the library and the program, such as build/release. The C reference comes from the headers,
 the Fortran one from the modules, the Python one from docstrings, that of scenes from the option tables and the schema,
-that of measurements from their tables, that of the command line from --help. With --check nothing is written; pages that
-are out of date are named.
+that of the command line from --help. With --check nothing is written; pages that are out of date are named.
 """
 
 from __future__ import annotations
@@ -20,14 +19,12 @@ import modules  # noqa: E402
 import package  # noqa: E402
 import program  # noqa: E402
 import scenes  # noqa: E402
-import tables  # noqa: E402
 
 
 def pages(build: Path) -> dict[str, str]:
     os.environ.setdefault("HOOKE_LIBRARY", str(build / "libhooke.so"))  # for `import hooke`
     return {
         "scene": scenes.page(ROOT),
-        "measurements": tables.page(),
         "command-line": program.page(str(build / "hooke")),
         "c": headers.page(ROOT),
         "fortran": modules.page(ROOT),
