@@ -5,13 +5,10 @@
  *   system.h      particles, springs, forces, energies, derivatives
  *   build.h       generated parts: rope, cloth
  *   state.h       time, positions, velocities
- *   integrator.h  methods and the run loop
- *   measurement.h studies, limits, needs, costs, comparisons: options, a run, tables
+ *   integrator.h  methods and the run loop, and a warning before a run blows up
+ *   measurement.h studies, limits, needs, costs, comparisons, and why a run blew up: options, a run, tables
  *   measure.h     step bounds and comparisons
  *   study.h       the trade of error against cost, orders, recommendation
- *   limit.h       the largest stable step of each method, and what it hangs on
- *   cost.h        what each ingredient of a scene costs on this machine
- *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories
  *   checkpoint.h  places from which a run goes on
  *   verify.h  whether a trajectory is what its scene gives */
@@ -28,9 +25,6 @@
 #include "hooke/measure.h"
 #include "hooke/estimate.h"
 #include "hooke/study.h"
-#include "hooke/limit.h"
-#include "hooke/cost.h"
-#include "hooke/why.h"
 #include "hooke/needs.h"
 #include "hooke/io.h"
 #include "hooke/checkpoint.h"

@@ -18,7 +18,7 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_cost *cost;        /* NULL: not asked for */
+  hooke_measurement *cost; /* NULL: not asked for */
   double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
   int64_t memory, counted; /* at the peak of a run; of system, state and method alone [bytes] */
   int64_t warning_count;
@@ -177,7 +177,7 @@ static void print_json(const struct check *check) {
   cli_json_close(&json);
   cli_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
   cli_json_count(&json, "idle_particles", hooke_system_idle_count(system));
-  if (check->cost) cli_cost_sheet_print_json(&json, check->cost, system);
+  if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
   cli_json_end(&json);
 }
 
@@ -275,7 +275,7 @@ static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = cli_setup_load(arguments, &check.setup);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, cli_peak_look());
-  hooke_cost_destroy(check.cost);
+  hooke_measurement_destroy(check.cost);
   free(check.bound);
   cli_setup_destroy(&check.setup);
   return code;
@@ -284,6 +284,10 @@ static int do_check(const struct cli_arguments *arguments) {
 static const struct cli_verb_row rows[] = {
     {"cost", 0, NULL, "what each ingredient costs, too: time, memory, and the largest step without it"},
 };
+
+static int32_t make_options(hooke_options **options) {
+  return hooke_options_create("cost", options);
+}
 
 const struct cli_verb cli_verb_check = {
     .name = "check",
@@ -295,7 +299,7 @@ const struct cli_verb cli_verb_check = {
         "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",
     .example = "hooke check cloth.json",
     HOOKE_VERB_ROWS(rows),
-    .options = hooke_cost_options_create,
+    .options = make_options,
     .without = "checkpoint",
     .function = do_check,
 };

@@ -8,7 +8,6 @@
 #include "build.h"
 #include "estimate.h"
 #include "integrator.h"
-#include "limit.h"
 #include "measure.h"
 #include "needs.h"
 #include "study.h"
@@ -253,12 +252,6 @@ HOOKE_API int32_t hooke_study_write_csv(const hooke_study *study, const char *pa
  * the library, in share/hooke, are missing. */
 HOOKE_API int32_t hooke_study_write_report(const hooke_study *study, const char *path, const char *scene,
                                            const char *command);
-
-/* The same of a limit that was found: regions of stability with the eigenvalues on them, the limiting mode on
- * the scene at `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found,
- * HOOKE_BAD_VALUE for a state of another system, and the failures above. */
-HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
-                                           const char *path, const char *scene);
 
 /* The same of what a scene needs: the table, what each ingredient changes and costs, the lean system laid
  * over the full one, and the resolutions if they were looked at. `command`, the line to type for the lean

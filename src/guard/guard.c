@@ -9,13 +9,11 @@
 #include "core/handle.h"
 #include "core/status.h"
 #include "hooke/build.h"
-#include "hooke/cost.h"
 #include "hooke/checkpoint.h"
 #include "hooke/estimate.h"
 #include "hooke/io.h"
 #include "hooke/measurement.h"
 #include "hooke/verify.h"
-#include "hooke/why.h"
 
 #include <math.h>
 

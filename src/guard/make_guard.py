@@ -19,8 +19,7 @@ import headers  # noqa: E402
 # (function, parameter).
 MAY_BE_NULL = {
     ("measurement_create", "run"), ("measurement_create", "options"), ("measurement_run", "state"),
-    ("cost_create", "run"), ("cost_create", "options"),
-    ("limit_create", "run"), ("limit_create", "options"),
+    ("why_create", "options"), ("why_create_kept", "options"),
     ("study_create", "options"),
     ("view_create", "options"), ("verify_create", "options"), ("verify_create", "limits"),
     ("scene_load_within", "limits"), ("scene_parse_within", "limits"),
@@ -45,7 +44,7 @@ MAY_BE_NO_TEXT = {
     ("scene_of_system", "title"), ("scene_of_system", "name"), ("scene_of_system", "folder"),
     ("scene_write", "title"), ("trajectory_create", "scene_text"), ("comparison_file_create", "scene_text"),
     ("study_write_h5", "scene_text"), ("view_write", "title"), ("record_write_xdmf", "path"),
-    ("study_write_report", "scene"), ("study_write_report", "command"), ("limit_write_report", "scene"),
+    ("study_write_report", "scene"), ("study_write_report", "command"),
     ("needs_write_report", "scene"), ("needs_write_report", "command"),
     ("checkpoint_write", "run"), ("checkpoint_read", "run"),
 }

@@ -37,8 +37,8 @@ hooke_study *make_study(struct attempt *a, const hooke_system *system, const hoo
 hooke_comparison *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
                                   const char *method);
 hooke_needs *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run);
-hooke_limit *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                        int32_t predict);
+hooke_measurement *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              const char *flag);
 void take_state(struct attempt *a, const hooke_state *state);
 
 /* Of what is read, or, named "out.", written. Stays until the next but one. */

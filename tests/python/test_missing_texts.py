@@ -67,17 +67,10 @@ def alive(tmp_path_factory):
     add(p.COMPARISON, "hooke_comparison_create", system, run)
     add(p.ESTIMATE, "hooke_estimate_create", system, 1e-3)
     add(p.STUDY, "hooke_study_create", system, run, None)
-    add(p.LIMIT, "hooke_limit_create", system, run, None)
-    add(p.COST, "hooke_cost_create", system, run, None)
+    add(p.MEASUREMENT, "hooke_measurement_create", b"cost", system, run, None)
     needs = made(p.OPTIONS, "hooke_needs_options_create")
     lib.hooke_options_set_number(needs, b"want", 1e-3)
     add(p.NEEDS, "hooke_needs_create", system, run, needs)
-    for name, value in {"step": 0.5, "duration": 500.0, "every": 50.0}.items():
-        lib.hooke_options_set_number(run, name.encode(), value)
-    lib.hooke_options_set_text(run, b"method", b"forward-euler")
-    diverged = made(p.INTEGRATOR, "hooke_integrator_create", system, run)
-    assert lib.hooke_integrator_run(diverged, state) == 2
-    add(p.WHY, "hooke_why_create", diverged, 0.1, p.PROGRESS(), None)
     return objects
 
 

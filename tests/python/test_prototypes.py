@@ -38,9 +38,7 @@ OUTCOMES = {
     "hooke_study_run",
     "hooke_study_recommend",
     "hooke_study_pick",
-    "hooke_limit_find",
-    "hooke_limit_along",
-    "hooke_cost_find",
+    "hooke_measurement_run",
     "hooke_needs_find",
     "hooke_needs_refine",
 }

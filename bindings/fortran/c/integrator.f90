@@ -117,5 +117,11 @@ module hooke_c_integrator
       import
       type(c_ptr), value :: integrator
     end function
+    integer(c_int32_t) function c_integrator_on_warning(integrator, warning, ctx) &
+      bind(c, name="hooke_integrator_on_warning")
+      import
+      type(c_ptr), value :: integrator, ctx
+      type(c_funptr), value :: warning
+    end function
   end interface
 end module

@@ -221,11 +221,6 @@ module hooke_c_io
       type(c_ptr), value :: study
       character(kind=c_char), intent(in), optional :: path(*), scene(*), command(*)
     end function
-    integer(c_int32_t) function c_limit_write_report(limit, state, path, scene) bind(c, name="hooke_limit_write_report")
-      import
-      type(c_ptr), value :: limit, state
-      character(kind=c_char), intent(in), optional :: path(*), scene(*)
-    end function
     integer(c_int32_t) function c_needs_write_report(needs, path, scene, command) &
       bind(c, name="hooke_needs_write_report")
       import

@@ -79,5 +79,26 @@ module hooke_c_measurement
       type(c_ptr), value :: measurement
       character(kind=c_char), intent(in), optional :: path(*)
     end function
+    real(c_double) function c_limit_of_mode(method, frequency, decay) bind(c, name="hooke_limit_of_mode")
+      import
+      character(kind=c_char), intent(in), optional :: method(*)
+      real(c_double), value :: frequency, decay
+    end function
+    integer(c_int32_t) function c_why_create(integrator, options, measurement) bind(c, name="hooke_why_create")
+      import
+      type(c_ptr), value :: integrator, options
+      type(c_ptr), intent(out) :: measurement
+    end function
+    integer(c_int32_t) function c_why_create_kept(system, run, first, last, options, measurement) &
+      bind(c, name="hooke_why_create_kept")
+      import
+      type(c_ptr), value :: system, run, first, last, options
+      type(c_ptr), intent(out) :: measurement
+    end function
+    integer(c_int32_t) function c_why_advice_apply(measurement, row, run) bind(c, name="hooke_why_advice_apply")
+      import
+      type(c_ptr), value :: measurement, run
+      integer(c_int64_t), value :: row
+    end function
   end interface
 end module

@@ -1,10 +1,16 @@
 /* The kinds of measurements by name, and what their tables have. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
+#include "measure/cost/cost.h"
+#include "measure/limit/limit.h"
+#include "measure/why/why.h"
 
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
+    &hk_limit_kind,
+    &hk_cost_kind,
+    &hk_why_kind,
     NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };

@@ -10,6 +10,7 @@ static const struct page {
   const char *kind;
   void (*add_data)(struct hk_text *data, const void *measurement);
 } pages[] = {
+    {"limit", hk_limit_page_add},
     {NULL, NULL},
 };
 

@@ -4,4 +4,6 @@
 
 #include "io/file/text.h"
 
+void hk_limit_page_add(struct hk_text *data, const void *measurement);
+
 #endif

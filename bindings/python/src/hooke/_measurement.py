@@ -15,7 +15,6 @@ from ._prototypes import MEASUREMENT
 from ._types import FloatArray, Path, Table
 
 
-
 class Measurement:
     """A measurement of the library, and its tables. `system` has to live as long as it."""
 
@@ -92,6 +91,7 @@ class Measurement:
         made = np.empty(count, [(name, values.dtype) for name, values in fields])
         for name, values in fields:
             made[name] = values
+        made.flags.writeable = False
         return made
 
     # ---- files ----

@@ -35,12 +35,9 @@ COMPARISON = _handle("hooke_comparison")
 COMPARISON_FILE = _handle("hooke_comparison_file")
 STUDY = _handle("hooke_study")
 ESTIMATE = _handle("hooke_estimate")
-WHY = _handle("hooke_why")
 RECORD = _handle("hooke_record")
 VIEW = _handle("hooke_view")
 VERIFY = _handle("hooke_verify")
-LIMIT = _handle("hooke_limit")
-COST = _handle("hooke_cost")
 NEEDS = _handle("hooke_needs")
 
 INT32, INT64, DOUBLE, TEXT, ADDRESS = c_int32, c_int64, c_double, c_char_p, c_void_p
@@ -190,6 +187,7 @@ PROTOTYPES = {
     "hooke_integrator_recent": (STATUS, INTEGRATOR, INT64, STATE),
     "hooke_integrator_stop_value": (INT32, INTEGRATOR),
     "hooke_integrator_diverged_at": (DOUBLE, INTEGRATOR),
+    "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
     # measurement.h
     "hooke_measurement_create": (STATUS, TEXT, SYSTEM, OPTIONS, OPTIONS, POINTER(MEASUREMENT)),
     "hooke_measurement_destroy": (None, MEASUREMENT),
@@ -205,6 +203,10 @@ PROTOTYPES = {
     "hooke_measurement_series": (DOUBLES, MEASUREMENT, TEXT, INT64, TEXT),
     "hooke_measurement_label": (STATUS, MEASUREMENT, TEXT, TEXT),
     "hooke_measurement_write": (STATUS, MEASUREMENT, TEXT),
+    "hooke_limit_of_mode": (DOUBLE, TEXT, DOUBLE, DOUBLE),
+    "hooke_why_create": (STATUS, INTEGRATOR, OPTIONS, POINTER(MEASUREMENT)),
+    "hooke_why_create_kept": (STATUS, SYSTEM, OPTIONS, STATE, STATE, OPTIONS, POINTER(MEASUREMENT)),
+    "hooke_why_advice_apply": (STATUS, MEASUREMENT, INT64, OPTIONS),
     # measure.h
     "hooke_step_bound": (STATUS, SYSTEM, TEXT, DOUBLES, DOUBLES),
     "hooke_step_bounds": (STATUS, SYSTEM, DOUBLES, DOUBLES),
@@ -252,39 +254,6 @@ PROTOTYPES = {
     "hooke_study_recommendation_text": (TEXT, STUDY, TEXT),
     "hooke_study_recommendation_number": (DOUBLE, STUDY, TEXT),
     "hooke_study_pick": (OUTCOME, SYSTEM, OPTIONS, DOUBLE, PROGRESS, ADDRESS),
-    # limit.h
-    "hooke_limit_options_create": (STATUS, POINTER(OPTIONS)),
-    "hooke_limit_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(LIMIT)),
-    "hooke_limit_destroy": (None, LIMIT),
-    "hooke_limit_on_progress": (None, LIMIT, PROGRESS, ADDRESS),
-    "hooke_limit_find": (OUTCOME, LIMIT, STATE),
-    "hooke_limit_along": (OUTCOME, LIMIT, STATE),
-    "hooke_limit_figure": (DOUBLE, LIMIT, TEXT),
-    "hooke_limit_row_count": (INT64, LIMIT),
-    "hooke_limit_text": (TEXT, LIMIT, INT64, TEXT),
-    "hooke_limit_number": (DOUBLE, LIMIT, INT64, TEXT),
-    "hooke_limit_blame_count": (INT64, LIMIT),
-    "hooke_limit_blame_number": (DOUBLE, LIMIT, INT64, TEXT),
-    "hooke_limit_blame_text": (TEXT, LIMIT, INT64, TEXT),
-    "hooke_limit_mover_count": (INT64, LIMIT),
-    "hooke_limit_mover_number": (DOUBLE, LIMIT, INT64, TEXT),
-    "hooke_limit_remedy_text": (TEXT, LIMIT, TEXT),
-    "hooke_limit_remedy_number": (DOUBLE, LIMIT, TEXT),
-    "hooke_limit_mode_count": (INT64, LIMIT),
-    "hooke_limit_mode_number": (DOUBLE, LIMIT, INT64, TEXT),
-    "hooke_limit_shape": (DOUBLES, LIMIT),
-    "hooke_limit_of_mode": (DOUBLE, TEXT, DOUBLE, DOUBLE),
-    # cost.h
-    "hooke_cost_options_create": (STATUS, POINTER(OPTIONS)),
-    "hooke_cost_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(COST)),
-    "hooke_cost_destroy": (None, COST),
-    "hooke_cost_on_progress": (None, COST, PROGRESS, ADDRESS),
-    "hooke_cost_find": (OUTCOME, COST, STATE),
-    "hooke_cost_method": (TEXT, COST),
-    "hooke_cost_figure": (DOUBLE, COST, TEXT),
-    "hooke_cost_row_count": (INT64, COST),
-    "hooke_cost_text": (TEXT, COST, INT64, TEXT),
-    "hooke_cost_number": (DOUBLE, COST, INT64, TEXT),
     # needs.h
     "hooke_needs_options_create": (STATUS, POINTER(OPTIONS)),
     "hooke_needs_create": (STATUS, SYSTEM, OPTIONS, OPTIONS, POINTER(NEEDS)),
@@ -304,19 +273,6 @@ PROTOTYPES = {
     "hooke_needs_part_count": (INT64, NEEDS),
     "hooke_needs_part_text": (TEXT, NEEDS, INT64, TEXT),
     "hooke_needs_part_number": (DOUBLE, NEEDS, INT64, TEXT),
-    # why.h
-    "hooke_integrator_on_warning": (STATUS, INTEGRATOR, WARNING, ADDRESS),
-    "hooke_why_create": (STATUS, INTEGRATOR, c_double, PROGRESS, ADDRESS, POINTER(WHY)),
-    "hooke_why_create_kept": (STATUS, SYSTEM, OPTIONS, STATE, STATE, c_double, PROGRESS, ADDRESS, POINTER(WHY)),
-    "hooke_why_destroy": (None, WHY),
-    "hooke_why_text": (TEXT, WHY, TEXT),
-    "hooke_why_number": (DOUBLE, WHY, TEXT),
-    "hooke_why_blame_count": (INT64, WHY),
-    "hooke_why_blame_number": (DOUBLE, WHY, INT64, TEXT),
-    "hooke_why_blame_text": (TEXT, WHY, INT64, TEXT),
-    "hooke_why_advice_count": (INT64, WHY),
-    "hooke_why_advice_text": (TEXT, WHY, INT64, TEXT),
-    "hooke_why_advice_apply": (STATUS, WHY, INT64, OPTIONS),
     # io.h
     "hooke_io_own_process": (STATUS,),
     "hooke_scene_load": (STATUS, TEXT, POINTER(SCENE)),
@@ -361,7 +317,6 @@ PROTOTYPES = {
     "hooke_study_write_csv": (STATUS, STUDY, TEXT),
     "hooke_study_write_h5": (STATUS, STUDY, TEXT, TEXT, INT32),
     "hooke_study_write_report": (STATUS, STUDY, TEXT, TEXT, TEXT),
-    "hooke_limit_write_report": (STATUS, LIMIT, STATE, TEXT, TEXT),
     "hooke_needs_write_report": (STATUS, NEEDS, TEXT, TEXT, TEXT),
     # checkpoint.h
     "hooke_checkpoint_write": (STATUS, TEXT, INTEGRATOR, STATE, TEXT),
