@@ -2,7 +2,8 @@
 
 BUILD is a build folder with the library and the program, such as build/release. The C reference comes from the headers,
 the Fortran one from the modules, the Python one from docstrings, that of scenes from the option tables and the schema,
-that of the command line from --help. With --check nothing is written; pages that are out of date are named.
+that of the command line from --help, that of measurements from the tables of their columns. With --check nothing is
+written; pages that are out of date are named.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "docs/generate"), str(ROOT / "bindings/python/src")]
 
 import headers  # noqa: E402
+import measurements  # noqa: E402
 import modules  # noqa: E402
 import package  # noqa: E402
 import program  # noqa: E402
@@ -29,6 +31,7 @@ def pages(build: Path) -> dict[str, str]:
         "c": headers.page(ROOT),
         "fortran": modules.page(ROOT),
         "python": package.page(),
+        "measurements": measurements.page(),
     }
 
 

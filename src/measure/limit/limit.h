@@ -63,6 +63,14 @@ const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit);
  * context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
 
+/* A row of the table "blame", of a limit and of an explanation. */
+struct hk_blame_line {
+  const char *group, *force;
+  double number, first, second, share;
+};
+enum { HOOKE_BLAME_COLUMNS = 6 };
+extern const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS];
+
 enum { HOOKE_LIMIT_TABLES = 6 };
 extern const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES];
 extern const struct hk_measurement_kind hk_limit_kind;

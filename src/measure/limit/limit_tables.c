@@ -130,11 +130,6 @@ static const struct hk_table row_table = {
 
 /* ---- limiting springs ---- */
 
-struct blame_line {
-  const char *group, *force;
-  double number, first, second, share;
-};
-
 /* 1 if a force has the first place. */
 static int64_t blames_force(const struct hk_limit *limit) {
   return hk_blame_force(&limit->blame) >= 0;
@@ -149,32 +144,33 @@ static void read_blame(const void *object, int64_t row, void *line) {
   const struct hk_limit *limit = object;
   const int32_t force = row == 0 ? hk_blame_force(&limit->blame) : -1;
   if (force >= 0) {
-    *(struct blame_line *)line = (struct blame_line){.number = NAN,
-                                                     .first = NAN,
-                                                     .second = NAN,
-                                                     .group = "",
-                                                     .share = limit->blame.force_share[force],
-                                                     .force = hk_blame_force_name(force)};
+    *(struct hk_blame_line *)line = (struct hk_blame_line){.number = NAN,
+                                                           .first = NAN,
+                                                           .second = NAN,
+                                                           .group = "",
+                                                           .share = limit->blame.force_share[force],
+                                                           .force = hk_blame_force_name(force)};
     return;
   }
   const struct hk_blamed_spring *s = &limit->blame.spring[row - blames_force(limit)];
-  *(struct blame_line *)line = (struct blame_line){.number = (double)s->spring,
-                                                   .first = (double)s->first,
-                                                   .second = (double)s->second,
-                                                   .group = hooke_system_group_name(limit->system, s->group),
-                                                   .share = s->share};
+  *(struct hk_blame_line *)line =
+      (struct hk_blame_line){.number = (double)s->spring,
+                             .first = (double)s->first,
+                             .second = (double)s->second,
+                             .group = hooke_system_group_name(limit->system, s->group),
+                             .share = s->share};
 }
 
-static const struct hk_column blame_columns[] = {
-    HOOKE_COLUMN(struct blame_line, number, COUNT, "", "number of the spring; NaN of a force"),
-    HOOKE_COLUMN(struct blame_line, first, COUNT, "", "particle at its first end"),
-    HOOKE_COLUMN(struct blame_line, second, COUNT, "", "particle at its second end"),
-    HOOKE_COLUMN(struct blame_line, group, TEXT, "", "name of its group or part; empty if that has none"),
+const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS] = {
+    HOOKE_COLUMN(struct hk_blame_line, number, COUNT, "", "number of the spring; NaN of a force"),
+    HOOKE_COLUMN(struct hk_blame_line, first, COUNT, "", "particle at its first end"),
+    HOOKE_COLUMN(struct hk_blame_line, second, COUNT, "", "particle at its second end"),
+    HOOKE_COLUMN(struct hk_blame_line, group, TEXT, "", "name of its group or part; empty if that has none"),
     HOOKE_COLUMN(
-        struct blame_line, share, NUMBER, "",
+        struct hk_blame_line, share, NUMBER, "",
         "share of h^2 K + 2 h C in the limiting mode, 0 to 1; bending, altitude springs and drag are "
-        "part of the whole"),
-    HOOKE_COLUMN(struct blame_line, force, TEXT, "",
+        "part of the whole; NaN if it cannot be told"),
+    HOOKE_COLUMN(struct hk_blame_line, force, TEXT, "",
                  "drag, damping, bending or altitude, where no spring but that force is meant"),
 };
 
@@ -183,7 +179,7 @@ static const struct hk_table blame_table = {
     .doc =
         "limiting springs, at most 100, the largest share first; before them the force that has half of the "
         "whole or more, if it is not the stiffness of springs",
-    HOOKE_TABLE_COLUMNS(blame_columns, struct blame_line),
+    HOOKE_TABLE_COLUMNS(hk_blame_columns, struct hk_blame_line),
     .count = count_blame,
     .read = read_blame,
 };

@@ -1,4 +1,5 @@
 /* The tables of a diagnosis. */
+#include "measure/limit/limit.h"
 #include "measure/why/why.h"
 
 #include <math.h>
@@ -58,11 +59,6 @@ static const struct hk_table why_table = {
 
 /* ---- limiting springs ---- */
 
-struct blame_line {
-  const char *group, *force;
-  double number, first, second, share;
-};
-
 static int64_t count_blame(const void *object) {
   return ((const struct hk_why *)object)->blame_count;
 }
@@ -73,31 +69,20 @@ static double if_spring(const struct hk_why_blame *blame, int64_t number) {
 
 static void read_blame(const void *object, int64_t row, void *line) {
   const struct hk_why_blame *b = &((const struct hk_why *)object)->blame[row];
-  *(struct blame_line *)line = (struct blame_line){.number = if_spring(b, b->spring),
-                                                   .first = if_spring(b, b->first),
-                                                   .second = if_spring(b, b->second),
-                                                   .group = b->group,
-                                                   .share = b->share,
-                                                   .force = b->force[0] ? b->force : NULL};
+  *(struct hk_blame_line *)line = (struct hk_blame_line){.number = if_spring(b, b->spring),
+                                                         .first = if_spring(b, b->first),
+                                                         .second = if_spring(b, b->second),
+                                                         .group = b->group,
+                                                         .share = b->share,
+                                                         .force = b->force[0] ? b->force : NULL};
 }
-
-static const struct hk_column blame_columns[] = {
-    HOOKE_COLUMN(struct blame_line, number, COUNT, "", "number of the spring; NaN of a force"),
-    HOOKE_COLUMN(struct blame_line, first, COUNT, "", "particle at its first end"),
-    HOOKE_COLUMN(struct blame_line, second, COUNT, "", "particle at its second end"),
-    HOOKE_COLUMN(struct blame_line, group, TEXT, "", "name of its group or part; empty if that has none"),
-    HOOKE_COLUMN(struct blame_line, share, NUMBER, "",
-                 "share of what happened, 0 to 1; NaN if it cannot be told"),
-    HOOKE_COLUMN(struct blame_line, force, TEXT, "",
-                 "drag, damping, bending or altitude, where no spring but that force is meant"),
-};
 
 static const struct hk_table blame_table = {
     .name = "blame",
     .doc =
         "limiting springs, at most 100, the largest share first; before them the force that has half of the "
         "whole or more, if it is not the stiffness of springs",
-    HOOKE_TABLE_COLUMNS(blame_columns, struct blame_line),
+    HOOKE_TABLE_COLUMNS(hk_blame_columns, struct hk_blame_line),
     .count = count_blame,
     .read = read_blame,
 };
