@@ -21,34 +21,15 @@ int64_t hooke_system_free_count(const hooke_system *system) {
   return count;
 }
 
-int64_t hooke_system_spring_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < system->group_count; k++)
-    count += system->group[k].count;
-  return count;
-}
-
 int64_t hooke_system_dropped_spring_count(const hooke_system *system) {
   int64_t count = 0;
-  for (int64_t k = 0; k < system->group_count; k++)
+  for (int64_t k = 0; k < hk_system_groups_of(system, &hk_force_springs); k++)
     count += system->group[k].dropped;
   return count;
 }
 
 int64_t hooke_system_idle_count(const hooke_system *system) {
   return system->idle_count;
-}
-
-int64_t hooke_system_group_count(const hooke_system *system) {
-  return system->group_count;
-}
-
-const char *hooke_system_group_name(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->group_count ? system->group[group].name : NULL;
-}
-
-int64_t hooke_system_group_size(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->group_count ? system->group[group].count : 0;
 }
 
 const double *hooke_system_mass(const hooke_system *system) {
@@ -121,8 +102,6 @@ int64_t hooke_system_memory(const hooke_system *system) {
            system->particle_count * (int64_t)sizeof(double) +
            (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
-           system->bending_group_count * (int64_t)sizeof *system->bending_group +
-           system->altitude_group_count * (int64_t)sizeof *system->altitude_group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {

@@ -5,6 +5,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -123,10 +124,43 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   }
 }
 
+static int64_t count(const hooke_system *system) {
+  return system->altitudes.count;
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  for (int64_t k = 0; k < wanted; k++) {
+    struct hk_tetrahedron t = system->altitudes.tetrahedron[first + k];
+    struct hk_tautness s;
+    if (v == NULL) t.pull_only = 0;
+    out[k] = (struct hk_element){.count = 4, .over = 1.0};
+    memcpy(out[k].particle, t.particle, sizeof t.particle);
+    if (!hk_tautness_find(&t, q, v, &s) || s.slack) continue;
+    const double rest = t.rest[s.altitude.choice];
+    memcpy(out[k].u, s.altitude.u, sizeof s.altitude.u);
+    memcpy(out[k].weight, s.altitude.weight, sizeof s.altitude.weight);
+    out[k].over = v ? rest : 1.0;
+    out[k].k_along = v ? t.stiffness : t.stiffness / rest;
+    out[k].c_along = v ? t.damping : t.damping / rest;
+  }
+}
+
+static int32_t damped(const hooke_system *system) {
+  return system->altitudes.damped;
+}
+
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
+                                               .title = "altitude springs",
+                                               .members = "tetrahedra",
+                                               .keep = hk_variant_keep_altitude,
+                                               .bytes = 170.0,
                                                .present = present,
                                                .add = add,
                                                .energy = energy,
                                                .heat = heat,
                                                .add_product = add_product,
-                                               .add_blocks = add_blocks};
+                                               .add_blocks = add_blocks,
+                                               .count = count,
+                                               .elements = elements,
+                                               .damped = damped};

@@ -5,6 +5,7 @@
 #include "core/sum.h"
 #include "kernel/spring_body.h"
 #include "model/sum/spring_batch.h"
+#include "model/variant/variant.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -184,10 +185,74 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   }
 }
 
+/* ---- elements ---- */
+
+static int64_t count(const hooke_system *system) {
+  return system->springs.count;
+}
+
+static void make_element(const struct hk_spring *spring, const double *q, const double *v,
+                         struct hk_element *out) {
+  struct hk_stretch s;
+  if (v)
+    hk_spring_stretch(spring, q, v, &s);
+  else
+    hk_spring_stretch_taut(spring, q, &s);
+  const int isotropic = s.length == 0.0, acts = !v || (isotropic ? spring->rest_length == 0.0 : !s.slack);
+  *out = (struct hk_element){.count = 2,
+                             .particle = {(int32_t)spring->head, (int32_t)spring->tail},
+                             .weight = {1.0, -1.0},
+                             .u = {s.direction[0], s.direction[1], s.direction[2]},
+                             .k_along = acts ? spring->kappa : 0.0,
+                             .c_along = acts ? spring->gamma : 0.0,
+                             .over = 1.0};
+  if (acts) out->k_across = isotropic ? spring->kappa : s.tension / s.length;
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  const struct hk_run *run = &system->springs.run[hk_springs_run(&system->springs, first)];
+  for (int64_t k = 0; k < wanted; k++) {
+    while (first + k >= run->first + run->count)
+      run++;
+    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    make_element(&spring, q, v, &out[k]);
+  }
+}
+
+/* In the order of batches. */
+static int64_t stored_elements(struct hk_elements *at) {
+  struct hk_spring_batch batch;
+  hk_begin_batches(&batch);
+  batch.row = at->place[0];
+  batch.done = at->place[1];
+  batch.at = at->place[2];
+  if (!hk_next_batch(at->system, &batch)) return 0;
+  for (int64_t k = 0; k < batch.count; k++) {
+    const struct hk_spring spring = hk_batch_spring(&batch, k);
+    make_element(&spring, at->q, at->v, &at->element[k]);
+  }
+  at->place[0] = batch.row;
+  at->place[1] = batch.done;
+  at->place[2] = batch.at + batch.count;
+  return batch.count;
+}
+
+static int32_t damped(const hooke_system *system) {
+  return hk_springs_are_damped(&system->springs);
+}
+
 const struct hk_force_row hk_force_springs = {.name = "springs",
+                                              .members = "springs",
+                                              .keep = hk_variant_keep_springs,
+                                              .bytes = 50.0,
                                               .present = present,
                                               .add = add,
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
-                                              .add_blocks = add_blocks};
+                                              .add_blocks = add_blocks,
+                                              .count = count,
+                                              .elements = elements,
+                                              .stored_elements = stored_elements,
+                                              .damped = damped};
