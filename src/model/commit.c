@@ -24,23 +24,16 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
   return HOOKE_OK;
 }
 
-/* The groups of a force, to be sorted. */
-static const struct hk_group *groups_of(const hooke_system *system, const struct hk_force_row *force,
-                                        int64_t *count) {
-  *count = hk_system_groups_of(system, force);
-  return system->group + hk_system_first_group(system, force);
-}
-
-static int32_t sort_members(hooke_system *system) {
-  int64_t count;
+static int32_t take_groups_over(hooke_system *system) {
+  int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < system->group_count; g++)
     hk_group_drop(&system->group[g]);
-  const struct hk_group *group = groups_of(system, &hk_force_springs, &count);
-  int32_t status = hk_springs_create(group, count, &system->springs);
-  group = groups_of(system, &hk_force_bending, &count);
-  if (status == HOOKE_OK) status = hk_bending_create(group, count, &system->bending);
-  group = groups_of(system, &hk_force_altitude, &count);
-  return status == HOOKE_OK ? hk_altitudes_create(group, count, &system->altitudes) : status;
+  for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
+    const struct hk_force_row *force = hk_force_table(k);
+    const struct hk_group *first = system->group + hk_system_first_group(system, force);
+    if (force->commit) status = force->commit(system, first, hk_system_groups_of(system, force));
+  }
+  return status;
 }
 
 static int is_at_rest(const hooke_system *system) {
@@ -168,9 +161,7 @@ static void undo(hooke_system *system) {
     hk_group_take_back(&system->group[k]);
   hk_lanes_release(&system->lanes);
   hk_net_release(&system->net);
-  hk_springs_release(&system->springs);
-  hk_bending_release(&system->bending);
-  hk_altitudes_release(&system->altitudes);
+  hk_forces_release(system);
   hk_free(system->inverse_mass);
   hk_free(system->held_particle);
   hk_free(system->force_row);
@@ -191,7 +182,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = fill_particles(system);
-  if (status == HOOKE_OK) status = sort_members(system);
+  if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) {
     status = hk_lanes_create(&system->springs, system->particle_count, &system->lanes);
   }

@@ -23,10 +23,8 @@ void hooke_system_destroy(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_lanes_release(&system->lanes);
-  hk_bending_release(&system->bending);
-  hk_altitudes_release(&system->altitudes);
+  hk_forces_release(system);
   hk_net_release(&system->net);
-  hk_springs_release(&system->springs);
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);

@@ -95,9 +95,9 @@ int64_t hooke_system_spring_memory(const hooke_system *system) {
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + hk_springs_memory(&system->springs) + system->lanes.memory +
-                  hk_net_memory(&system->net) + hk_bending_memory(&system->bending) +
-                  hk_altitudes_memory(&system->altitudes);
+  int64_t bytes = (int64_t)sizeof *system + system->lanes.memory + hk_net_memory(&system->net);
+  for (int32_t k = 0; hk_force_table(k); k++)
+    bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
            (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);

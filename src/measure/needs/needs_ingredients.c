@@ -63,10 +63,8 @@ static int32_t list_groups(hooke_needs *needs) {
 
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    resists |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    resists |= !system->altitudes.tetrahedron[k].pull_only;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    resists |= hk_force_table(k)->resists && hk_force_table(k)->resists(system);
   return resists;
 }
 

@@ -36,6 +36,12 @@ int32_t hk_system_is_damped(const hooke_system *system) {
   return system->drag > 0.0 || hk_elements_are_damped(system);
 }
 
+void hk_forces_release(hooke_system *system) {
+  for (int32_t k = 0; hk_force_table(k); k++) {
+    if (table[k]->release) table[k]->release(system);
+  }
+}
+
 int hk_force_is_other(const struct hk_force_row *row) {
   return row->elements && row != &hk_force_springs && row != &hk_force_drag;
 }

@@ -24,6 +24,13 @@ struct hk_force_row {
   const char *members;
   double bytes;
   const char *title; /* of forces with elements: "the <title> of particle 3" */
+  /* of these too: takes over what the groups have at commit (HOOKE_NO_MEMORY leaves nothing); releases it; its bytes;
+   * adds all that its forces depend on to a check value; 1 if some member resists compression */
+  int32_t (*commit)(hooke_system *system, const struct hk_group *group, int64_t count);
+  void (*release)(hooke_system *system);
+  int64_t (*memory)(const hooke_system *system);
+  void (*check)(const hooke_system *system, uint32_t *value);
+  int32_t (*resists)(const hooke_system *system);
   /* adds a group to a variant that does not have it from its parts: see variant.h */
   int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
   int32_t (*present)(const hooke_system *system);
@@ -58,6 +65,9 @@ extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_al
  * (NULL: none) says. HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out);
+
+/* Releases what commit took over of groups. */
+void hk_forces_release(hooke_system *system);
 
 /* 1 if some force but that of a callback damps motion; the second leaves drag out. */
 int32_t hk_system_is_damped(const hooke_system *system);

@@ -5,6 +5,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -150,9 +151,49 @@ static int32_t damped(const hooke_system *system) {
   return system->altitudes.damped;
 }
 
+/* ---- from groups ---- */
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  return hk_altitudes_create(group, count, &system->altitudes);
+}
+
+static void release(hooke_system *system) {
+  hk_altitudes_release(&system->altitudes);
+}
+
+static int64_t memory(const hooke_system *system) {
+  return hk_altitudes_memory(&system->altitudes);
+}
+
+static int32_t resists(const hooke_system *system) {
+  int32_t some = 0;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    some |= !system->altitudes.tetrahedron[k].pull_only;
+  return some;
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_whole(value, system->altitudes.count);
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    hk_check_add(value, t->particle, 4, sizeof *t->particle);
+    hk_check_whole(value, t->choice);
+    hk_check_whole(value, t->pull_only);
+    hk_check_add(value, &t->side, 1, sizeof(double));
+    hk_check_add(value, &t->stiffness, 1, sizeof(double));
+    hk_check_add(value, &t->damping, 1, sizeof(double));
+    hk_check_add(value, t->rest, HOOKE_ALTITUDES, sizeof(double));
+  }
+}
+
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
                                                .title = "altitude springs",
                                                .members = "tetrahedra",
+                                               .commit = commit,
+                                               .release = release,
+                                               .memory = memory,
+                                               .check = check,
+                                               .resists = resists,
                                                .keep = hk_variant_keep_altitude,
                                                .bytes = 170.0,
                                                .present = present,

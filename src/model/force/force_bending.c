@@ -2,6 +2,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
 #include "model/variant/variant.h"
 
 #include <stddef.h>
@@ -52,9 +53,36 @@ static void multiply(const hooke_system *system, double a, double b, const doubl
   if (a != 0.0) hk_bending_add(&system->bending, -a, x, out);
 }
 
+/* ---- from groups ---- */
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  return hk_bending_create(group, count, &system->bending);
+}
+
+static void release(hooke_system *system) {
+  hk_bending_release(&system->bending);
+}
+
+static int64_t memory(const hooke_system *system) {
+  return hk_bending_memory(&system->bending);
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  struct hk_triple triple;
+  hk_check_whole(value, system->bending.count);
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
+    hk_check_add(value, triple.particle, 3, sizeof *triple.particle);
+    hk_check_add(value, &triple.coefficient, 1, sizeof(double));
+  }
+}
+
 const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .title = "bending",
                                               .members = "triples",
+                                              .commit = commit,
+                                              .release = release,
+                                              .memory = memory,
+                                              .check = check,
                                               .keep = hk_variant_keep_bending,
                                               .bytes = 60.0,
                                               .present = present,

@@ -3,6 +3,7 @@
 #define HOOKE_MODEL_FORCE_SPRING_H
 
 #include "kernel/spring_loops.h"
+#include "model/force/element.h"
 #include "model/group.h"
 
 /* All springs of a committed system, in spring order. */
@@ -54,6 +55,22 @@ void hk_spring_stretch(const struct hk_spring *spring, const double *q, const do
                        struct hk_stretch *stretch);
 /* The same at rest and under tension: a spring that only pulls may become taut at any time. */
 void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch);
+
+/* How the force on the first end changes: -(stiffness dx + damping dv) with df/dx = -(u c^T + b (I - u u^T)) and
+ * df/dv = -gamma u u^T. 0 if it does not. */
+struct hk_spring_slope {
+  double u[3], c[3], b, gamma;
+  int32_t isotropic; /* ends at one place, rest length 0: df/dx = -b I */
+};
+int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
+                             struct hk_spring_slope *slope);
+void hk_spring_slope_change(const struct hk_spring_slope *slope, const double dx[3], const double dv[3],
+                            double change[3]);
+void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9], double damp[9]);
+
+/* A spring as an element. */
+void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
+                       struct hk_element *out);
 
 /* The run that a spring is in, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
