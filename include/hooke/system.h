@@ -28,8 +28,13 @@
  * force turns it back. Where another altitude comes to be the shortest, U and the force jump. A tetrahedron
  * whose particles are in one line has no such force.
  *
+ * Anchors are springs from a particle to a fixed point of space:
+ *   U = 1/2 k (r - l0)^2                        k [N/m], r the distance from the point, l0 = 0 unless given
+ *   f = -(k (r - l0) + kd (v.u)) u              kd [N s/m], u the direction from the point
+ * At the point itself there is no direction, and the force is zero.
+ *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
- * springs of parts; and so are triples and tetrahedra. Commit drops springs that have neither stiffness nor
+ * springs of parts; and so are triples, tetrahedra and anchors. Commit drops springs that have neither stiffness nor
  * damping, as if they had never been added: numbers, ends and sizes of groups are then those of the springs
  * that act; a group that is left without any keeps its name and place, and has size 0. Likewise gravity, drag
  * and damping of 0 are not there. All sums are taken in that order, springs first, so results do not depend
@@ -104,6 +109,15 @@ HOOKE_API int32_t hooke_altitude_options_create(hooke_options **options);
  * NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
+
+/* Options of anchors: points, stiffness, damping, rest_length. */
+HOOKE_API int32_t hooke_anchor_options_create(hooke_options **options);
+
+/* Adds a group of `count` anchors, one a particle of `particles`, which may be named more than once. Without
+ * `points` each is tied to the place that it was added at. `name` may be NULL. HOOKE_BAD_VALUE names the anchor;
+ * HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *particles, const hooke_options *options);
 
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
@@ -194,6 +208,13 @@ HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, dou
  * does. */
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 
+/* Anchors, and of each the particle, the point [m] (3 anchor_count), stiffness [N/m], damping [N s/m] and rest length
+ * [m], each anchor_count long or NULL. Commit drops those that have neither stiffness nor damping. HOOKE_BAD_CALL
+ * before commit, of the second. */
+HOOKE_API int64_t hooke_system_anchor_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
+                                       double *stiffness, double *damping, double *rest_length);
+
 /* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part",
  * "family" (NULL: of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not
  * there. */
@@ -201,7 +222,7 @@ HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
-/* The forces that this system computes ("springs", "bending", "altitude", "drag", "callback", "gravity");
+/* The forces that this system computes ("springs", "bending", "altitude", "anchors", "drag", "callback", "gravity");
  * nothing else costs anything. */
 HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
@@ -215,7 +236,7 @@ HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, bending, altitude springs, drag on free particles, callback, m g
+/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag on free particles, callback, m g
  * on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);

@@ -92,6 +92,8 @@ struct hooke_integrator {
   struct hk_recent recent;                         /* the newest is the last state that passed the check */
   double good_time;                                /* of it, where recent has no room: see divergence.c */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
+  double stiffness; /* hk_forces_stiffness(), from the first run on */
+  int32_t knows_stiffness;
   double diverged_at;
 
   struct hk_watch on_frame, on_step, on_checkpoint;

@@ -64,6 +64,18 @@ module hooke_c_system
       integer(c_int64_t), value :: count
       integer(c_int64_t), intent(in), optional :: tetrahedra(*)
     end function
+    integer(c_int32_t) function c_anchor_options_create(options) bind(c, name="hooke_anchor_options_create")
+      import
+      type(c_ptr), intent(out) :: options
+    end function
+    integer(c_int32_t) function c_system_add_anchors(system, name, count, particles, options) &
+      bind(c, name="hooke_system_add_anchors")
+      import
+      type(c_ptr), value :: system, options
+      character(kind=c_char), intent(in), optional :: name(*)
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in), optional :: particles(*)
+    end function
     integer(c_int32_t) function c_system_set_gravity(system, gravity) bind(c, name="hooke_system_set_gravity")
       import
       type(c_ptr), value :: system
@@ -231,6 +243,17 @@ module hooke_c_system
       type(c_ptr), value :: system
       real(c_double), intent(in), optional :: q(*)
       real(c_double), intent(inout), optional :: length(*)
+    end function
+    integer(c_int64_t) function c_system_anchor_count(system) bind(c, name="hooke_system_anchor_count")
+      import
+      type(c_ptr), value :: system
+    end function
+    integer(c_int32_t) function c_system_anchors(system, particles, points, stiffness, damping, rest_length) &
+      bind(c, name="hooke_system_anchors")
+      import
+      type(c_ptr), value :: system
+      integer(c_int64_t), intent(inout), optional :: particles(*)
+      real(c_double), intent(inout), optional :: points(*), stiffness(*), damping(*), rest_length(*)
     end function
     integer(c_int64_t) function c_system_derived_count(system) bind(c, name="hooke_system_derived_count")
       import

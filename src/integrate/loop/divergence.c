@@ -37,20 +37,15 @@ int32_t hk_all_finite(int64_t count, const double *value) {
 }
 
 /* What a scene at rest may come to have. */
-static double least_energy(const hooke_integrator *it, const hooke_state *state) {
+static double least_energy(hooke_integrator *it, const hooke_state *state) {
   const hooke_system *system = it->system;
   const double *g = system->gravity;
-  double mass = 0.0, stiffness = 0.0, extent = 0.0;
+  if (!it->knows_stiffness) it->stiffness = hk_forces_stiffness(system);
+  it->knows_stiffness = 1;
+  const double stiffness = it->stiffness;
+  double mass = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->held[p] ? 0.0 : system->mass[p];
-  struct hk_elements at;
-  hk_begin_elements(system, state->q, NULL, &at);
-  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    double weight = 0.0;
-    for (int j = 0; j < e->count; j++)
-      weight += 0.5 * fabs(e->weight[j]);
-    stiffness += weight * weight * e->k_along;
-  }
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {

@@ -135,7 +135,7 @@ static int64_t locate_pairs(const struct hk_factor *x, const struct hk_element *
 static int64_t locate_others(const struct hk_factor *x, struct place *place) {
   int64_t count = 0;
   struct hk_elements at;
-  hk_begin_elements(x->system, x->system->position, NULL, &at);
+  hk_begin_elements(x->system, NULL, NULL, &at);
   at.wanted = hk_force_is_other;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     count += locate_pairs(x, e, place ? place + count : NULL);

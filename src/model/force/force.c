@@ -8,8 +8,8 @@
 
 /* The order of the rows is the order of the sum at a particle. Gravity is last: a = w f + g. */
 static const struct hk_force_row *const table[] = {
-    &hk_force_springs, &hk_force_bending,  &hk_force_altitude, &hk_force_linear,
-    &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
+    &hk_force_springs, &hk_force_bending, &hk_force_altitude, &hk_force_anchor,
+    &hk_force_linear,  &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
 };
 
 _Static_assert(sizeof table / sizeof table[0] <= HOOKE_FORCES, "a system has numbers for so many forces");
@@ -34,6 +34,29 @@ int32_t hk_elements_are_damped(const hooke_system *system) {
 
 int32_t hk_system_is_damped(const hooke_system *system) {
   return system->drag > 0.0 || hk_elements_are_damped(system);
+}
+
+static double stiffness_of(const hooke_system *system, const struct hk_force_row *force) {
+  struct hk_elements at;
+  double sum = 0.0;
+  hk_begin_elements(system, system->position, NULL, &at);
+  at.only = force;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    double weight = 0.0;
+    for (int j = 0; j < e->count; j++)
+      weight += 0.5 * fabs(e->weight[j]);
+    sum += weight * weight * e->k_along;
+  }
+  return sum;
+}
+
+double hk_forces_stiffness(const hooke_system *system) {
+  double sum = 0.0;
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *force = system->force_row[k];
+    if (force->elements) sum += force->stiffness ? force->stiffness(system) : stiffness_of(system, force);
+  }
+  return sum;
 }
 
 void hk_forces_release(hooke_system *system) {

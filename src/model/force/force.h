@@ -54,17 +54,23 @@ struct hk_force_row {
   /* of a force whose K and C are the same everywhere: out += (a K + b C) x, x, y and z apart */
   void (*multiply)(const hooke_system *system, double a, double b, const double *const x[3],
                    double *const out[3]);
+  /* sum of k_along (sum of |g|)^2/4 over elements, where that is quicker than going over them */
+  double (*stiffness)(const hooke_system *system);
   /* 1 if something of it is damped; NULL of drag, which is a number that many look at */
   int32_t (*damped)(const hooke_system *system);
 };
 
-extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_linear,
-    hk_force_drag, hk_force_callback, hk_force_gravity;
+extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_anchor,
+    hk_force_linear, hk_force_drag, hk_force_callback, hk_force_gravity;
 
 /* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out`
  * (NULL: none) says. HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out);
+
+/* Sum of k_along (sum of |g|)^2/4 over the elements of all forces, at the places that the scene begins with: what
+ * the energy of a displacement of all coordinates by d is, over 2 d^2, at most [N/m]. */
+double hk_forces_stiffness(const hooke_system *system);
 
 /* Releases what commit took over of groups. */
 void hk_forces_release(hooke_system *system);

@@ -57,6 +57,11 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
+static double stiffness(const hooke_system *system) {
+  (void)system;
+  return 0.0;
+}
+
 static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
                      double *const out[3]) {
   (void)a;
@@ -73,4 +78,5 @@ const struct hk_force_row hk_force_drag = {.name = "drag",
                                            .heat = heat,
                                            .count = count,
                                            .elements = elements,
+                                           .stiffness = stiffness,
                                            .multiply = multiply};
