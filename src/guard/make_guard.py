@@ -27,7 +27,8 @@ MAY_BE_NULL = {
     ("options_set_number", "options"), ("options_set_numbers", "options"), ("options_set_text", "options"),
     ("options_unset", "options"), ("options_is_set", "options"), ("options_number_count", "options"),
     ("options_numbers", "options"), ("options_number", "options"), ("options_text", "options"),
-    ("system_add_altitude", "options"), ("system_add_part", "options"), ("mesh_set", "options"),
+    ("system_add_altitude", "options"), ("system_add_anchors", "options"),
+    ("system_add_part", "options"), ("mesh_set", "options"),
     ("integrator_create", "options"), ("integrator_create_first_order", "options"), ("comparison_create", "options"),
     ("system_add_springs", "options"), ("needs_create", "run"), ("needs_create", "options"), ("study_create", "run"),
     ("study_pick", "run"), ("estimate_pick", "run"), ("estimate_refine", "run"),
@@ -37,6 +38,7 @@ MAY_BE_NULL = {
 # Texts that may be NULL: (function, parameter).
 MAY_BE_NO_TEXT = {
     ("system_add_springs", "name"), ("system_add_bending", "name"), ("system_add_altitude", "name"),
+    ("system_add_anchors", "name"),
     ("system_add_part", "name"), ("estimate_pick", "method"),
     ("scene_parse", "name"), ("scene_parse", "folder"),
     ("scene_parse_within", "name"), ("scene_parse_within", "folder"),

@@ -65,7 +65,6 @@ static void compare_forces(uint64_t seed, int32_t features) {
                                                     .springs = 90,
                                                     .triples = 12,
                                                     .tetrahedra = 12,
-                                                    .anchors = 6,
                                                     .features = features},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
