@@ -35,7 +35,8 @@ def answer(result, name, whats):
     if result == "const char *":
         return "character(:), allocatable", "to_text({})"
     if result == "double":
-        return "real(c_double)", "to_number({}, what)" if "what" in whats else "{}"
+        named = [what for what in whats if what in ("what", "column")]
+        return "real(c_double)", f"to_number({{}}, {named[0]})" if named else "{}"
     if result == "int64_t":
         return ("integer", "to_integer({})") if name.endswith(("_count", "_size")) else ("integer(c_int64_t)", "{}")
     return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
