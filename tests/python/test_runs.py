@@ -209,6 +209,19 @@ def test_what_a_first_order_problem_cannot_do(tmp_path):
             hooke.FirstOrder(lambda t, x, rate: None, bad)
 
 
+def test_an_error_of_before_the_excess_of_heat(tmp_path):
+    """Files of then have six numbers."""
+    path = tmp_path / "out.h5"
+    hooke.run(build_oscillator(), method="verlet", step=1e-3, duration=1.0, output=path, estimate=True)
+    kept = hooke.open(path).error
+    with h5py.File(path, "r+") as file:
+        numbers = file["hooke/error"][:6]
+        del file["hooke/error"]
+        file["hooke/error"] = numbers
+    found = hooke.open(path).error
+    assert repr(found._replace(heat_excess=kept.heat_excess)) == repr(kept) and np.isnan(found.heat_excess)
+
+
 @pytest.mark.parametrize("want", [1e-4, "0.1mm"])
 def test_a_wanted_error_is_kept(want):
     """The end of the oscillator is known."""

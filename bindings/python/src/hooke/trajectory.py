@@ -116,7 +116,9 @@ class Trajectory(Closing):
         by, note = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_note"))
         if not by and not note:
             return None
-        estimate, known_from, known_until, rise, wanted, met, excess = map(float, self._numbers("error"))
+        numbers = [float(number) for number in self._numbers("error")]
+        # files of before the excess of heat was told have a number less
+        estimate, known_from, known_until, rise, wanted, met, excess = [*numbers, math.nan][:7]
         reached = None if math.isnan(met) else met == 1.0
         return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, excess, note)
 
