@@ -1,11 +1,11 @@
-! What hooke measures of a scene: studies, limits, needs, costs, comparisons, and why a run ended early.
+! Measurements of a scene: one type with options, progress, a run, and tables of results. Studies are of it.
 module hooke_measurements
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
   use hooke_base, only: accept, to_c, to_c_if, to_integer, to_series, to_text, zero_based
   use hooke_c_measurement
-  use hooke_handles, only: hooke_handle
   use hooke_observers, only: call_progress, hooke_progress, progress_holder
   use hooke_option_tables, only: hooke_options, options_or_null
+  use hooke_queries_of_measurement, only: hooke_measurement_queries
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
   implicit none
@@ -14,19 +14,13 @@ module hooke_measurements
 
   integer, parameter :: of_progress = 1
 
-  type, extends(hooke_handle) :: hooke_measurement
+  type, extends(hooke_measurement_queries) :: hooke_measurement
   contains
     procedure :: create
-    procedure :: kind => kind_of
     procedure :: on_progress
     procedure :: run
-    procedure :: row_count
     procedure :: find
-    procedure :: number
-    procedure :: text
     procedure :: series
-    procedure :: label
-    procedure :: write
     procedure :: recommend
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -34,7 +28,7 @@ module hooke_measurements
 
 contains
 
-  ! `kind` is "study", "limit", "needs", "cost" or "comparison"; `run` are options of a run, `options` those of the kind.
+  ! `kind` is "study"; `run` are options of a run, `options` those of the kind.
   subroutine create(self, kind, system, run, options, status)
     class(hooke_measurement), intent(inout) :: self
     character(*), intent(in) :: kind
@@ -48,12 +42,6 @@ contains
     if (code == 0) call self%take(made, c_measurement_destroy, system)
     call accept(code, status)
   end subroutine
-
-  function kind_of(self) result(text)
-    class(hooke_measurement), intent(in) :: self
-    character(:), allocatable :: text
-    text = to_text(c_measurement_kind(self%address()))
-  end function
 
   ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
   subroutine on_progress(self, progress)
@@ -70,7 +58,7 @@ contains
     call self%keep(holder, of_progress)
   end subroutine
 
-  ! Measures; `state` is what a limit or a cost looks at, the initial state without it.
+  ! Measures. A study begins at the initial state and takes no `state`.
   subroutine run(self, state, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_state), intent(inout), optional :: state
@@ -87,33 +75,11 @@ contains
 
   ! ---- tables; rows are counted from 1, a record has one ----
 
-  integer function row_count(self, table)
-    class(hooke_measurement), intent(in) :: self
-    character(*), intent(in) :: table
-    row_count = to_integer(c_measurement_row_count(self%address(), to_c(table)))
-  end function
-
   ! The first row whose `column` is `text`; 0 if there is none.
   integer function find(self, table, column, text)
     class(hooke_measurement), intent(in) :: self
     character(*), intent(in) :: table, column, text
     find = to_integer(c_measurement_find(self%address(), to_c(table), to_c(column), to_c(text))) + 1
-  end function
-
-  ! NaN where it does not apply or is not known.
-  real(c_double) function number(self, table, row, column)
-    class(hooke_measurement), intent(in) :: self
-    character(*), intent(in) :: table, column
-    integer, intent(in) :: row
-    number = c_measurement_number(self%address(), to_c(table), zero_based(row), to_c(column))
-  end function
-
-  function text(self, table, row, column)
-    class(hooke_measurement), intent(in) :: self
-    character(*), intent(in) :: table, column
-    integer, intent(in) :: row
-    character(:), allocatable :: text
-    text = to_text(c_measurement_text(self%address(), to_c(table), zero_based(row), to_c(column)))
   end function
 
   ! Of the library; valid until it is run again.
@@ -125,29 +91,6 @@ contains
     series => to_series(c_measurement_series(self%address(), to_c(table), zero_based(row), to_c(column)), &
       c_measurement_series_count(self%address(), to_c(table), zero_based(row), to_c(column)))
   end function
-
-  ! ---- files ----
-
-  ! "title", "command" or "scene": a text that files show. Without `text` it is taken back.
-  subroutine label(self, what, text, status)
-    class(hooke_measurement), intent(inout) :: self
-    character(*), intent(in) :: what
-    character(*), intent(in), optional :: text
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_text
-    if (self%is_missing(status)) return
-    call to_c_if(text, c_text)
-    call accept(c_measurement_label(self%address(), to_c(what), c_text), status)
-  end subroutine
-
-  ! By the ending of `path`: .csv, .json, .h5 or .html.
-  subroutine write(self, path, status)
-    class(hooke_measurement), intent(in) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_measurement_write(self%address(), to_c(path)), status)
-  end subroutine
 
   ! Of a study: finds the cheapest run whose error is at most `want` [m].
   subroutine recommend(self, want, status)
