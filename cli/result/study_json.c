@@ -82,8 +82,9 @@ static void print_source(struct cli_json *json, const hooke_measurement *study, 
   cli_json_close(json);
 }
 
-static void print_quantity(struct cli_json *json, const hooke_measurement *study, int64_t quantity) {
-  const int64_t count = cli_study_quantity_count(study);
+/* One of `count` quantities. */
+static void print_quantity(struct cli_json *json, const hooke_measurement *study, int64_t quantity,
+                           int64_t count) {
   cli_json_open(json, NULL, '{');
   cli_json_text(json, "quantity", hooke_measurement_text(study, "statistics", quantity, "quantity"));
   cli_json_text(json, "unit", hooke_measurement_text(study, "statistics", quantity, "unit"));
@@ -103,8 +104,9 @@ static void print_statistics(struct cli_json *json, const hooke_measurement *stu
   cli_json_open(json, "statistics", '{');
   cli_table_print_row(json, study, "ensemble", 0);
   cli_json_open(json, "quantities", '[');
-  for (int64_t k = 0; k < cli_study_quantity_count(study); k++)
-    print_quantity(json, study, k);
+  const int64_t count = cli_study_quantity_count(study);
+  for (int64_t k = 0; k < count; k++)
+    print_quantity(json, study, k, count);
   cli_json_close(json);
   cli_json_close(json);
 }

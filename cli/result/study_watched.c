@@ -132,13 +132,14 @@ static void print_source(const hooke_measurement *study, int32_t method_width, i
   print_bias(study, row);
 }
 
-static void print_quantity(const hooke_measurement *study, int32_t method_width, int64_t quantity) {
-  const int64_t rows = hooke_measurement_row_count(study, "statistics"),
-                quantities = cli_study_quantity_count(study);
+/* One of `count` quantities. */
+static void print_quantity(const hooke_measurement *study, int32_t method_width, int64_t quantity,
+                           int64_t count) {
+  const int64_t rows = hooke_measurement_row_count(study, "statistics");
   char head[HEAD_SIZE];
   cli_print_text(stdout, head_of(study, "statistics", quantity, head));
   printf("\n");
-  for (int64_t row = quantity; row < rows; row += quantities)
+  for (int64_t row = quantity; row < rows; row += count)
     print_source(study, method_width, row);
 }
 
@@ -167,8 +168,9 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
   print_words("statistics", text);
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
-  for (int64_t k = 0; k < cli_study_quantity_count(study); k++)
-    print_quantity(study, method_width, k);
+  const int64_t count = cli_study_quantity_count(study);
+  for (int64_t k = 0; k < count; k++)
+    print_quantity(study, method_width, k, count);
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
          "standard errors of it;\nbelow %.0f none is seen, and where there is none, one figure in twenty is "
          "above, more with few runs\n",

@@ -66,13 +66,3 @@ void hk_watched_series_compare(struct hk_watched_series *series, const struct hk
                       : largest_difference(frames, a, b));
   }
 }
-
-const double *hk_watched_series_find(const struct hk_watched_series *series, const char *text) {
-  const int64_t k = series->list ? hk_watched_find(series->list, text) : -1;
-  return k < 0 ? NULL : hk_watched_series_of(series, k);
-}
-
-double hk_watched_series_figure(const struct hk_watched_series *series, const char *text) {
-  const int64_t k = series->list ? hk_watched_find(series->list, text) : -1;
-  return k < 0 ? NAN : series->figure[k];
-}

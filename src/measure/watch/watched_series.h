@@ -31,8 +31,4 @@ void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, con
 void hk_watched_series_compare(struct hk_watched_series *series, const struct hk_watched_series *other,
                                int64_t frames, const double *time, double factor);
 
-/* Those of the quantity of that text; NULL and NaN where there is none. */
-const double *hk_watched_series_find(const struct hk_watched_series *series, const char *text);
-double hk_watched_series_figure(const struct hk_watched_series *series, const char *text);
-
 #endif

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import os
 from typing import Any
 
@@ -108,6 +109,7 @@ class Measurement:
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
 
 
+@functools.lru_cache
 def columns(kind: str, table: str) -> dict[str, str]:
     """The types of the columns of a table of a kind, by their names."""
     found: dict[str, str] = {}
