@@ -6,7 +6,7 @@
  *   build.h       generated parts: rope, cloth
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop
- *   measurement.h studies, limits, needs, costs, comparisons: options, a run, tables
+ *   measurement.h studies: the trade of error against cost, orders, recommendation
  *   measure.h     step bounds and comparisons
  *   limit.h       the largest stable step of each method, and what it hangs on
  *   cost.h        what each ingredient of a scene costs on this machine

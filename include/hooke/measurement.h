@@ -1,17 +1,17 @@
-/* hooke/measurement.h - what hooke measures of a scene: how accurate each method is for what it costs, how
- * large its step may be, what the scene needs, what each ingredient costs, and why a run ended early.
+/* hooke/measurement.h - measurements of a scene: one object with options, progress, a run, and tables of
+ * results.
  *
- *   hooke_measurement_create("limit", system, run, NULL, &limit);
- *   hooke_measurement_run(limit, NULL);
- *   hooke_measurement_number(limit, "rows", 0, "predicted");
- *   hooke_measurement_destroy(limit);
+ *   hooke_measurement_create("study", system, run, NULL, &study);
+ *   hooke_measurement_run(study, NULL);
+ *   hooke_measurement_number(study, "rows", 0, "error");
+ *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its
- * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
- * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
- * numbers of the whole. The record that is named like the kind has what concerns the measurement itself. Kinds,
- * tables and columns are listed by hooke_measurement_table() and hooke_measurement_column(), and in the
- * reference.
+ * A measurement is of one kind, which is "study" in this version; limits, costs, needs, comparisons,
+ * explanations and verifications have headers of their own. Its options are made by hooke_options_create() with
+ * the name of the kind. Its results are tables, with columns that have a name, a unit and a line of
+ * documentation. A table is "rows", or a "record" of one row with the numbers of the whole. The record that is
+ * named like the kind has what concerns the measurement itself. hooke_measurement_table() lists kinds and
+ * tables, hooke_measurement_column() the columns.
  *
  * A measurement belongs to one thread at a time. */
 #ifndef HOOKE_MEASUREMENT_H
@@ -26,9 +26,8 @@ extern "C" {
 typedef struct hooke_measurement hooke_measurement;
 
 /* A measurement of a committed system, which must outlive it. `run` (options of a run) and `options` (of this
- * kind; NULL: defaults) are copied. `run` may be NULL where the kind takes no duration from it: "limit" and
- * "cost". A "why" is made by hooke_why_create(), a "verify" by hooke_verify_create(). HOOKE_BAD_VALUE,
- * HOOKE_BAD_CALL, HOOKE_NOT_BUILT without a library that the kind needs, HOOKE_NO_MEMORY. */
+ * kind; NULL: defaults) are copied; a study needs `run`. HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NOT_BUILT
+ * without a library that the kind needs, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_create(const char *kind, const hooke_system *system,
                                            const hooke_options *run, const hooke_options *options,
                                            hooke_measurement **measurement);
@@ -41,10 +40,9 @@ HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measuremen
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
-/* Measures. "limit" and "cost" look at `state` (NULL: the initial state), the others begin at the initial state
- * and want NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps what
- * was found so far; so do other outcomes of a run. HOOKE_BAD_VALUE for a state of another system;
- * HOOKE_BAD_CALL for a second call, but for "limit" and "cost"; HOOKE_NO_MEMORY, and what the kind adds. */
+/* Measures. A study begins at the initial state, so its `state` is NULL. HOOKE_STOPPED, if the progress callback
+ * or a callback of the system asked to stop, keeps what was found so far. HOOKE_BAD_VALUE for a state, and for a
+ * run without a duration; HOOKE_BAD_CALL for a second call; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
 
 /* ---- tables ---- */
@@ -84,9 +82,9 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
 /* Writes what was found so far, by the ending of `path`: .csv (the table "rows"), .json and .h5 (all tables),
- * .html (a page to read offline, of "study", "limit" and "needs"). An older file is replaced when the new one
- * is complete. HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(),
- * HOOKE_NOT_BUILT, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+ * .html (a page to read offline). An older file is replaced when the new one is complete. HOOKE_BAD_VALUE for
+ * another ending, HOOKE_BAD_CALL before hooke_measurement_run(), HOOKE_NOT_BUILT, HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 
 /* ---- a study: how accurate each method is for what it costs, and which one to take ----
